@@ -1,7 +1,7 @@
-//! The claims about the core on random input: deterministic, from the generators that fuzzing shares.
+//! Claims about the core on random input. The runs are deterministic and use the same generators as fuzzing.
 //!
-//! Each claim is a function of bytes; its planted faults stand beside it in `cannonpile_testkit`. A failure prints the
-//! shortest bytes that proptest could find, and the claim's own witness.
+//! Each claim is a function of bytes in `cannonpile_testkit`, next to the tests that inject faults. A failure prints the
+//! shortest bytes that proptest finds, and the witness of the claim.
 
 use cannonpile::Error;
 use cannonpile::lattice::{Dimension, Region, Sign, Site};
@@ -18,46 +18,46 @@ properties! {
     a_pile_has_its_sites_and_no_others: claims::sites::anywhere, 1024;
     spheres_are_numbered_without_gaps: claims::sites::numbered, 512;
     every_sphere_is_in_equilibrium: claims::equilibrium::one_sphere, 1024;
-    small_piles_are_in_equilibrium_throughout: claims::equilibrium::small_pile, 48;
-    the_floor_bears_what_the_paper_says: claims::equilibrium::on_floor, 1024;
+    small_piles_are_in_equilibrium: claims::equilibrium::small_pile, 48;
+    the_base_force_follows_the_paper: claims::equilibrium::on_floor, 1024;
     floats_are_a_few_roundings_off: claims::floats::any_pile, 512;
     floats_are_a_few_roundings_off_for_real_sin_phi: claims::floats::real_pile, 512;
     fixed_width_is_right_or_overflows: claims::fixed::any_pile, 512;
     fixed_width_results_can_be_negated: claims::fixed::results_can_be_negated, 4096;
     short_fractions_fit_128_bits: claims::fixed::small_pile, 256;
     rows_of_places_are_nearest_floats: claims::packing::one_row, 512;
-    packings_are_as_the_geometry_says: claims::packing::one_sphere, 256;
-    spacings_are_allowed_just_if_no_spheres_overlap: claims::overlap::of_a_spacing, 256;
+    packings_follow_the_geometry: claims::packing::one_sphere, 256;
+    spacings_are_allowed_exactly_without_overlap: claims::overlap::of_a_spacing, 256;
     distances_are_the_quadratic_form: claims::overlap::of_two_spheres, 256;
     parsers_survive_any_text: claims::parsers::any_text, 1024;
     numbers_are_read_as_written: claims::parsers::a_number, 1024;
-    what_is_printed_is_read_back: claims::parsers::a_value, 512;
+    printed_values_are_read_back: claims::parsers::a_value, 512;
     words_are_read_as_they_are_printed: claims::parsers::any_word, 2048;
     every_scalar_keeps_the_laws: claims::laws::one_scalar, 4096;
     ratios_are_in_lowest_terms: claims::laws::ratios_of_integers, 512;
     stackings_are_read_by_the_rules: claims::stackings::any_text, 2048;
     stackings_are_made_of_runs: claims::stackings::of_runs, 1024;
-    regions_are_tight_or_refused: claims::regions::any_bounds, 2048;
+    regions_are_tight_or_rejected: claims::regions::any_bounds, 2048;
     small_regions_have_their_sites: claims::regions::small, 512;
     regions_grow_and_shrink_as_their_sites: claims::growth::grown, 2048;
     spheres_of_any_pile_are_numbered_without_gaps: claims::numbered::any_pile, 1024;
-    forces_of_mixed_piles_are_one_whoever_is_asked: claims::engine::every_way, 512;
-    floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
-    slices_are_filled_with_the_forces_or_refused: claims::slices::filled, 256;
-    least_forces_and_sums_are_those_of_all_forces: claims::standing::of_all_forces, 512;
-    other_bases_bear_what_elimination_says: claims::bases::any_base, 256;
-    every_scalar_holds_the_forces_of_mixed_piles: claims::scalars::mixed, 256;
+    all_ways_to_compute_forces_agree: claims::engine::every_way, 512;
+    floats_are_close_to_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
+    slices_receive_the_forces_or_fail: claims::slices::filled, 256;
+    least_forces_and_sums_agree_with_all_forces: claims::standing::of_all_forces, 512;
+    other_bases_agree_with_elimination: claims::bases::any_base, 256;
+    every_scalar_contains_the_forces_of_mixed_piles: claims::scalars::mixed, 256;
 }
 
 #[cfg(feature = "serde")]
 properties! {
-    values_come_back_from_json: claims::json::any_value, 512;
-    damaged_json_is_refused_or_valid: claims::json::damaged, 1024;
+    values_survive_json: claims::json::any_value, 512;
+    damaged_json_is_rejected_or_valid: claims::json::damaged, 1024;
 }
 
-/// So many changes of sign that a number takes several words, with heavy and with weightless spheres.
+/// So many sign changes that a value takes several words, with and without weight.
 #[test]
-fn forces_of_tall_mixed_piles_are_one_whoever_is_asked() {
+fn all_ways_agree_on_tall_mixed_piles() {
     let steps = 15;
     let sign = |plus: bool| if plus { Sign::Plus } else { Sign::Minus };
     let low = Site { i: 0, j: 0, k: 5 };
@@ -82,9 +82,9 @@ fn forces_of_tall_mixed_piles_are_one_whoever_is_asked() {
     }
 }
 
-/// A claim about spacings would be idle if none were at a bound.
+/// The claim about spacings would be useless without spacings at a bound.
 #[test]
-fn spacings_meet_every_verdict() {
+fn spacings_cover_every_verdict() {
     let verdicts = census(|u| {
         let clearance = pile::pile(u)?.clearance();
         let spacing = pile::spacing(u, &clearance)?;
@@ -102,7 +102,7 @@ fn spacings_meet_every_verdict() {
 }
 
 #[test]
-fn piles_are_of_every_kind_and_asked_everywhere() {
+fn generated_piles_and_sites_cover_every_kind() {
     let kinds = census(|u| {
         let pile = pile::pile(u)?;
         let Site { i, j, k } = pile::site(u, &pile)?;
@@ -116,12 +116,12 @@ fn piles_are_of_every_kind_and_asked_everywhere() {
         let inside = i > 0 && j > 0 && i + j < k;
         Ok(format!("{kind} tall={tall} base={base} inside={inside}"))
     });
-    // No disc lies inside: all have j = 0.
+    // A disc has j = 0, so it is never inside.
     assert_eq!(kinds.len(), 2 * 8 + 4, "{kinds:?}");
 }
 
 #[test]
-fn numbers_are_accepted_and_refused() {
+fn generated_numbers_are_valid_and_invalid() {
     let kinds = census(|u| {
         let text = text::any(u)?;
         Ok(format!("number={}", parse::rational(&text).is_ok()))
@@ -131,7 +131,7 @@ fn numbers_are_accepted_and_refused() {
 }
 
 #[test]
-fn stackings_are_accepted_and_refused_in_every_notation() {
+fn generated_stackings_are_valid_and_invalid() {
     let kinds = census(|u| {
         let text = stacking::text(u)?;
         let notation = match text.chars().next() {
@@ -149,12 +149,12 @@ fn stackings_are_accepted_and_refused_in_every_notation() {
         };
         Ok(format!("{notation} {verdict}"))
     });
-    // Only numbers can be too tall, and no notation is no stacking.
+    // Only numbers can be too tall. A text without a notation is invalid.
     assert_eq!(kinds.len(), 4 * 3 + 1 + 1, "{kinds:?}");
 }
 
 #[test]
-fn bounds_are_made_and_refused() {
+fn generated_bounds_are_valid_and_invalid() {
     let kinds = census(|u| {
         let [x0, x1, y0, y1, s0, s1] = region::bounds(u)?;
         Ok(match Region::new(x0..=x1, y0..=y1, s0..=s1) {
@@ -171,10 +171,10 @@ fn bounds_are_made_and_refused() {
 }
 
 #[test]
-fn mixed_piles_are_of_every_kind() {
+fn generated_mixed_piles_cover_every_kind() {
     let kinds = census(|u| {
         let described = region::described(u)?;
-        let pile = described.pile().expect("what was described is a pile");
+        let pile = described.pile().expect("a valid pile");
         let method = pile.plan(Selection::Base).expect("a base").method;
         let changes = pile.shape().stacking().changes().min(2);
         let (from_base, loaded) = (described.from_base, !described.loads.is_empty());
@@ -182,7 +182,7 @@ fn mixed_piles_are_of_every_kind() {
             "{method} changes={changes} from_base={from_base} loaded={loaded}"
         ))
     });
-    // Straight piles are not swept, others are.
+    // Straight piles do not use a sweep, mixed ones do.
     assert_eq!(kinds.len(), 3 * 2 * 2, "{kinds:?}");
     assert!(kinds.values().all(|count| *count >= 4), "{kinds:?}");
 }

@@ -1,13 +1,11 @@
-//! Regions against plain sets of sites; and every region, every sequence of signs up to a size, for the rooms above.
+//! Regions compared with plain sets of sites, and enumerations of small regions and stackings for other tests.
 //!
-//! | file | what is checked |
+//! | file | contents |
 //! |---|---|
 //! | `bounds` | regions of all small bounds and of random ones |
 //! | `growth` | dilation, erosion, and the spheres above on each line |
-//! | `limits` | regions about the greatest coordinates |
-//! | `as_sets` | bounds, corners, rows and mirror images of the regions under a base |
+//! | `limits` | regions near the greatest coordinates |
 
-mod as_sets;
 mod bounds;
 mod growth;
 mod limits;
@@ -19,18 +17,18 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use cannonpile_testkit::oracles::sets::Sites;
 
-/// The region of x₀, x₁, y₀, y₁, s₀, s₁.
+/// The region with the bounds x₀, x₁, y₀, y₁, s₀, s₁.
 pub(crate) fn region([x0, x1, y0, y1, s0, s1]: [i128; 6]) -> Result<Region, Error> {
     Region::new(x0..=x1, y0..=y1, s0..=s1)
 }
 
-/// The sites of a region as it walks them.
+/// The sites of a region, in iteration order.
 pub(crate) fn sites_of(region: &Region) -> Sites {
     let sites = region.rows(0).flatten();
     sites.map(|site| (site.j, site.i)).collect()
 }
 
-/// All six bounds, each in −reach … reach.
+/// Calls `visit` for all six bounds, each from −reach to reach.
 pub(crate) fn each_bounds(reach: i128, mut visit: impl FnMut([i128; 6])) {
     let places = 2 * reach + 1;
     for mut n in 0..places.pow(6) {
@@ -42,7 +40,7 @@ pub(crate) fn each_bounds(reach: i128, mut visit: impl FnMut([i128; 6])) {
     }
 }
 
-/// Bounds in −reach … reach, lower and upper in order, the same in every run.
+/// Calls `visit` for random ordered bounds from −reach to reach. They are the same in every run.
 pub(crate) fn random_bounds(reach: i128, cases: u32, visit: impl Fn([i128; 6])) {
     let config = Config {
         cases,
@@ -62,7 +60,7 @@ pub(crate) fn random_bounds(reach: i128, cases: u32, visit: impl Fn([i128; 6])) 
     }
 }
 
-/// Every sequence of so many signs.
+/// All sequences of `steps` signs.
 pub(crate) fn each_signs(steps: usize) -> impl Iterator<Item = Vec<Sign>> {
     let sign = |bit| if bit { Sign::Minus } else { Sign::Plus };
     (0..1_u32 << steps).map(move |bits| (0..steps).map(|n| sign(bits >> n & 1 == 1)).collect())

@@ -1,11 +1,10 @@
-//! Fixed and exhaustive tests of the places of spheres: regions, stackings, shapes, positions.
+//! Fixed and exhaustive tests of regions, stackings, shapes and positions.
 
 #![cfg(feature = "std")]
 
 mod lattice;
 
 mod stacking {
-    mod definitions;
     mod long;
     mod notations;
 }

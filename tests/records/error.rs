@@ -1,4 +1,4 @@
-//! Every error can happen, and says in one line what was given and what would do.
+//! Every error can occur. Its message is one line with the given value and the remedy.
 
 use cannonpile::geometry::{Inclination, Spacing};
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Site};
@@ -57,7 +57,7 @@ fn sites_and_layers_outside() {
 }
 
 #[test]
-fn questions_to_the_wrong_sphere() {
+fn queries_of_the_wrong_sphere() {
     let pile = Pile::triangular(3).unwrap();
     let forces = pile.forces::<BigRational>();
     let below = |site| forces.contact(site, Direction::Alpha).unwrap_err();
@@ -125,7 +125,7 @@ fn overlap() {
         &error,
         &["99/100", "in one layer", "at least 1 ", "1.632993…"],
     );
-    // Without an upper bound before the contacts are horizontal, only the lower one is named.
+    // No upper bound exists before the contacts become horizontal, so the message has only the lower one.
     let low = Pile::triangular(3).unwrap();
     let error = Packing::new(&low, &spacing(1, 2)).unwrap_err();
     says(&error, &["1/2", "in one layer", "a/R must be at least 1"]);
@@ -144,7 +144,7 @@ fn too_flat() {
     says(&error, &["spacing 2", "below 2"]);
 }
 
-/// The remedy names a sin φ and a number of layers; either of them alone helps.
+/// The remedy names a sin φ and a number of layers. Either of them helps on its own.
 #[test]
 fn no_spacing() {
     for (layers, sin_phi) in [
@@ -191,7 +191,7 @@ fn overflow() {
     );
 }
 
-/// What is wrong with a number by itself is said as the crate of numbers says it.
+/// An error about a single number has the message of the number crate.
 #[test]
 fn numbers() {
     let given = ratio(-7, 3);
@@ -231,7 +231,7 @@ fn syntax() {
     assert!(error.to_string().len() < 200);
 }
 
-/// Made by tables and by a census.
+/// Errors of tables and of a census.
 #[test]
 fn too_many_rows() {
     let error = Error::too_many_rows(

@@ -1,8 +1,8 @@
-//! Tests of errors, of data that is written and read, and of the source code as a whole.
+//! Tests of errors, of serialised data, and of the source code as a whole.
 
 #![cfg(feature = "std")]
 
 mod error;
-mod house;
 #[cfg(feature = "serde")]
 mod serde;
+mod sources;

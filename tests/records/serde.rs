@@ -1,5 +1,5 @@
-//! Data through serde: written and read back the same, as JSON and in a format that is not self-describing; what is
-//! wrong is refused on the way in.
+//! Data survives a round trip through serde, as JSON and in a format that does not describe itself. Invalid data is rejected
+//! when it is read.
 
 mod piles;
 
@@ -80,7 +80,7 @@ fn lattices() {
         );
     }
     back(&Region::new(-MAX_LAYERS..=MAX_LAYERS, 0..=5, -MAX_LAYERS..=7).unwrap());
-    // The checked constructor is the only way in.
+    // Reading uses the checked constructor.
     assert!(refusal::<Region>("\"region:5..9,5..9,0..2\"").contains("no site"));
     assert!(refusal::<Region>("\"hexagon:0\"").contains("at least 1"));
     assert!(refusal::<Region>(&format!("\"triangle:{}\"", MAX_LAYERS + 1)).contains("10^36"));
@@ -118,7 +118,7 @@ fn stackings() {
     assert!(refusal::<Pattern>("\"bcc\"").contains("'bcc'"));
 }
 
-/// A number through the module for fields.
+/// A number that uses the module for fields.
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(bound = "T: cannonpile::data::Number")]
 struct Field<T> {
@@ -307,7 +307,7 @@ fn answers() {
         .unwrap()
         .count();
     assert!(counters.rows() > 0);
-    // Counters are written, and never read back.
+    // Counters are written but never read.
     let rows = counters.rows();
     let written = serde_json::to_value(&counters).unwrap();
     assert_eq!(written["rows"], rows);

@@ -1,4 +1,4 @@
-//! Double-doubles err by less than 2^−100 of the result: against rationals, on operands of every size.
+//! The errors of double-doubles are below 2^−100 of the result, compared with rationals for operands of every size.
 
 use core::cmp::Ordering;
 
@@ -7,10 +7,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
 
-/// Pairs of operands for each operation.
+/// The number of operand pairs for each operation.
 const PAIRS: u32 = 25_000;
 
-/// Bits that are the same in every run (xorshift).
+/// Random bits that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {
@@ -25,7 +25,7 @@ impl Random {
         choices[usize::try_from(self.bits() >> 40).expect("24 bits") % choices.len()]
     }
 
-    /// ±2^exponent · (1 + m), a power of two or next to one now and then.
+    /// ±2^exponent · (1 + m). Sometimes it is a power of two or next to one.
     fn about(&mut self, exponent: i16) -> f64 {
         let biased = u64::try_from(1023 + exponent).expect("a float's");
         let power = f64::from_bits(biased << 52);
@@ -33,7 +33,7 @@ impl Random {
         self.of(&[power, power.next_up(), power.next_down(), any, any, any]) * self.of(&[1.0, -1.0])
     }
 
-    /// A high part: moderate, at a limit of the algorithms, or any.
+    /// A high part: moderate, at a limit of the algorithms, or arbitrary.
     fn high(&mut self) -> f64 {
         let limit = self.of(&[
             -1023, -960, -900, -801, -800, -450, 511, 895, 959, 960, 1022,
@@ -44,7 +44,7 @@ impl Random {
         self.about(exponent)
     }
 
-    /// A number of two parts, the lower one just a half unit, much smaller, or missing now and then.
+    /// A value with two parts. The lower one is sometimes exactly half a unit, much smaller, or zero.
     fn number(&mut self) -> DoubleDouble {
         let high = self.high();
         let half_unit = high * f64::EPSILON / 2.0;
@@ -53,7 +53,7 @@ impl Random {
         DoubleDouble::new(high) + DoubleDouble::new(low)
     }
 
-    /// Two numbers: independent, nearly opposite, or nearly reciprocal.
+    /// Two values: independent, nearly opposite, or nearly reciprocal.
     fn pair(&mut self) -> (DoubleDouble, DoubleDouble) {
         let (a, b) = (self.number(), self.number());
         let near = DoubleDouble::new(a.low() * self.about(-20)) + -a;
@@ -64,7 +64,7 @@ impl Random {
     }
 }
 
-/// What a number stands for; high + low as a rational.
+/// The exact value: high + low as a rational.
 fn exactly(a: &DoubleDouble) -> BigRational {
     let part = |x: f64| BigRational::from_float(x).expect("finite");
     part(a.high()) + part(a.low())
@@ -80,7 +80,7 @@ fn is_normal(a: &DoubleDouble) -> bool {
     !a.is_defined() || a.low().abs() * 2.0 <= unit
 }
 
-/// Errors of an operation: relative within the range of the promise, absolute below, none above.
+/// Errors of an operation. The bound is relative within the documented range and absolute below it.
 struct Errors {
     /// The greatest relative error.
     worst: f64,
@@ -123,7 +123,7 @@ impl Errors {
         let relative = (&error / magnitude.clone().max(least.clone()))
             .to_f64()
             .expect("a float");
-        // Near the end of the range a number may be left with the digits of one float.
+        // Near the end of the range a result may keep only the digits of one float.
         let limit = if magnitude < *most { -100 } else { -53 };
         assert!(
             relative <= 2.0_f64.powi(limit),
@@ -162,7 +162,7 @@ fn measure(
     errors
 }
 
-// The bounds are those of Joldes, Muller and Popescu, in u²; the lower ones show that the operands strain.
+// The upper bounds, in u², are those of Joldes, Muller and Popescu. The lower bounds show that the operands are difficult.
 
 #[test]
 fn sums() {
@@ -184,7 +184,7 @@ fn quotients() {
     measure(4, |a, b| a.checked_div(b), |x, y| x / y).assert_worst(4.0, 15.0);
 }
 
-/// The nearest two parts: within 2^−106, in fact half of that.
+/// The result consists of the nearest two floats. Its error is below 2^−106, in fact below half of that.
 #[test]
 fn rationals_are_rounded_once() {
     let mut random = Random(5);
@@ -236,7 +236,7 @@ fn integers_of_106_bits_are_exact() {
     }
 }
 
-/// Division by a machine integer is division by its image, whose 63 bits are exact.
+/// Division by a machine integer equals division by its image. All 63 bits of the image are exact.
 #[test]
 fn quotients_by_integers() {
     let mut random = Random(7);
@@ -251,7 +251,7 @@ fn quotients_by_integers() {
     errors.assert_worst(2.0, 15.0);
 }
 
-/// What is no number is what `f64` makes of the high parts, without a low one.
+/// An undefined result is the `f64` result of the high parts, with a zero low part.
 #[test]
 fn infinities_and_not_a_number() {
     let numbers = [
@@ -294,9 +294,9 @@ fn infinities_and_not_a_number() {
     assert_eq!((tiny - DoubleDouble::one()).sign(), RealSign::Negative);
 }
 
-/// Beside the least subnormal and the greatest float: what two parts hold comes out without an error.
+/// Close to the least subnormal and the greatest float. A product that two floats can represent is exact.
 #[test]
-fn products_across_the_whole_range_are_exact_where_they_can_be() {
+fn representable_products_are_exact() {
     let power = |e: i32| BigRational::from_integer(2.into()).pow(e);
     let value = |x: &DoubleDouble| x.enclosure().unwrap().lower;
     // (1 + 2^−60)·2^e
@@ -331,9 +331,9 @@ fn products_across_the_whole_range_are_exact_where_they_can_be() {
     }
 }
 
-/// Of factors of 53 bits the product has 106, in which every bit of the halves that they are split into counts.
+/// Factors of 53 bits have a product of 106 bits, which depends on every bit of their halves.
 #[test]
-fn products_of_whole_numbers_are_exact() {
+fn products_of_integers_are_exact() {
     let value = |x: &DoubleDouble| x.enclosure().unwrap().lower;
     let most = (1_i128 << 53) - 1;
     for (n, m) in [
@@ -350,9 +350,9 @@ fn products_of_whole_numbers_are_exact() {
     }
 }
 
-/// One of ordinary size is multiplied as it is, however small its low part is.
+/// A factor of ordinary size enters the product unscaled, even if its low part is tiny.
 #[test]
-fn a_small_low_part_is_not_lost() {
+fn a_tiny_low_part_is_kept() {
     let power = |e: i32| DoubleDouble::new(2.0_f64.powi(e));
     for x in [power(300) + power(-800), power(-300) - power(-900)] {
         assert_eq!(DoubleDouble::one() * x, x);

@@ -1,4 +1,4 @@
-//! Fixed-width rationals say what big ones say, or that it does not fit; nothing else.
+//! Fixed-width rationals agree with big ones or report an overflow.
 
 use core::num::NonZeroI64;
 
@@ -11,10 +11,10 @@ use cannonpile_testkit::answers::{Shape, ratio};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-/// An answer as a list of numbers.
+/// An answer as a list of values.
 type Answer<T> = Result<Vec<T>, Error>;
 
-/// All that can be asked about a sphere.
+/// All answers about a sphere.
 fn answers<T: Algebra>(forces: &Forces<T>, site: Site) -> Vec<Answer<T>> {
     let mut answers = vec![
         forces.increment_sum().map(|w| vec![w]),
@@ -35,7 +35,7 @@ fn answers<T: Algebra>(forces: &Forces<T>, site: Site) -> Vec<Answer<T>> {
     answers
 }
 
-/// How many answers fitted, and how many did not.
+/// The numbers of answers that fit and that overflow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Tally {
     held: u32,
@@ -54,7 +54,7 @@ impl Tally {
                 assert!(exact.is_ok(), "{site}: overflow instead of {exact:?}");
                 self.overflowed += 1;
             } else {
-                // The same numbers, or the same objection to the question.
+                // The values agree, or both reject the query with the same error.
                 assert_eq!(&fixed, exact, "{site} in {}", I::RATIONAL_NAME);
                 self.held += u32::from(exact.is_ok());
             }
@@ -66,7 +66,7 @@ fn big<I: FixedInteger>(fixed: &FixedRational<I>) -> BigRational {
     fixed.to_rational().expect("an answer is a number")
 }
 
-/// Compares all widths, from 8 to 128 bits, at one sphere.
+/// Compares all widths, from 8 to 128 bits, for one sphere.
 fn compare(pile: &Pile, site: Site, tallies: &mut [Tally; 5]) {
     let exact = answers(&pile.forces(), site);
     let [bits8, bits16, bits32, bits64, bits128] = tallies;
@@ -84,7 +84,7 @@ fn assert_both(tallies: [Tally; 5]) {
     }
 }
 
-/// sin φ with a denominator so long that each width overflows within the first layers.
+/// Values of sin φ with long denominators, so that each width overflows within the first layers.
 fn long_sines() -> Vec<BigRational> {
     let denominators = [5, 13, 181, 46_337, 3_037_000_493];
     let mut sines: Vec<_> = denominators.map(|d| ratio(2, d)).into();
@@ -126,16 +126,16 @@ fn every_sphere_of_regular_piles() {
         }
     }
     let [_, wider @ ..] = tallies;
-    // An answer that always overflows would be no answer.
+    // A type that always overflows would be useless.
     assert!(
         wider.iter().all(|tally| tally.overflowed == 0),
         "{tallies:?}"
     );
 }
 
-/// Every base sphere of the disc piles up to the height at which 8 bits hold no count any more.
+/// Every base sphere of the disc piles, up to the height at which the counts overflow 8 bits.
 #[test]
-fn eight_bits_up_to_their_limit() {
+fn eight_bits_near_their_limit() {
     let mut tally = Tally::default();
     for layers in 1..=130 {
         let pile = Shape::Discs.pile(layers);
@@ -151,7 +151,7 @@ fn eight_bits_up_to_their_limit() {
     assert!(tally.held > 0 && tally.overflowed > 0, "{tally:?}");
 }
 
-/// Around the height at which the counts themselves outgrow a width: corners, edges and the middle.
+/// Heights at which the counts overflow a width: corners, edges and the middle.
 #[test]
 fn spheres_of_tall_piles() {
     let mut tallies = [Tally::default(); 5];
@@ -182,11 +182,11 @@ fn spheres_of_tall_piles() {
             .all(|tally| tally.held > 0 && tally.overflowed > 0),
         "{tallies:?}"
     );
-    // 128 bits are made to be enough for the paper's pile.
+    // 128 bits suffice for the paper's pile.
     assert!(bits128.held > 0, "{tallies:?}");
 }
 
-/// The least integer of a width is outside of it.
+/// The least integer of a width is not part of it.
 #[test]
 fn least_integers_are_faults() {
     fn faults<I: FixedInteger>() {
@@ -206,10 +206,10 @@ fn least_integers_are_faults() {
             !FixedRational::<I>::from_i128(i128::MIN).is_defined(),
             "{name}"
         );
-        // Its neighbour is inside, and so is what is greatest.
+        // Its neighbour and the greatest value are part of it.
         let greatest = FixedRational::new(I::max_value(), one);
         assert!((-greatest).is_defined() && greatest.is_defined(), "{name}");
-        // A fault stays one, whatever is done to it.
+        // A fault remains a fault under every operation.
         let zero = FixedRational::new(I::zero(), one);
         assert!(
             !(image * zero).is_defined() && !(-image).is_defined(),
@@ -239,9 +239,9 @@ fn division_by_the_least_integer() {
     assert_eq!(wide.parts(), Some((-1, 1 << 63)));
 }
 
-/// Sites and layers at the ends of `i128` are refused as such, by every width alike.
+/// Every width rejects sites and layers at the ends of `i128` with the same error.
 #[test]
-fn questions_at_the_ends_of_the_integers() {
+fn queries_at_the_ends_of_the_integers() {
     let mut tallies = [Tally::default(); 5];
     for shape in [Shape::equilateral(), Shape::Discs] {
         for layers in [1, 5, MAX_LAYERS] {
@@ -259,7 +259,7 @@ fn questions_at_the_ends_of_the_integers() {
             }
         }
     }
-    // What does not depend on the site is still answered.
+    // Quantities that are independent of the site are still available.
     assert!(
         tallies.iter().all(|tally| tally.overflowed == 0),
         "{tallies:?}"
@@ -283,7 +283,7 @@ fn written_as_fractions_in_lowest_terms() {
 }
 
 #[test]
-fn numerators_are_divided_as_numbers_are() {
+fn numerators_divide_like_values() {
     let three = 3.try_into().expect("not zero");
     let third = |n| FixedRational::<i64>::divide_numerator(FixedRational::new(n, 1), three);
     assert_eq!(third(6), Some(FixedRational::new(2, 1)));

@@ -1,4 +1,4 @@
-//! For every law of scalars a scalar that breaks it, and is caught.
+//! For every law of scalars, a scalar that breaks it. The suite must detect it.
 
 mod flawed;
 
@@ -13,7 +13,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Signed, Zero};
 
-/// The laws that the suite says are broken of a scalar that computes so, and claims to be this exact.
+/// The laws that the suite reports as broken, for a scalar with these operations and this claim of exactness.
 fn broken<C: Claim>(operations: Operations) -> BTreeSet<&'static str> {
     from_now_on(operations);
     let numbers = [
@@ -44,8 +44,8 @@ fn broken<C: Claim>(operations: Operations) -> BTreeSet<&'static str> {
         .collect()
 }
 
-/// Tests that each fault breaks the law named.
-macro_rules! caught {
+/// Declares tests that each fault breaks the named law.
+macro_rules! breaks_laws {
     (of $claim:ident: $($name:ident breaks $law:literal: { $($fault:tt)* })*) => {$(
         #[test]
         fn $name() {
@@ -56,11 +56,11 @@ macro_rules! caught {
 }
 
 #[test]
-fn right_arithmetic_is_left_alone() {
+fn correct_arithmetic_breaks_no_law() {
     assert!(broken::<Exact>(Operations::RIGHT).is_empty());
 }
 
-caught! {
+breaks_laws! {
     of Exact:
     order_of_sum breaks "a + b = b + a": {
         add: |a, b| if a > b { a + b + Q::one() } else { a + b },
@@ -158,7 +158,7 @@ caught! {
     }
 }
 
-caught! {
+breaks_laws! {
     of Double:
     single_that_claims_to_be_double breaks "a b": {
         mul: |a, b| single(&(a * b)),
@@ -171,7 +171,7 @@ caught! {
     }
 }
 
-caught! {
+breaks_laws! {
     of ExactOrFault:
     saturation_in_place_of_a_fault breaks "(a + b) + c = a + (b + c)": {
         add: |a, b| (a + b).min(ratio(i64::MAX, 1)),
@@ -182,7 +182,7 @@ caught! {
     }
 }
 
-caught! {
+breaks_laws! {
     of Enclosed:
     bounds_beside_the_sum breaks "a + b": {
         add: |a, b| a + b + ratio(1, 100),
@@ -197,7 +197,7 @@ caught! {
 }
 
 #[test]
-fn what_is_broken_is_said() {
+fn the_error_names_the_law_and_the_operands() {
     from_now_on(Operations {
         integer: |n| wrapped(&Q::from_integer(n.into())),
         ..Operations::RIGHT
@@ -207,7 +207,7 @@ fn what_is_broken_is_said() {
     assert!(broken.to_string().starts_with(says), "{broken}");
 }
 
-/// No value of its own, but a number that stands for none.
+/// A special value that represents an undefined one.
 fn fault() -> Q {
     ratio(1, 1_000_003)
 }

@@ -1,4 +1,4 @@
-//! The laws do not ask more of a short format than it has: half precision passes them.
+//! The laws take the precision of a short format into account: half precision passes them.
 
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -12,7 +12,7 @@ use num_traits::{One, Pow, Zero};
 
 use cannonpile_testkit::answers::ratio;
 
-/// IEEE 754 binary16, each operation by way of `f32`. `LOST` of its digits are wrong.
+/// IEEE 754 binary16, with each operation in `f32`. `LOST` of its digits are wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Half<const LOST: i32>(f32);
 
@@ -124,7 +124,7 @@ impl<const LOST: i32> RealEmbeddable for Half<LOST> {
     }
 }
 
-/// The verdicts on operands from the least numbers of the format to beyond the greatest.
+/// The verdicts on operands from the least values of the format to beyond the greatest.
 fn verdicts<const LOST: i32>() -> impl Iterator<Item = Result<(), laws::BrokenLaw>> {
     let powers = [-70, -24, -15, -14, -13, -7, 0, 7, 13, 15, 16, 70];
     let powers = powers.map(|exponent: i32| Q::from_integer(2.into()).pow(exponent));
@@ -156,6 +156,6 @@ fn half_precision_passes() {
 }
 
 #[test]
-fn a_digit_too_few_is_seen() {
+fn a_lost_digit_is_caught() {
     assert!(verdicts::<1>().any(|verdict| verdict.is_err()));
 }

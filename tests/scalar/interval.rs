@@ -1,14 +1,15 @@
-//! An interval holds every true result, and hardly more: against rationals, on operands of every size.
+//! An interval contains every true result and is almost as narrow as possible, compared with rationals for operands of every
+//! size.
 
 use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, RealSign, Ring};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Zero};
 
-/// Pairs of points for each operation.
+/// The number of point pairs for each operation.
 const PAIRS: u32 = 50_000;
 
-/// Bits that are the same in every run (xorshift).
+/// Random bits that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {
@@ -23,7 +24,7 @@ impl Random {
         choices[usize::try_from(self.bits() >> 40).expect("24 bits") % choices.len()]
     }
 
-    /// A float of about 2^exponent, 0 for the subnormals included; often a power of two or next to one.
+    /// A float of about 2^exponent, where 0 includes the subnormals. Often it is a power of two or next to one.
     fn about(&mut self, exponent: i16) -> f64 {
         let biased = u64::try_from(1023 + exponent + self.of(&[0, 1, 2])).expect("a float's");
         let power = f64::from_bits(biased.min(2046) << 52);
@@ -31,8 +32,8 @@ impl Random {
         self.of(&[power, power.next_up(), power.next_down(), any, any]) * self.of(&[1.0, -1.0])
     }
 
-    /// Special and moderate floats, and those at a limit: of the floats, or of the factors (2^960) and
-    /// products (2^−900) whose rounding error is sure to be a float.
+    /// Special and moderate floats, and floats at a limit: of the format, or of the factors (2^960) and products (2^−900)
+    /// whose rounding error is representable.
     fn float(&mut self) -> f64 {
         let limit = self.of(&[-1023, -1020, -900, -450, 511, 958, 959, 1021, 1023]);
         let moderate = i16::try_from(self.bits() >> 58).expect("6 bits") - 32;
@@ -50,7 +51,7 @@ impl Random {
             .unwrap_or(special)
     }
 
-    /// Two floats: independent, cancelling, or such that their product is at a limit.
+    /// Two floats: independent, cancelling, or with a product at a limit.
     fn pair(&mut self) -> (f64, f64) {
         let (x, y) = (self.float(), self.float());
         let (most, least) = (
@@ -92,7 +93,7 @@ impl Random {
     }
 }
 
-/// The rational that a finite float is.
+/// The exact value of a finite float.
 fn exactly(x: f64) -> BigRational {
     BigRational::from_float(x).expect("finite")
 }
@@ -102,10 +103,9 @@ fn is_below(x: f64, r: &BigRational) -> bool {
     BigRational::from_float(x).map_or(x < 0.0, |x| x <= *r)
 }
 
-/// The interval holds `least` and `greatest`, and would hold neither if its ends were `slack` + 1 floats
-/// further in.
+/// The interval contains `least` and `greatest`. It would contain neither if its ends moved inwards by `slack` + 1 floats.
 fn encloses(got: &Interval, [least, greatest]: [&BigRational; 2], slack: u32) -> bool {
-    // Upper ends are lower ends of the mirror image.
+    // An upper end is a lower end of the negated interval.
     [(got.lower(), least.clone()), (-got.upper(), -greatest)]
         .iter()
         .all(|(end, r)| {
@@ -126,7 +126,7 @@ fn sums_of_points_are_tightest() {
     }
 }
 
-/// How much wider than the tightest a product or quotient may be: not at all, but among the subnormals.
+/// The extra width that a product or quotient may have: zero, except among the subnormals.
 fn slack(result: f64) -> u32 {
     u32::from(result.abs() <= f64::MIN_POSITIVE)
 }
@@ -150,7 +150,7 @@ fn quotients_of_points_are_tight() {
     let mut random = Random(3);
     for _ in 0..PAIRS {
         let (x, y) = random.pair();
-        // A product over its factor is nearly a float.
+        // A product divided by its factor is almost a float.
         let x = random.of(&[x, x * y]);
         if y != 0.0 && x.is_finite() {
             let quotient = Interval::point(x)
@@ -178,9 +178,9 @@ const OPERATIONS: [Operation; 4] = [
     ('/', |a, b| a.checked_div(&b), |x, y| x / y),
 ];
 
-/// The ends come from corners of the operands, and what comes from points inside lies between.
+/// The ends come from corners of the operands, and the results of inner points lie between them.
 #[test]
-fn intervals_hold_what_comes_from_their_points() {
+fn intervals_contain_the_results_of_their_points() {
     let mut random = Random(4);
     for _ in 0..2000 {
         let (a, b) = (random.interval(), random.interval());
@@ -222,7 +222,7 @@ fn rationals_and_integers_are_enclosed_tightly() {
         let divisor = random.of(&[i64::MIN, -10, -1, 1, 3, 1 << 53, (1 << 53) + 1, i64::MAX]);
         let quotient = Interval::point(x).div_int(divisor.try_into().expect("not zero"));
         let exact = exactly(x) / BigInt::from(divisor);
-        // A divisor of more than 53 bits is rounded outward itself.
+        // A divisor of more than 53 bits is itself rounded outwards.
         assert!(
             encloses(&quotient, [&exact; 2], 2),
             "{x:e} / {divisor}: {quotient:?}"
@@ -230,13 +230,13 @@ fn rationals_and_integers_are_enclosed_tightly() {
     }
 }
 
-/// What is a float is not widened, clear of the limits.
+/// A representable result stays a point if it is not near the limits.
 #[test]
 fn results_that_are_floats_stay_points() {
     let mut random = Random(6);
     let mut factor = || f64::from(u32::try_from(random.bits() >> 38).expect("26 bits") + 1);
     for exponent in (-800..800).step_by(4) {
-        // Of 26 bits each: sum and product have no more than 53.
+        // With 26 bits each, sum and product have at most 53.
         let (x, y) = (factor() * -2.0_f64.powi(exponent), factor());
         let [a, b] = [x, y].map(Interval::point);
         assert_eq!(a * b, Interval::point(x * y));
@@ -253,8 +253,8 @@ fn results_that_are_floats_stay_points() {
     }
 }
 
-/// Every interval between ends that strain a case, −0 and the infinities among them.
-fn nasty() -> Vec<Interval> {
+/// All intervals between difficult ends, including −0 and the infinities.
+fn difficult() -> Vec<Interval> {
     let positive = [
         0.0,
         5e-324,
@@ -274,9 +274,9 @@ fn nasty() -> Vec<Interval> {
 }
 
 #[test]
-fn no_result_has_an_end_that_is_no_number() {
-    for a in nasty() {
-        for b in nasty() {
+fn no_result_has_a_nan_end() {
+    for a in difficult() {
+        for b in difficult() {
             for (name, operation, _) in &OPERATIONS {
                 if let Some(result) = operation(a, b) {
                     let again = Interval::new(result.lower(), result.upper());
@@ -293,10 +293,10 @@ fn no_result_has_an_end_that_is_no_number() {
     }
 }
 
-/// The sign is that of every real inside, or unknown; there is a quotient by what does not hold zero.
+/// The sign is that of every real number inside, or unknown. A quotient exists if the divisor does not contain zero.
 #[test]
 fn signs_are_those_of_all_points() {
-    for a in nasty() {
+    for a in difficult() {
         let holds_zero = a.contains(&BigRational::zero());
         let want = match (holds_zero, a.lower() < 0.0, a.upper() > 0.0) {
             (true, false, false) => RealSign::Zero,
@@ -319,7 +319,7 @@ fn signs_are_those_of_all_points() {
     }
 }
 
-/// An infinite end bounds nothing, and no real is there.
+/// An infinite end is not a bound, and no real number lies there.
 #[test]
 fn infinite_ends() {
     let of = |lower, upper| Interval::new(lower, upper).expect("lower ≤ upper");
@@ -332,7 +332,7 @@ fn infinite_ends() {
     assert_eq!(Interval::one().checked_div(&ray), Some(of(0.0, 0.5)));
     assert_eq!(ray.checked_div(&ray), Some(of(0.0, inf)));
     assert_eq!(zero.checked_div(&ray), Some(zero));
-    // A result beyond the largest float lies between that and infinity.
+    // A result above the largest float lies between it and infinity.
     let most = Interval::point(f64::MAX);
     assert_eq!(
         (most + most, -most * most),
@@ -343,7 +343,7 @@ fn infinite_ends() {
     assert!(ray.contains(&beyond) && Interval::WHOLE.contains(&-beyond));
 }
 
-/// A subnormal times a great number, or over a small one, has a rounding error that is held, and nothing more is.
+/// A subnormal times a large number, or divided by a small one. The interval contains the rounding error and is not wider.
 #[test]
 fn subnormals_are_multiplied_and_divided_tightly() {
     let mut inexact = 0;
@@ -365,7 +365,7 @@ fn subnormals_are_multiplied_and_divided_tightly() {
     assert!(inexact > 15, "{inexact}");
 }
 
-/// MAX − 3/2 units lies between MAX − 2 and MAX − 1, whichever is added to which.
+/// MAX − 3/2 units lies between MAX − 2 and MAX − 1, in any order of the summands.
 #[test]
 fn sums_next_to_the_greatest_float_are_enclosed_tightly() {
     let unit = f64::MAX - f64::MAX.next_down();
@@ -394,9 +394,9 @@ fn intervals_without_a_common_point_are_not_equal() {
     }
 }
 
-/// 2^−1022 (1 − 2^−53) is rounded up to the least normal float, where subnormals would hold its significand no more.
+/// 2^−1022 (1 − 2^−53) rounds up to the least normal float. A subnormal cannot represent its significand.
 #[test]
-fn a_product_rounded_to_the_least_normal_float_is_held() {
+fn a_product_rounded_to_the_least_normal_float_is_contained() {
     let (x, y) = (1.0_f64.next_down(), f64::MIN_POSITIVE);
     for product in [
         Interval::point(x) * Interval::point(y),

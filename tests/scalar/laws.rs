@@ -1,4 +1,4 @@
-//! Every scalar of the crate obeys the laws, on operands chosen to break them.
+//! Every scalar of the crate obeys the laws, on difficult operands.
 
 use cannonpile::scalar::{
     Algebra, DoubleDouble, Exactness, Field, FixedInteger, FixedRational, Interval, Polynomial,
@@ -118,7 +118,7 @@ fn fixed_width_rationals() {
     fixed_width::<i128>();
 }
 
-/// Those of other scalars are with their other laws.
+/// The tests of other scalars include these laws.
 #[test]
 fn numerators_over_one_denominator() {
     let rationals = narrow();
@@ -130,7 +130,7 @@ fn numerators_over_one_denominator() {
     keeps_numerators::<FixedRational<i128>>(&rationals);
 }
 
-/// Floats that strain every case of an algorithm.
+/// Floats that reach every branch of an algorithm.
 const FLOATS: [f64; 13] = [
     0.0,
     5e-324,
@@ -200,7 +200,7 @@ fn polynomials() {
     keeps_numerators::<Polynomial>(&wide());
 }
 
-/// All laws; the embedding where the second scalar holds the operands at all.
+/// All laws. The laws of the embedding apply if the second scalar can represent the operands.
 fn pairs_obey<B: Field + RealEmbeddable>() {
     let mut rationals = wide();
     obeys_integers::<Pair<Q, B>>();
@@ -231,7 +231,7 @@ fn pairs_with_double_doubles() {
 }
 
 #[test]
-fn of_two_promises_the_weaker_is_kept() {
+fn a_pair_has_the_weaker_exactness() {
     let [single, double] = [24, 53].map(|bits| Exactness::Rounded { bits });
     let promises = [
         Exactness::Exact,

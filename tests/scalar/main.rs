@@ -1,6 +1,6 @@
 //! Fixed and exhaustive tests of the scalars.
 //!
-//! Without the feature `std` only roots are computed in another way, so only the tests of rounding are built then.
+//! Without the feature `std` only the roots use another algorithm. So that build contains only the tests of rounding.
 
 mod double_double;
 #[cfg(feature = "std")]

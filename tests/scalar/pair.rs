@@ -1,4 +1,4 @@
-//! Two scalars in step: the first operation at which they part is named, and never another.
+//! Two scalars in parallel. The pair reports exactly the first operation at which they differ.
 
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -16,7 +16,7 @@ use num_traits::{One, Pow, Zero};
 
 use cannonpile_testkit::pair::Pair;
 
-/// Which operation of [`Planted`] is wrong.
+/// The operation of [`Faulty`] that is wrong.
 const SUM: u8 = 0;
 const DIFFERENCE: u8 = 1;
 const PRODUCT: u8 = 2;
@@ -25,11 +25,11 @@ const QUOTIENT: u8 = 4;
 const QUOTIENT_BY_INTEGER: u8 = 5;
 const IMAGE: u8 = 6;
 
-/// A rational one operation of which is a thousandth too great.
+/// A rational with one wrong operation, whose result is too great by a thousandth.
 #[derive(Clone, Debug, PartialEq)]
-struct Planted<const WRONG: u8>(Q);
+struct Faulty<const WRONG: u8>(Q);
 
-impl<const WRONG: u8> Planted<WRONG> {
+impl<const WRONG: u8> Faulty<WRONG> {
     fn result_of(operation: u8, value: Q) -> Self {
         Self(if operation == WRONG {
             value * ratio(1001, 1000)
@@ -41,7 +41,7 @@ impl<const WRONG: u8> Planted<WRONG> {
 
 macro_rules! operators {
     ($($operator:ident $method:ident $number:ident;)*) => {$(
-        impl<const WRONG: u8> $operator<&Self> for Planted<WRONG> {
+        impl<const WRONG: u8> $operator<&Self> for Faulty<WRONG> {
             type Output = Self;
 
             fn $method(self, rhs: &Self) -> Self {
@@ -49,7 +49,7 @@ macro_rules! operators {
             }
         }
 
-        impl<const WRONG: u8> $operator for Planted<WRONG> {
+        impl<const WRONG: u8> $operator for Faulty<WRONG> {
             type Output = Self;
 
             fn $method(self, rhs: Self) -> Self {
@@ -61,7 +61,7 @@ macro_rules! operators {
 
 operators! { Add add SUM; Sub sub DIFFERENCE; Mul mul PRODUCT; }
 
-impl<const WRONG: u8> Neg for Planted<WRONG> {
+impl<const WRONG: u8> Neg for Faulty<WRONG> {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -69,7 +69,7 @@ impl<const WRONG: u8> Neg for Planted<WRONG> {
     }
 }
 
-impl<const WRONG: u8> Zero for Planted<WRONG> {
+impl<const WRONG: u8> Zero for Faulty<WRONG> {
     fn zero() -> Self {
         Self(Q::zero())
     }
@@ -79,21 +79,21 @@ impl<const WRONG: u8> Zero for Planted<WRONG> {
     }
 }
 
-impl<const WRONG: u8> One for Planted<WRONG> {
+impl<const WRONG: u8> One for Faulty<WRONG> {
     fn one() -> Self {
         Self(Q::one())
     }
 }
 
-impl<const WRONG: u8> Ring for Planted<WRONG> {
+impl<const WRONG: u8> Ring for Faulty<WRONG> {
     fn from_i128(n: i128) -> Self {
         Self(Q::from_i128(n))
     }
 }
 
-impl<const WRONG: u8> Algebra for Planted<WRONG> {
+impl<const WRONG: u8> Algebra for Faulty<WRONG> {
     const EXACTNESS: Exactness = Exactness::Exact;
-    const NAME: &'static str = "Planted";
+    const NAME: &'static str = "Faulty";
 
     fn from_rational(r: &Q) -> Self {
         Self::result_of(IMAGE, r.clone())
@@ -108,20 +108,20 @@ impl<const WRONG: u8> Algebra for Planted<WRONG> {
     }
 }
 
-impl<const WRONG: u8> OwnNumerators for Planted<WRONG> {
+impl<const WRONG: u8> OwnNumerators for Faulty<WRONG> {
     fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }
 
-impl<const WRONG: u8> Field for Planted<WRONG> {
+impl<const WRONG: u8> Field for Faulty<WRONG> {
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
         let quotient = self.0.checked_div(&divisor.0)?;
         Some(Self::result_of(QUOTIENT, quotient))
     }
 }
 
-impl<const WRONG: u8> RealEmbeddable for Planted<WRONG> {
+impl<const WRONG: u8> RealEmbeddable for Faulty<WRONG> {
     fn sign(&self) -> RealSign {
         self.0.sign()
     }
@@ -135,8 +135,8 @@ fn ratio(n: i64, d: i64) -> Q {
     Q::new(n.into(), d.into())
 }
 
-/// The operation at which a pair parted.
-fn parted<A, B>(pair: &Pair<A, B>) -> Option<&'static str>
+/// The operation at which a pair first differed.
+fn first_difference<A, B>(pair: &Pair<A, B>) -> Option<&'static str>
 where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
@@ -144,7 +144,7 @@ where
     pair.parting().map(|parting| parting.operation)
 }
 
-/// Every kind of operation, in one computation.
+/// Every kind of operation in one computation.
 fn compute<B: Field + RealEmbeddable>() -> Pair<Q, B> {
     type Both<B> = Pair<Q, B>;
     let (seven, three) = (Both::<B>::from_i128(7), Both::<B>::from_i128(3));
@@ -157,42 +157,54 @@ fn compute<B: Field + RealEmbeddable>() -> Pair<Q, B> {
 
 #[test]
 fn each_operation_is_named() {
-    assert_eq!(parted(&compute::<Q>()), None);
-    assert_eq!(parted(&compute::<Planted<SUM>>()), Some("a + b"));
-    assert_eq!(parted(&compute::<Planted<DIFFERENCE>>()), Some("a - b"));
-    assert_eq!(parted(&compute::<Planted<PRODUCT>>()), Some("a * b"));
-    assert_eq!(parted(&compute::<Planted<NEGATION>>()), Some("-a"));
-    assert_eq!(parted(&compute::<Planted<QUOTIENT>>()), Some("a / b"));
+    assert_eq!(first_difference(&compute::<Q>()), None);
+    assert_eq!(first_difference(&compute::<Faulty<SUM>>()), Some("a + b"));
     assert_eq!(
-        parted(&compute::<Planted<QUOTIENT_BY_INTEGER>>()),
+        first_difference(&compute::<Faulty<DIFFERENCE>>()),
+        Some("a - b")
+    );
+    assert_eq!(
+        first_difference(&compute::<Faulty<PRODUCT>>()),
+        Some("a * b")
+    );
+    assert_eq!(first_difference(&compute::<Faulty<NEGATION>>()), Some("-a"));
+    assert_eq!(
+        first_difference(&compute::<Faulty<QUOTIENT>>()),
+        Some("a / b")
+    );
+    assert_eq!(
+        first_difference(&compute::<Faulty<QUOTIENT_BY_INTEGER>>()),
         Some("a / n")
     );
-    assert_eq!(parted(&compute::<Planted<IMAGE>>()), Some("a value"));
+    assert_eq!(
+        first_difference(&compute::<Faulty<IMAGE>>()),
+        Some("a value")
+    );
     for clean in [
-        parted(&compute::<f64>()),
-        parted(&compute::<Interval>()),
-        parted(&compute::<DoubleDouble>()),
-        parted(&compute::<FixedRational<i64>>()),
+        first_difference(&compute::<f64>()),
+        first_difference(&compute::<Interval>()),
+        first_difference(&compute::<DoubleDouble>()),
+        first_difference(&compute::<FixedRational<i64>>()),
     ] {
         assert_eq!(clean, None);
     }
 }
 
 #[test]
-fn the_first_parting_is_carried_along() {
+fn the_first_difference_is_kept() {
     type Checked = Pair<Q, f64>;
     let big = Checked::from_i128(10_i128.pow(20));
     let lost = big.clone() + &Checked::one() - &big;
-    let first = lost.parting().expect("1 is lost").clone();
+    let first = lost.parting().expect("1 is rounded away").clone();
     assert_eq!(first.operation, "a - b");
     assert_eq!(
         first.to_string(),
         format!("a - b gave {:?} and 0.0", ratio(1, 1))
     );
-    // Undefined in f64: a parting of another kind.
+    // Undefined in `f64`, which is another kind of difference.
     let overflow =
         big.clone() * &Checked::from_rational(&Q::from_integer(BigInt::from(10).pow(300_u32)));
-    assert_eq!(parted(&overflow), Some("a * b"));
+    assert_eq!(first_difference(&overflow), Some("a * b"));
     assert!(!overflow.is_defined());
 
     let clean = Checked::from_i128(3);
@@ -208,7 +220,7 @@ fn the_first_parting_is_carried_along() {
     for result in later {
         assert_eq!(result.parting(), Some(&first));
     }
-    // Of two that have parted, one is kept: no new one is made.
+    // If both operands have a record, the result keeps one and adds none.
     let both = lost.clone() + &overflow;
     assert_eq!(both.parting(), Some(&first));
     assert_eq!(
@@ -217,21 +229,21 @@ fn the_first_parting_is_carried_along() {
             .map(|parting| parting.operation),
         Some("a * b")
     );
-    // Values that agree again do not make it good.
-    let healed = lost * &Checked::zero();
+    // The record remains even if the values agree again.
+    let equal_again = lost * &Checked::zero();
     assert_eq!(
-        (healed.first(), healed.parting()),
+        (equal_again.first(), equal_again.parting()),
         (&Q::zero(), Some(&first))
     );
 }
 
-/// Powers of two are added up and taken away again, but for the first: where it parts.
+/// Adds powers of two and subtracts all but the first. Returns the operation at which the pair first differed.
 fn difference<B: Field + RealEmbeddable>(exponents: &[u32]) -> Option<&'static str> {
     let power = |e: &u32| Pair::<Q, B>::from_rational(&Q::from_integer(BigInt::from(2).pow(*e)));
     let sum = exponents
         .iter()
         .fold(Pair::zero(), |sum, e| sum + &power(e));
-    parted(
+    first_difference(
         &exponents
             .iter()
             .skip(1)
@@ -240,12 +252,12 @@ fn difference<B: Field + RealEmbeddable>(exponents: &[u32]) -> Option<&'static s
     )
 }
 
-/// A scalar of p bits parts when half of them are wrong, and one that keeps more digits parts later.
+/// A scalar of p bits differs if half of them are wrong. One with more digits differs later.
 #[test]
 fn rounded_values_may_differ_by_half_their_digits() {
     for (error, operation) in [(-26, None), (-25, Some("a value"))] {
         let near = Pair::new(Q::one(), 1.0 + 2.0_f64.powi(error));
-        assert_eq!(parted(&near), operation);
+        assert_eq!(first_difference(&near), operation);
     }
     let long = [0, 80, 160];
     assert_eq!(difference::<f64>(&long[..2]), Some("a - b"));
@@ -256,26 +268,26 @@ fn rounded_values_may_differ_by_half_their_digits() {
         Some("a value")
     );
     assert_eq!(difference::<FixedRational<i128>>(&long[..2]), None);
-    // An interval grows wide instead.
+    // An interval becomes wide instead.
     assert_eq!(difference::<Interval>(&long), None);
 }
 
 #[test]
-fn an_overflow_is_a_parting() {
+fn an_overflow_is_a_difference() {
     type Checked = Pair<Q, FixedRational<i64>>;
     let big = Checked::from_i128(i128::from(i64::MAX));
-    assert_eq!(parted(&big), None);
+    assert_eq!(first_difference(&big), None);
     let fault = big.clone() + &Checked::one();
-    assert_eq!(parted(&fault), Some("a + b"));
+    assert_eq!(first_difference(&fault), Some("a + b"));
     assert!(
         fault
             .parting()
-            .expect("parted")
+            .expect("first_difference")
             .values
             .ends_with("overflow")
     );
     assert_eq!((fault.sign(), fault.enclosure()), (RealSign::Unknown, None));
-    // No quotient by what one of the two cannot divide by.
+    // A quotient is missing if either scalar cannot divide.
     assert!(big.checked_div(&fault).is_none() && big.checked_div(&Checked::zero()).is_none());
     let around_zero = Pair::new(Q::one(), Interval::new(-1.0, 1.0).expect("an interval"));
     assert_eq!(
@@ -285,7 +297,7 @@ fn an_overflow_is_a_parting() {
     assert_eq!(around_zero.enclosure(), Some(Enclosure::point(Q::one())));
 }
 
-/// Asks everything of a pile in a pair of scalars, and gives each answer with its exact one.
+/// All answers about a pile in a pair of scalars, each with the exact answer.
 fn answers<B: Field + RealEmbeddable>(pile: &Pile) -> Vec<(Pair<Q, B>, Q)> {
     let (pairs, exact) = (pile.forces::<Pair<Q, B>>(), pile.forces::<Q>());
     let mut all = vec![(
@@ -339,7 +351,7 @@ fn piles() -> Vec<Pile> {
 }
 
 #[test]
-fn statics_stay_together() {
+fn statics_agree() {
     for pile in piles() {
         for (pair, exact) in answers::<Interval>(&pile) {
             assert_eq!((pair.parting(), pair.first()), (None, &exact));
@@ -355,19 +367,28 @@ fn statics_stay_together() {
 }
 
 #[test]
-fn statics_in_a_wrong_scalar_part() {
+fn statics_in_a_wrong_scalar_differ() {
     let pile = Pile::isosceles(4, ratio(1, 3)).expect("a pile");
     let partings = |all: Vec<Option<&'static str>>| all.into_iter().flatten().collect::<Vec<_>>();
-    let sums = answers::<Planted<SUM>>(&pile);
-    let sums = partings(sums.iter().map(|(pair, _)| parted(pair)).collect());
-    let products = answers::<Planted<PRODUCT>>(&pile);
-    let products = partings(products.iter().map(|(pair, _)| parted(pair)).collect());
+    let sums = answers::<Faulty<SUM>>(&pile);
+    let sums = partings(
+        sums.iter()
+            .map(|(pair, _)| first_difference(pair))
+            .collect(),
+    );
+    let products = answers::<Faulty<PRODUCT>>(&pile);
+    let products = partings(
+        products
+            .iter()
+            .map(|(pair, _)| first_difference(pair))
+            .collect(),
+    );
     for (operations, operation) in [(sums, "a + b"), (products, "a * b")] {
         assert!(operations.len() > 100 && operations.iter().all(|name| *name == operation));
     }
     let site = Site { i: 1, j: 0, k: 2 };
     let force = pile
-        .forces::<Pair<Q, Planted<IMAGE>>>()
+        .forces::<Pair<Q, Faulty<IMAGE>>>()
         .contact(site, Direction::Gamma);
-    assert_eq!(parted(&force.expect("a force")), Some("a value"));
+    assert_eq!(first_difference(&force.expect("a force")), Some("a value"));
 }

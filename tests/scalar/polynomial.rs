@@ -1,4 +1,4 @@
-//! Polynomials are what they look like: a canonical ring, whose values at numbers are computed as numbers.
+//! Polynomials form a ring with a canonical form. Their values at numbers equal direct computations.
 
 use core::num::NonZeroI64;
 
@@ -23,7 +23,7 @@ fn constant(n: i64, d: i64) -> P {
     P::constant(&ratio(n, d))
 }
 
-/// Bits that are the same in every run (xorshift).
+/// Random bits that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {
@@ -34,7 +34,7 @@ impl Random {
         u32::try_from(self.0 >> 40).expect("24 bits") % n
     }
 
-    /// Small, or of some hundred bits.
+    /// Small, or of about a hundred bits.
     fn rational(&mut self) -> Q {
         let long = BigInt::from(3).pow(self.below(100));
         let n = i64::from(self.below(19)) - 9;
@@ -50,7 +50,7 @@ impl Random {
         [0; 4].map(|_| self.rational())
     }
 
-    /// Up to four terms in the first `symbols` symbols, of degree up to three in each.
+    /// Up to four terms in the first `symbols` symbols, of degree at most three in each.
     fn naive(&mut self, symbols: usize) -> Naive {
         let terms = (0..self.below(5)).map(|_| {
             let mut powers = [0; 4];
@@ -148,9 +148,9 @@ fn a_commutative_algebra() {
     }
 }
 
-/// One function, one form.
+/// Equal functions have one canonical form.
 #[test]
-fn equal_functions_are_equal() {
+fn equal_functions_have_one_form() {
     let [x, y, _, _] = symbols();
     let sum = x.clone() + &y;
     let square = sum.clone() * &sum;
@@ -185,7 +185,7 @@ fn equal_functions_are_equal() {
 }
 
 #[test]
-fn values_are_computed_as_numbers() {
+fn values_equal_direct_computations() {
     let mut random = Random(2);
     for symbols in [1, 2, 3, 4].repeat(250) {
         let [f, g] = [0; 2].map(|_| random.naive(symbols));
@@ -200,7 +200,7 @@ fn values_are_computed_as_numbers() {
         let quotient = p.clone().div_int(NonZeroI64::new(n).expect("not zero"));
         assert_eq!(value(&quotient, &point), &a / BigInt::from(n));
 
-        // Of numbers one by one, of another polynomial, of a symbol that does not occur.
+        // Substitutes numbers one by one, another polynomial, and a symbol that does not occur.
         let mut number = p.clone();
         for (symbol, x) in at(&point) {
             number = number.substitute(symbol, &P::constant(&x));
@@ -234,7 +234,7 @@ fn degrees_and_symbols() {
         if !p.is_zero() && !q.is_zero() {
             assert_eq!((p.clone() * &q).degree(), p.degree() + q.degree());
         }
-        // A value is missing just if its symbol occurs.
+        // A value is required exactly if its symbol occurs.
         for m in 0..4 {
             let mut values = at(&random.point()).to_vec();
             let (missing, _) = values.remove(m);
@@ -244,7 +244,7 @@ fn degrees_and_symbols() {
 }
 
 #[test]
-fn division_is_exact_or_refused() {
+fn division_is_exact_or_undefined() {
     let mut random = Random(4);
     for symbols in [1, 2, 3, 4].repeat(100) {
         let [q, d, r] = [0; 3].map(|_| random.naive(symbols).build());
@@ -256,7 +256,7 @@ fn division_is_exact_or_refused() {
         assert_eq!(p.divide_exactly(&d), Some(q.clone()), "{p} over {d}");
         assert_eq!(P::from_ratio(p.clone(), &d), Some(q.clone()));
         assert_eq!(P::zero().divide_exactly(&d), Some(P::zero()));
-        // What has a lower degree is no multiple of d, unless it is zero.
+        // A nonzero polynomial of lower degree is not a multiple of d.
         if r.degree() < d.degree() {
             assert_eq!(
                 (p + &r).divide_exactly(&d).is_some(),
@@ -265,7 +265,9 @@ fn division_is_exact_or_refused() {
             );
         }
         let c = P::constant(&(random.rational() * ratio(2, 1) + ratio(1, 1_000_003)));
-        let quotient = q.divide_exactly(&c).expect("a constant divides all");
+        let quotient = q
+            .divide_exactly(&c)
+            .expect("a constant divides every polynomial");
         assert_eq!(quotient * &c, q);
     }
     let [x, y, _, _] = symbols();
@@ -278,9 +280,9 @@ fn division_is_exact_or_refused() {
     assert_eq!(P::numerators(&[ratio(2, 3)]), ([constant(2, 3)], P::one()));
 }
 
-/// A change of names that reverses their order changes neither values nor quotients.
+/// New names in the reverse order change neither values nor quotients.
 #[test]
-fn no_name_is_special() {
+fn names_do_not_matter() {
     const OTHERS: [&str; 4] = ["zz", "yy", "xx", "ww"];
     let rename = |p: &P| {
         NAMES
@@ -313,7 +315,7 @@ fn no_name_is_special() {
 }
 
 #[test]
-fn written_as_by_hand() {
+fn printed_form() {
     let [x, y, z, _] = symbols();
     let n = |n| constant(n, 1);
     let half = NonZeroI64::new(2).expect("2");
@@ -340,7 +342,7 @@ fn written_as_by_hand() {
     }
 }
 
-/// Degrees beyond a machine integer's, by 32 squarings: right, or refused, but not wrapped.
+/// 32 squarings exceed the degrees of a machine integer. The result is correct or undefined, and never wraps.
 #[test]
 fn high_degrees_do_not_wrap() {
     let [x, y, _, _] = symbols();
@@ -352,9 +354,9 @@ fn high_degrees_do_not_wrap() {
     assert_ne!(high(&x, 32) * &x, x);
 }
 
-/// A power beyond 2³² − 1 is none.
+/// A power above 2³² − 1 is undefined.
 #[test]
-fn faults_are_equal_to_nothing() {
+fn undefined_polynomials_are_never_equal() {
     let [x, y, _, _] = symbols();
     let power = (0..31).fold(x.clone(), |power, _| power.clone() * &power);
     let fault = power.clone() * &power;
@@ -373,7 +375,7 @@ fn faults_are_equal_to_nothing() {
             && power.evaluate(&[(Symbol("x"), 1.0)]) == Some(1.0)
     );
     assert!(x != y && x != constant(1, 2) && constant(1, 2) != constant(1, 3));
-    // Put in where its symbol does not occur, and summed to or from.
+    // Substituted for a missing symbol, and as a bound of a sum.
     let nothing = P::zero();
     for of_fault in [
         fault.substitute(Symbol("y"), &x),
@@ -387,7 +389,7 @@ fn faults_are_equal_to_nothing() {
     }
 }
 
-/// A float that is too great squared, in a term that is not.
+/// The square of one float overflows, although its term does not.
 #[test]
 fn terms_are_multiplied_one_by_one() {
     let [x, y, _, _] = symbols();
@@ -400,9 +402,9 @@ fn terms_are_multiplied_one_by_one() {
     }
 }
 
-/// No power is written out one by one.
+/// Powers are evaluated without writing them out.
 #[test]
-fn the_greatest_powers_have_values() {
+fn the_greatest_powers_can_be_evaluated() {
     let [x, y, _, _] = symbols();
     let high = (0..31).fold(x.clone(), |power, _| power.clone() * &power) + &y;
     for (value, expected) in [(-1, 5), (0, 4), (1, 5)] {
@@ -412,7 +414,7 @@ fn the_greatest_powers_have_values() {
         assert_eq!(high.evaluate(&values), Some(ratio(expected, 1)));
     }
     assert_eq!(high.substitute(Symbol("x"), &x), high);
-    // x³ − y^(2³¹) x² where x is that power: (x − x) x², whose x² would be beyond all powers.
+    // x³ − y^(2³¹) x², where x is that power: (x − x) x². Its factor x² exceeds all powers.
     let power = high.clone() - &y;
     let power = power.substitute(Symbol("x"), &y);
     let cancels = x.clone() * &x * &x - &(power.clone() * &x * &x);

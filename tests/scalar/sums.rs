@@ -1,4 +1,4 @@
-//! Sums of polynomials in closed form are the sums term by term.
+//! Sums of polynomials in closed form equal the sums term by term.
 
 use std::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ fn monomial([a, b, c]: [u32; 3]) -> P {
         })
 }
 
-/// Every (a, b, c) with a + b + c ≤ 8.
+/// All (a, b, c) with a + b + c ≤ 8.
 fn powers() -> impl Iterator<Item = [u32; 3]> {
     let up_to = |rest: u32| 0..=rest;
     up_to(DEGREE).flat_map(move |a| {
@@ -82,7 +82,7 @@ fn every_monomial_over_every_pile() {
     }
 }
 
-/// Numbers without a pattern, the same in every run.
+/// Numbers without a pattern that are the same in every run.
 fn scattered(seed: u64) -> impl Iterator<Item = i64> {
     let next = |n: &u64| {
         Some(
@@ -146,7 +146,7 @@ fn at(p: &P, x: i128, y: i128) -> Q {
     .expect("in x and y")
 }
 
-/// Term by term from `from` to `to`, and backwards where `to` < `from` − 1, without what lies between.
+/// Sums the terms from `from` to `to`. If `to` < `from` − 1, returns minus the sum of the terms between.
 fn term_by_term(p: &P, from: i128, to: i128, y: i128) -> Q {
     let forwards: Q = (from..=to).map(|x| at(p, x, y)).sum();
     let backwards: Q = (to + 1..from).map(|x| at(p, x, y)).sum();
@@ -175,8 +175,8 @@ fn numeric_bounds() {
     }
 }
 
-/// Bounds that are polynomials: in the other symbol, in the summation symbol, which is then the one outside,
-/// and in both.
+/// Bounds that are polynomials in the other symbol, in the summation symbol (which then refers to the outer one), and in
+/// both.
 #[test]
 fn symbolic_bounds() {
     let (x, y) = (symbol("x"), symbol("y"));
@@ -202,7 +202,7 @@ fn symbolic_bounds() {
     }
 }
 
-/// Σ from a to b is F(b+1) − F(a): sums add up end to end, and differences telescope.
+/// Σ from a to b is F(b+1) − F(a). So adjacent sums add up, and differences telescope.
 #[test]
 fn sums_telescope() {
     let (x, n, m) = (Symbol("x"), symbol("n"), symbol("m"));
@@ -218,13 +218,13 @@ fn sums_telescope() {
         assert_eq!(differences, sum);
         let rest = p.sum(x, &(n.clone() + &P::one()), &symbol("q"));
         assert_eq!(sum + &rest, p.sum(x, &m, &symbol("q")));
-        // Reversed: x → m + n − x runs through the same places.
+        // Reversed: x → m + n − x takes the same values.
         let reversed = p.substitute(x, &(m.clone() + &n - &symbol("x")));
         assert_eq!(reversed.sum(x, &m, &n), p.sum(x, &m, &n));
     }
 }
 
-/// Sums one within another may be exchanged: over the triangle 0 ≤ i ≤ j ≤ n by rows or by columns.
+/// The order of nested sums does not matter: over the triangle 0 ≤ i ≤ j ≤ n by rows or by columns.
 #[test]
 fn order_of_summation() {
     let (i, j, n) = (symbol("i"), symbol("j"), symbol("n"));

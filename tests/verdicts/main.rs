@@ -1,4 +1,4 @@
-//! Fixed and exhaustive tests of verdicts: which piles stand, which stackings do, and what is proved for every pile.
+//! Fixed and exhaustive tests of verdicts: stable piles, stable stackings, and theorems for every pile.
 
 #![cfg(feature = "std")]
 

@@ -1,4 +1,4 @@
-//! Every theorem holds of the crate's formulas, says what it is about, and refuses wrong formulas.
+//! Every theorem holds for the crate's formulas, states its subject, and rejects wrong formulas.
 
 mod numbers;
 
@@ -9,7 +9,7 @@ use cannonpile::theorem::{Formulas, Theorem};
 use cannonpile_testkit::proofs;
 use cannonpile_testkit::proofs::Attempts;
 
-/// Every theorem with what becomes of its proof, for each fault: for all tests once.
+/// Every theorem with the result of its proof for each fault. All tests share it.
 static ATTEMPTS: LazyLock<Attempts<Formulas>> =
     LazyLock::new(|| Attempts::new(theorem::all(), proofs::of_the_core()));
 
@@ -32,7 +32,7 @@ fn names_are_unique_and_found() {
     assert!(theorem::find("").is_none());
 }
 
-/// What each statement must name.
+/// The subject that each statement must name.
 const SUBJECTS: [(&str, &str); 29] = [
     ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
     ("rotation", "rotation"),
@@ -70,18 +70,18 @@ fn statements_name_their_subject_and_method() {
     proofs::name_subject_and_method(&theorems(), &SUBJECTS);
 }
 
-/// A fault is refused by the theorems it is said to break, and by no others.
+/// Each fault refutes exactly the theorems that it lists.
 #[test]
-fn faults_are_refused() {
+fn faults_refute_the_listed_theorems() {
     ATTEMPTS.are_refused_as_said();
 }
 
 #[test]
-fn every_theorem_refuses_a_fault() {
+fn every_theorem_has_a_fault() {
     ATTEMPTS.every_theorem_refuses_one();
 }
 
-/// Fields by name; one that is missing does not compile.
+/// The names of fields. A missing field does not compile.
 macro_rules! fields {
     ($($field:ident)*) => {{
         let Formulas { $($field: _),* } = Formulas::<cannonpile::scalar::Polynomial>::LIBRARY;
@@ -90,7 +90,7 @@ macro_rules! fields {
 }
 
 #[test]
-fn every_formula_is_put_wrong() {
+fn every_formula_has_a_fault() {
     let fields = fields! {
         above bounds_above descent spheres spheres_in_layer contacts contacts_of_strength directions
         disc_directions turned_about_z position squared_distance increments weight force passed_on
@@ -99,19 +99,19 @@ fn every_formula_is_put_wrong() {
     ATTEMPTS.are_of(&fields);
 }
 
-/// No step is idle: each is broken by some fault.
+/// Some fault breaks each step, so no step is redundant.
 #[test]
-fn every_step_refuses_a_fault() {
+fn every_step_has_a_fault() {
     ATTEMPTS.every_step_refuses_one();
 }
 
-/// The printed proof says that it fails, where it does.
+/// The printed proof reports its failure.
 #[test]
-fn a_refuted_proof_is_listed_as_such() {
+fn a_printed_proof_reports_its_failure() {
     ATTEMPTS.are_listed_as_refuted();
 }
 
-/// How many steps each proof has, counted by cases: the theorem `dimensions` has 2d + 4 for each d from 2 to 6.
+/// The number of steps of each proof, counted by cases. The theorem `dimensions` has 2d + 4 for each d from 2 to 6.
 const STEPS: [(&str, usize); 29] = [
     ("counts", 15),
     ("rotation", 3),
@@ -144,11 +144,11 @@ const STEPS: [(&str, usize); 29] = [
     ("point-load", 29),
 ];
 
-/// As many steps as there are cases: none is passed over.
+/// The numbers of steps equal the numbers of cases, so none is missing.
 #[test]
-fn no_case_is_left_out() {
+fn no_case_is_missing() {
     proofs::have_steps(&theorems(), &STEPS);
-    // Where the sign is kept, nothing is turned.
+    // Without a sign change there is no half-turn.
     let proof = theorem::find("point-load").map(theorem::Theorem::prove);
     let claims = proof.into_iter().flat_map(|proof| proof.steps);
     let claims = claims.map(|step| step.claim);

@@ -1,4 +1,4 @@
-//! Piles so high that only trees reach their floor: as small ones foretell.
+//! Piles so high that only trees can compute the forces at the base. Extrapolation from small piles predicts them.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use cannonpile_testkit::oracles::balance::{Forces, Place, ratio, site};
 
 const HIGH: i128 = 10_i128.pow(30);
 
-/// A pile of a few steps and a long last run, on a random or named top.
+/// A pile of a few steps and a long last run, under a given top layer.
 struct High {
     top: Bounds,
     head: &'static str,
@@ -52,15 +52,15 @@ impl High {
     }
 }
 
-/// Some bottom spheres that move evenly over the base as the last run grows: `start + t·along` below `t·steps` steps.
+/// A path of bottom spheres while the last run grows: `start + t·along` after `t·steps` steps of that run.
 #[derive(Clone, Copy)]
-struct Way {
+struct Path {
     start: [i128; 2],
     along: [i128; 2],
     steps: i128,
 }
 
-impl Way {
+impl Path {
     fn at(&self, high: &High, t: i128) -> Place {
         let head = i128::try_from(high.head.len()).unwrap();
         let sign = if high.last == '+' { 1 } else { -1 };
@@ -69,39 +69,39 @@ impl Way {
     }
 }
 
-/// t of the small piles: high enough for the head to be out of the way, but for lines that never leave it.
+/// The values of t for the small piles. The head has no influence at these heights, except on lines that never leave it.
 const SMALL: [i128; 3] = [7, 8, 9];
 
-/// Lines count up: on such a way forces grow evenly. So two small piles of the oracle foretell a pile of any height; a
-/// third checks it. False if the way leads outside.
-fn grows_evenly(high: &High, small: &BTreeMap<i128, Forces>, way: Way) -> bool {
+/// Forces on such a path are affine in t, because lines add a constant increment per sphere. So two small piles of the
+/// oracle predict a pile of any height, and a third checks the prediction. Returns false if the path leaves the base.
+fn grows_evenly(high: &High, small: &BTreeMap<i128, Forces>, path: Path) -> bool {
     let of_small = SMALL.map(|t| {
-        let (known, at) = (&small[&(way.steps * t)], way.at(high, t));
+        let (known, at) = (&small[&(path.steps * t)], path.at(high, t));
         let both = known.above.get(&at).zip(known.floor.get(&at));
         both.map(|(above, floor)| [above.clone(), floor.clone()].concat())
     });
     let [Some(first), Some(second), Some(third)] = of_small else {
         return false;
     };
-    let foretold = |t: i128| -> Vec<BigRational> {
+    let predicted = |t: i128| -> Vec<BigRational> {
         let growth = first.iter().zip(&second);
         let t = BigRational::from_integer((t - SMALL[0]).into());
         growth.map(|(a, b)| a + (b - a) * &t).collect()
     };
-    assert_eq!(foretold(SMALL[2]), third, "{} {:?}", high.head, way.start);
+    assert_eq!(predicted(SMALL[2]), third, "{} {:?}", high.head, path.start);
     for t in [40, HIGH] {
-        let (pile, at) = (high.pile(way.steps * t), site(way.at(high, t)));
+        let (pile, at) = (high.pile(path.steps * t), site(path.at(high, t)));
         let forces = pile.forces::<BigRational>();
         let floor = forces.on_floor(at).unwrap();
         let floor = [floor.normal, floor.shear_x, floor.shear_y];
         let answers = [forces.from_above(at).unwrap(), floor].concat();
-        assert_eq!(answers, foretold(t), "{} {at}", high.head);
+        assert_eq!(answers, predicted(t), "{} {at}", high.head);
     }
     true
 }
 
 #[test]
-fn a_pile_of_a_nonillion_layers_is_as_small_ones_foretell() {
+fn small_piles_predict_a_pile_of_a_nonillion_layers() {
     let mut compared = 0;
     for (head, last) in [("++-", '+'), ("+-", '+'), ("--+", '-'), ("-+-+", '-')] {
         let loads = vec![((1, 0, 0), ratio(7, 3)), ((2, 0, 0), ratio(1, 5))];
@@ -118,7 +118,7 @@ fn a_pile_of_a_nonillion_layers_is_as_small_ones_foretell() {
             let small = runs
                 .map(|run| (run, high.oracle(run).balance.forces()))
                 .collect();
-            let ways = [
+            let paths = [
                 ([0, 0], 1),
                 ([1, 0], 1),
                 ([0, 1], 1),
@@ -128,13 +128,13 @@ fn a_pile_of_a_nonillion_layers_is_as_small_ones_foretell() {
                 ([1, 1], 3),
             ];
             for start in [[0, 0], [1, 0], [0, 1], [-1, 1], [1, -1]] {
-                for (along, steps) in ways {
-                    let way = Way {
+                for (along, steps) in paths {
+                    let path = Path {
                         start,
                         along,
                         steps,
                     };
-                    compared += u32::from(grows_evenly(&high, &small, way));
+                    compared += u32::from(grows_evenly(&high, &small, path));
                 }
             }
         }
@@ -143,7 +143,7 @@ fn a_pile_of_a_nonillion_layers_is_as_small_ones_foretell() {
 }
 
 #[test]
-fn the_verdict_of_a_high_pile_is_that_of_its_first_layers() {
+fn the_first_layers_decide_the_verdict_on_a_high_pile() {
     for (head, last) in [
         ("++-", '+'),
         ("+-+", '-'),
@@ -163,8 +163,8 @@ fn the_verdict_of_a_high_pile_is_that_of_its_first_layers() {
 }
 
 #[test]
-fn a_straight_pile_of_a_nonillion_layers_upon_one_as_high() {
-    // Of the upper part by the paper's closed form; turned; and counted on.
+fn a_sign_change_between_two_very_high_runs() {
+    // The upper part by the paper's closed form, then a half-turn, then the increments of the lower part.
     let (upper, lower) = (HIGH, HIGH / 10);
     let pile = Pile::under(Region::SITE, format!("({upper},{lower})").parse().unwrap()).unwrap();
     assert_eq!(pile.plan(Selection::Base).unwrap().method, Method::Tree);
@@ -192,7 +192,7 @@ fn a_straight_pile_of_a_nonillion_layers_upon_one_as_high() {
 }
 
 #[test]
-fn rows_longer_than_one_tree_are_those_of_single_spheres() {
+fn long_rows_by_trees_equal_single_spheres() {
     let pile = Pile::under(Region::SITE, format!("(2,1,{HIGH})").parse().unwrap()).unwrap();
     let forces = pile.forces::<BigRational>();
     assert_eq!(pile.plan(Selection::Base).unwrap().method, Method::Tree);

@@ -1,4 +1,4 @@
-//! Every method gives the same exact forces, and takes no more than its plan says.
+//! Every method gives the same exact forces, and its work stays within its plan.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
@@ -31,7 +31,7 @@ fn under(top: Region, signs: &str) -> Pile {
     Pile::under(top, signs.parse().unwrap()).unwrap()
 }
 
-/// Straight ones of every kind, and others with loads and weights.
+/// Straight piles of every kind, and mixed ones with loads and weights.
 fn piles() -> Vec<Pile> {
     let hexagon = Region::hexagon(3, 2).unwrap();
     let loaded = under(hexagon, "+-++-")
@@ -70,8 +70,8 @@ fn parts(pile: &Pile) -> Vec<Selection> {
     parts
 }
 
-/// The method that does not apply.
-fn unfit(pile: &Pile) -> Option<Method> {
+/// The method that does not apply to a pile.
+fn unsupported_method(pile: &Pile) -> Option<Method> {
     if pile.dimension() == Dimension::Two {
         Some(Method::Sweep)
     } else {
@@ -79,17 +79,17 @@ fn unfit(pile: &Pile) -> Option<Method> {
     }
 }
 
-/// Those that can be swept.
+/// The piles that a sweep can handle.
 fn spheres() -> impl Iterator<Item = Pile> {
     piles()
         .into_iter()
         .filter(|pile| pile.dimension() == Dimension::Three)
 }
 
-/// Puts a question, all of it, and counts.
+/// Answers the whole query and counts the work.
 fn run(pile: &Pile, question: Question) -> Result<Counters, Error> {
     let counters = Counters::default();
-    // Wide enough for the isosceles one, narrow enough for changes of sign.
+    // Wide enough for the isosceles pile, and narrow enough for sign changes.
     let spacing = Spacing::new(ratio(3, 2)).unwrap();
     let (mut forces, packing) = (pile.forces::<BigRational>(), Packing::new(pile, &spacing));
     let mut packing = packing.unwrap();
@@ -108,7 +108,7 @@ fn run(pile: &Pile, question: Question) -> Result<Counters, Error> {
         Quantity::FloorMultiples => drop(all(forces.base(part)?)?),
         Quantity::FloorForces => drop(all(packing.base(part)?)?),
         Quantity::Positions => drop(all(packing.positions(part)?)?),
-        other => panic!("{other} is not asked here"),
+        other => panic!("unexpected quantity {other}"),
     }
     Ok(counters)
 }
@@ -117,8 +117,8 @@ fn all<A>(answers: impl Iterator<Item = Result<A, Error>>) -> Result<Vec<A>, Err
     answers.collect()
 }
 
-/// What a plan promises, and what is counted.
-fn promises(plan: &Plan, counters: &Counters) -> [(&'static str, BigUint, u64); 3] {
+/// The planned and the counted work.
+fn planned_and_counted(plan: &Plan, counters: &Counters) -> [(&'static str, BigUint, u64); 3] {
     [
         ("visited", plan.visited.clone(), counters.visited()),
         ("turned", plan.turned.clone(), counters.turned()),
@@ -127,7 +127,7 @@ fn promises(plan: &Plan, counters: &Counters) -> [(&'static str, BigUint, u64); 
 }
 
 #[test]
-fn nothing_takes_more_than_planned() {
+fn work_stays_within_the_plan() {
     let mut kept = 0;
     for pile in piles() {
         for (part, quantity) in parts(&pile)
@@ -138,12 +138,12 @@ fn nothing_takes_more_than_planned() {
                 let mut question = Question::new(part, quantity);
                 question.method = method;
                 let Ok(plan) = pile.plan(question) else {
-                    // No closed form, or not on the floor.
+                    // These have no closed form, or the part is not on the floor.
                     assert!(run(&pile, question).is_err(), "{pile:?} {question:?}");
                     continue;
                 };
                 let counters = run(&pile, question).unwrap();
-                for (name, most, counted) in promises(&plan, &counters) {
+                for (name, most, counted) in planned_and_counted(&plan, &counters) {
                     let said = format!("{question:?}: {counted} {name}, planned {most}");
                     assert!(BigUint::from(counted) <= most, "{said}");
                 }
@@ -170,22 +170,28 @@ fn all_methods_agree() {
                 Some(all(forces.contacts(part).unwrap()).unwrap())
             };
             let cheapest = contacts(None).unwrap();
-            let unfit = unfit(&pile);
+            let unsupported_method = unsupported_method(&pile);
             for method in METHODS {
                 match contacts(Some(method)) {
                     Some(found) => assert_eq!(found, cheapest, "{method}"),
-                    None => assert_eq!(method, unfit.unwrap()),
+                    None => assert_eq!(method, unsupported_method.unwrap()),
                 }
             }
             for contact in cheapest {
-                for method in METHODS.into_iter().filter(|method| Some(*method) != unfit) {
+                for method in METHODS
+                    .into_iter()
+                    .filter(|method| Some(*method) != unsupported_method)
+                {
                     let forces = exact.clone().with_method(method).unwrap();
                     let one = forces.contact(contact.site, contact.direction).unwrap();
                     assert_eq!(one, contact.force, "{method} {contact:?}");
                 }
             }
         }
-        for method in METHODS.into_iter().filter(|m| Some(*m) != unfit(&pile)) {
+        for method in METHODS
+            .into_iter()
+            .filter(|m| Some(*m) != unsupported_method(&pile))
+        {
             let base = |forces: cannonpile::Forces<'_, BigRational>| {
                 all(forces.base(Selection::Base).unwrap()).unwrap()
             };
@@ -197,7 +203,7 @@ fn all_methods_agree() {
     }
 }
 
-/// All that is filled, layer after layer, and the bound on the errors of the last.
+/// The contents of the slices of all layers, and the error bound of the last one.
 fn filled<T: Algebra>(pile: &Pile) -> (Vec<[T; 3]>, Option<BigRational>) {
     let mut layers = pile.forces::<T>().layers(Selection::All).unwrap();
     let (mut forces, mut bound) = (Vec::new(), None);
@@ -215,7 +221,7 @@ fn filled<T: Algebra>(pile: &Pile) -> (Vec<[T; 3]>, Option<BigRational>) {
 }
 
 #[test]
-fn layers_are_filled_with_the_forces() {
+fn slices_receive_the_forces() {
     for pile in spheres() {
         let forces = pile
             .forces::<BigRational>()
@@ -243,7 +249,7 @@ fn layers_are_filled_with_the_forces() {
     }
 }
 
-/// The worst error of layers that are all stopped at, and the bound on it.
+/// The worst error of layers that are all read, and its bound.
 fn error_and_bound<F: Algebra>(
     pile: &Pile,
     exact: &[[BigRational; 3]],
@@ -271,7 +277,7 @@ fn floats_stay_within_their_bound() {
         let greatest = exact.iter().flatten().max().unwrap();
         let [single, bound] = error_and_bound::<f32>(&pile, &exact, BigRational::from_float);
         assert!(single <= bound, "{single} > {bound}");
-        // And it is of use.
+        // The bound is also useful.
         assert!(bound < ratio(1, 20) * greatest, "{bound} of {greatest}");
         let [double, bound] = error_and_bound::<f64>(&pile, &exact, BigRational::from_float);
         assert!(double <= bound, "{double} > {bound}");
@@ -280,7 +286,7 @@ fn floats_stay_within_their_bound() {
 }
 
 #[test]
-fn layers_say_what_they_do_not_do() {
+fn layers_reject_invalid_queries() {
     let pile = under(Region::SITE, "+-+");
     let forces = pile.forces::<f64>();
     let refused = forces.layers(Selection::Layer(4)).err();
@@ -314,7 +320,7 @@ fn layers_say_what_they_do_not_do() {
             ..
         })
     ));
-    // Discs have two contacts below each.
+    // Each disc has two contacts below it.
     let (forces, _) = filled::<f64>(&discs);
     assert_eq!(
         forces[..3],
@@ -345,14 +351,14 @@ fn one_contact_of_a_million_layers_visits_no_other_sphere() {
     assert_eq!((counters.visited(), counters.turned()), (1, 0));
 }
 
-/// Rows from a negative one on, and from 0.
+/// The rows start at a negative index, and at 0.
 #[test]
-fn wide_layers_are_swept_in_bands() {
-    are_swept_in_bands(Region::hexagon(70, 60).unwrap(), -5);
-    are_swept_in_bands(Region::triangle(150).unwrap(), 5);
+fn wide_layers_use_bands_of_rows() {
+    check_bands(Region::hexagon(70, 60).unwrap(), -5);
+    check_bands(Region::triangle(150).unwrap(), 5);
 }
 
-fn are_swept_in_bands(top: Region, loaded: i128) {
+fn check_bands(top: Region, loaded: i128) {
     let loaded = Site {
         i: 3,
         j: loaded,
@@ -380,8 +386,8 @@ fn are_swept_in_bands(top: Region, loaded: i128) {
         let bound = floats.error_bound().unwrap();
         let sites = pile.rows(Selection::Layer(k)).unwrap().flatten();
         for (place, site) in sites.enumerate().step_by(101) {
-            let passed_on = exact.to_below(site).unwrap();
-            for (direction, force) in Direction::ALL.into_iter().zip(passed_on) {
+            let below = exact.to_below(site).unwrap();
+            for (direction, force) in Direction::ALL.into_iter().zip(below) {
                 assert_eq!(lines.contact(site, direction).unwrap(), force, "{site}");
                 let float = forces[direction.index()][place];
                 let error = (BigRational::from_float(float).unwrap() - force).abs();
@@ -391,9 +397,9 @@ fn are_swept_in_bands(top: Region, loaded: i128) {
     }
 }
 
-/// So many spheres that they are filled in several parts.
+/// A pile so large that several chunks fill its slices.
 #[test]
-fn large_piles_are_filled_in_parts() {
+fn chunks_fill_the_slices_of_large_piles() {
     let layers = 90;
     let pile = Pile::triangular(layers).unwrap();
     let layers = || pile.forces::<BigRational>().layers(Selection::All).unwrap();
@@ -404,15 +410,15 @@ fn large_piles_are_filled_in_parts() {
     assert_eq!(numerators.fill([&mut a, &mut b, &mut c]), Ok(1.into()));
     let sites = pile.rows(Selection::All).unwrap().off_the_floor().flatten();
     for (place, Site { i, j, k }) in sites.enumerate() {
-        // The paper's counts, and the sphere itself.
+        // The paper's counts plus the sphere itself.
         let counts = [k - i - j + 1, i + 1, j + 1];
         assert_eq!([a[place], b[place], c[place]].map(i128::from), counts);
     }
 }
 
-/// A scalar that rounds and overflows too: numbers it does not hold are an error, never left in the slices unsaid.
+/// A scalar that rounds and can overflow. A value that it cannot represent is an error and never stays in a slice.
 #[test]
-fn what_overflows_in_a_sweep_is_an_error() {
+fn an_overflow_in_a_sweep_is_an_error() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(50).unwrap()).unwrap();
     let forces = pile.forces::<Pair<f64, FixedRational<i64>>>();
     let layers = forces.layers(Selection::Layer(48)).unwrap();
@@ -422,10 +428,10 @@ fn what_overflows_in_a_sweep_is_an_error() {
     assert!(matches!(filled, Err(Error::Overflow { .. })));
 }
 
-/// One sphere below more changes of sign than a tree may have nodes: the plan says a sweep, and so it is, asked for in
-/// rows or alone.
+/// A sphere with too many sign changes above it for a tree. The plan chooses a sweep, and both queries follow it: for rows
+/// and for one sphere.
 #[test]
-fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
+fn a_sweep_replaces_a_tree_that_is_too_large_for_one_sphere() {
     let layers = 420;
     let pile = Pile::under(Region::SITE, Stacking::hcp(layers).unwrap()).unwrap();
     let site = Site {
@@ -435,22 +441,22 @@ fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
     };
     let plan = pile.plan(Selection::One(site)).unwrap();
     assert_eq!(plan.method, Method::Sweep);
-    // Each exact number in the words of an integer that grows, and in those of its digits.
+    // Each exact value takes the words of its `BigInt` and of its digits.
     let words = plan.planes + size_of::<BigInt>().div_ceil(8);
     assert_eq!(plan.bytes, &plan.numbers * words * 8_u32);
     let counters = Counters::default();
     let forces = pile.forces::<f64>().with_counters(&counters);
     let three = all(forces.contacts(Selection::One(site)).unwrap()).unwrap();
     assert_eq!(three.len(), 3);
-    for (name, most, counted) in promises(&plan, &counters) {
+    for (name, most, counted) in planned_and_counted(&plan, &counters) {
         assert!(BigUint::from(counted) <= most, "{counted} {name}");
     }
     assert!(counters.passes() > 400);
 }
 
-/// Loads with long denominators, so that numbers have as many limbs as threads share out.
+/// Loads with long denominators, so that the values have as many limbs as the threads share.
 #[test]
-fn wide_numbers_are_swept_limb_by_limb() {
+fn wide_values_sweep_limb_by_limb() {
     let long = |power: u32, at: Site, pile: Pile| {
         let load = BigRational::new(1.into(), BigInt::from(10).pow(power));
         pile.with_load(at, load).unwrap()
@@ -464,10 +470,10 @@ fn wide_numbers_are_swept_limb_by_limb() {
         .forces::<BigRational>()
         .with_method(Method::Tree)
         .unwrap();
-    // One after the other, and each in one go, so that passes wait for each other.
-    let mut in_turn = pile.forces::<BigRational>().layers(Selection::All).unwrap();
+    // Reads the layers in order, and then each layer directly, with deferred passes.
+    let mut in_order = pile.forces::<BigRational>().layers(Selection::All).unwrap();
     for k in 0..pile.layers() - 1 {
-        let next = in_turn.next_layer().unwrap().unwrap();
+        let next = in_order.next_layer().unwrap().unwrap();
         let mut at_once = pile
             .forces::<BigRational>()
             .layers(Selection::Layer(k))
@@ -481,17 +487,17 @@ fn wide_numbers_are_swept_limb_by_limb() {
     }
 }
 
-/// Numbers outgrow one limb after another; what is asked on the way changes nothing.
+/// Values gradually need more limbs. Queries on the way do not change the result.
 #[test]
-fn numbers_grow_limb_by_limb() {
+fn values_grow_limb_by_limb() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(160).unwrap()).unwrap();
     let last = pile.layers() - 2;
     let forces = pile.forces::<BigRational>();
-    let mut straight_down = forces.layers(Selection::Layer(last)).unwrap();
-    let straight_down = straight_down.next_layer().unwrap().unwrap();
-    let mut in_steps = forces.layers(Selection::All).unwrap();
-    let in_steps = loop {
-        let layer = in_steps.next_layer().unwrap().unwrap();
+    let mut direct = forces.layers(Selection::Layer(last)).unwrap();
+    let direct = direct.next_layer().unwrap().unwrap();
+    let mut stepwise = forces.layers(Selection::All).unwrap();
+    let stepwise = loop {
+        let layer = stepwise.next_layer().unwrap().unwrap();
         if [1, 2, 9, 11, 40, 41, 43, 90, 131].contains(&layer.k()) {
             let [[i, j], ..] = pile.shape().layer(layer.k()).unwrap().corners();
             layer.to_below(Site { i, j, k: layer.k() }).unwrap();
@@ -502,17 +508,17 @@ fn numbers_grow_limb_by_limb() {
     };
     let mut sum = BigRational::default();
     for site in pile.rows(Selection::Layer(last)).unwrap().flatten() {
-        let forces = straight_down.to_below(site).unwrap();
-        assert_eq!(in_steps.to_below(site).unwrap(), forces, "{site}");
+        let forces = direct.to_below(site).unwrap();
+        assert_eq!(stepwise.to_below(site).unwrap(), forces, "{site}");
         sum += forces.into_iter().sum::<BigRational>();
     }
-    // f cosθ of each contact together carry all layers above: f is in mg/(3 cosθ).
+    // The vertical parts f cosθ of all contacts support all layers above. f is in mg/(3 cosθ).
     let floor = pile.shape().base().site_count();
     let above = BigInt::from(pile.sphere_count() - floor);
     assert_eq!(sum, BigRational::from_integer(above * 3));
 }
 
-/// In floats, where 1 + 2^53 is not: the spheres on the line are counted before a load is added to them.
+/// `f64` cannot represent 1 + 2^53. So the spheres on the line must be counted before the load is added.
 #[test]
 fn a_closed_force_is_rounded_once() {
     let load = BigRational::from_integer(BigInt::from(1_i64 << 53));
@@ -523,9 +529,9 @@ fn a_closed_force_is_rounded_once() {
     assert_eq!(force, Ok(9_007_199_254_740_994.0));
 }
 
-/// Lines that several spheres of a row share are gone along once.
+/// Several spheres of a row share lines. The tree visits each line once.
 #[test]
-fn a_row_by_trees_visits_each_sphere_once() {
+fn a_row_by_trees_visits_each_line_once() {
     let pile = under(Region::SITE, "+-+");
     let counters = Counters::default();
     let forces = pile

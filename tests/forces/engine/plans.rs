@@ -1,4 +1,4 @@
-//! Plans and counters to the unit: each number worked out by hand from what it is said to be.
+//! Exact plans and counters. Each number was worked out by hand from its definition.
 
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::shape::Selection;
@@ -10,7 +10,7 @@ use num_traits::ToPrimitive;
 use cannonpile_testkit::cases::stacking;
 use cannonpile_testkit::oracles::balance::ratio;
 
-/// The most numbers that a sweep keeps.
+/// The maximal number of values in a sweep.
 const MOST_NUMBERS: u64 = 134_217_728;
 
 fn under_one_sphere(signs: &str) -> Pile {
@@ -27,13 +27,13 @@ fn by(method: Method, part: Selection) -> Question {
     Question::from(part).with_method(method)
 }
 
-/// Layers of 1, 3, 7, 12, 19 and 27 spheres.
+/// The layers have 1, 3, 7, 12, 19 and 27 spheres.
 #[test]
 fn a_sweep_to_the_floor_of_six_layers() {
     let pile = under_one_sphere("+-+-+");
     let plan = pile.plan(Selection::Base).unwrap();
     assert_eq!(plan.method, Method::Sweep);
-    // Five runs, and one stop; 3·27 numbers.
+    // Five runs and one stop, with 3·27 values.
     assert_eq!(plan.runs, 5);
     assert_eq!(plan.passes, 6_u32.into());
     assert_eq!(plan.numbers, 81_u32.into());
@@ -41,7 +41,7 @@ fn a_sweep_to_the_floor_of_six_layers() {
     assert_eq!(plan.rows, 27_u32.into());
     assert_eq!(plan.turned, (3_u32 + 7 + 12 + 19).into());
     assert_eq!(plan.bytes, (81_u32 * 8).into());
-    // ⌊√(36·6·69)⌋ + 1 = 123, and three times as much for each change of sign but the first: 123·27 = 3321 < 2¹².
+    // ⌊√(36·6·69)⌋ + 1 = 123, tripled for each sign change but the first: 123·27 = 3321 < 2¹².
     assert_eq!((plan.bits, plan.planes, plan.reserved), (12, 1, 62));
 
     let counters = Counters::default();
@@ -50,18 +50,18 @@ fn a_sweep_to_the_floor_of_six_layers() {
     assert_eq!(forces.base(Selection::Base).unwrap().count(), 27);
     assert_eq!((counters.passes(), counters.turned()), (5, 41));
     assert_eq!((counters.visited(), counters.rows()), (27, 27));
-    let told = "27 visited, 41 turned, 5 passes, 27 rows";
-    assert_eq!(counters.to_string(), told);
+    let printed = "27 visited, 41 turned, 5 passes, 27 rows";
+    assert_eq!(counters.to_string(), printed);
 }
 
-/// A layer at a change of sign: what it passes on is turned, and as wide as that.
+/// A layer at a sign change transmits forces after a half-turn. The bit width includes it.
 #[test]
-fn the_width_of_numbers_is_that_after_the_change_of_sign_they_stop_at() {
+fn the_bit_width_includes_the_last_sign_change() {
     let (layer, pile) = (Selection::Layer(2), under_one_sphere("+-+"));
     let bits = |pile: &Pile| pile.plan(by(Method::Sweep, layer)).unwrap().bits;
     // ⌊√(36·3·11)⌋ + 1 = 35, tripled once: 105 < 2⁷.
     assert_eq!(bits(&pile), 7);
-    // Of loads alone: six times 7/2, over 2, tripled: 126 < 2⁷.
+    // For loads only: six times 7/2, over the denominator 2, tripled: 126 < 2⁷.
     let response = pile.weightless().with_load(Site::APEX, ratio(7, 2));
     assert_eq!(bits(&response.unwrap()), 7);
     let straight = under_one_sphere("++");
@@ -69,18 +69,18 @@ fn the_width_of_numbers_is_that_after_the_change_of_sign_they_stop_at() {
     assert_eq!(straight.plan(Selection::Layer(1)).unwrap().runs, 1);
 }
 
-/// Of 11 spheres above the floor, in 3 layers of at most 3 rows: 9 pieces, each below at most the 3 spheres at the change
-/// of sign in layer 1.
+/// The pile has 11 spheres above the bottom layer, in 3 layers of at most 3 rows. This gives 9 pieces, each below at most 3
+/// spheres at the sign change in layer 1.
 #[test]
 fn trees_are_planned_piece_by_piece() {
     let pile = under_one_sphere("+-+");
     let plan = pile.plan(by(Method::Tree, Selection::All)).unwrap();
     assert_eq!(plan.turned, (9_u32 * 3 + 11).into());
     assert_eq!(plan.visited, (9_u32 * 3 + 11).into());
-    // Of one layer alone 3 pieces.
+    // One layer has 3 pieces.
     let layer = pile.plan(by(Method::Tree, Selection::Layer(2))).unwrap();
     assert_eq!(layer.turned, (3_u32 * 3 + 7).into());
-    // Of one sphere three at the last change of sign, and nine of ten at the first.
+    // One sphere depends on three at the last sign change and on nine of ten at the first.
     let pile = under_one_sphere("+++---+++");
     let one = Selection::One(Site { i: 0, j: 0, k: 8 });
     let plan = pile.plan(one).unwrap();
@@ -90,41 +90,41 @@ fn trees_are_planned_piece_by_piece() {
 }
 
 #[test]
-fn a_plan_is_told_in_a_line() {
-    let told = |signs, question: Question| {
+fn a_plan_prints_as_one_line() {
+    let printed = |signs, question: Question| {
         let plan = under_one_sphere(signs).plan(question).unwrap();
         plan.to_string()
     };
     let one = Selection::One(Site::APEX);
-    assert_eq!(told("+++", Selection::All.into()), "closed");
+    assert_eq!(printed("+++", Selection::All.into()), "closed");
     let swept = "sweep: 5 runs, 81 numbers of 1 x 64 bits";
-    assert_eq!(told("+-+-+", Selection::Base.into()), swept);
+    assert_eq!(printed("+-+-+", Selection::Base.into()), swept);
     assert_eq!(
-        told("+-+", by(Method::Tree, Selection::All)),
+        printed("+-+", by(Method::Tree, Selection::All)),
         "tree: 2 runs"
     );
-    assert_eq!(told("+-+", one.into()), "tree: 0 runs");
+    assert_eq!(printed("+-+", one.into()), "tree: 0 runs");
 }
 
 #[test]
-fn a_sphere_inside_a_run_is_one_of_three_at_the_change_above() {
+fn a_sphere_inside_a_run_depends_on_three_at_the_change() {
     let pile = under_one_sphere("+--");
     let nodes =
         |i, j, k| Direction::ALL.map(|line| pile.tree_size(Site { i, j, k }, line).unwrap());
     assert_eq!(nodes(0, 0, 0), [0; 3]);
-    // At the change of sign: itself.
+    // At the sign change: the sphere itself.
     assert_eq!(nodes(0, 0, 1), [1; 3]);
-    // Each line comes from one of the three there.
+    // Each line comes from one of the three spheres at the change.
     assert_eq!(nodes(0, 0, 2), [1; 3]);
     let counters = Counters::default();
     let forces = pile.forces::<BigRational>().with_counters(&counters);
     forces.from_above(Site { i: 0, j: 0, k: 2 }).unwrap();
-    // The three, and itself.
+    // The three spheres and the sphere itself.
     assert_eq!((counters.turned(), counters.visited()), (3, 4));
 }
 
 #[test]
-fn a_selection_alone_asks_for_multiples() {
+fn a_bare_selection_queries_multiples() {
     let quantity = |part| Question::from(part).quantity;
     assert_eq!(quantity(Selection::Base), Quantity::FloorMultiples);
     for part in [
@@ -136,9 +136,9 @@ fn a_selection_alone_asks_for_multiples() {
     }
 }
 
-/// Three layers under a row of n spheres: of n, 2n + 1 and 3n + 4.
+/// Three layers under a row of n spheres have n, 2n + 1 and 3n + 4 spheres.
 #[test]
-fn a_sweep_keeps_2_to_the_27_numbers_and_no_more() {
+fn a_sweep_has_at_most_2_to_the_27_values() {
     let plan = |n| under_a_row(n, "+-").plan(by(Method::Sweep, Selection::Base));
     let most: Plan = plan(14_913_079).unwrap();
     assert_eq!(most.numbers, BigUint::from(MOST_NUMBERS - 5));
@@ -151,9 +151,9 @@ fn a_sweep_keeps_2_to_the_27_numbers_and_no_more() {
     assert_eq!(plan(14_913_080), Err(refused));
 }
 
-/// A float is one word; an exact integer is what it is kept in, and its digits elsewhere.
+/// A float takes one word. An exact integer takes its own struct plus one word of digits.
 #[test]
-fn a_sweep_for_one_sphere_is_refused_with_the_words_that_it_needs() {
+fn a_rejected_sweep_reports_the_words_it_needs() {
     let n = 50_000_000;
     let (pile, site) = (under_a_row(n, "+-"), Site { i: 7, j: 0, k: 1 });
     let refused = |result: Result<(), Error>| match result {
@@ -172,7 +172,7 @@ fn a_sweep_for_one_sphere_is_refused_with_the_words_that_it_needs() {
 }
 
 #[test]
-fn floats_below_changes_of_sign_are_near_the_exact_forces() {
+fn floats_below_sign_changes_are_close_to_exact_forces() {
     let pile = under_one_sphere("+-++-");
     let (floats, exact) = (pile.forces::<f64>(), pile.forces::<BigRational>());
     let by_sweep = floats.clone().with_method(Method::Sweep).unwrap();

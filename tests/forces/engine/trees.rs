@@ -1,4 +1,4 @@
-//! How many spheres the tree of a contact visits.
+//! The number of spheres that the tree of a contact visits.
 
 use std::collections::BTreeSet;
 
@@ -10,44 +10,44 @@ use cannonpile::{Error, Method, Pile};
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
 use cannonpile_testkit::oracles::balance::{Balance, Place, direction, site};
 
-/// Whether the sign changes at the layer of a sphere.
+/// Tells whether the sign changes at layer k.
 fn at_a_change(balance: &Balance, k: i128) -> bool {
     balance
         .sign(k - 1)
         .is_some_and(|above| balance.sign(k) != Some(above))
 }
 
-/// The spheres at changes of sign that a contact depends on, found by following each line up to where it begins.
+/// The spheres at sign changes on which a contact depends. The search follows each line to its start.
 fn visited(balance: &Balance, contact: (Place, usize)) -> BTreeSet<Place> {
     let mut found = BTreeSet::new();
-    let mut waiting = vec![contact];
-    while let Some((at, m)) = waiting.pop() {
+    let mut pending = vec![contact];
+    while let Some((at, m)) = pending.pop() {
         let mixed = at_a_change(balance, at.0);
         if mixed && !found.insert(at) {
             continue;
         }
         for direction in 0..3 {
             if mixed || direction == m {
-                waiting.extend(balance.above(at, direction).map(|above| (above, direction)));
+                pending.extend(balance.above(at, direction).map(|above| (above, direction)));
             }
         }
     }
     found
 }
 
-/// All spheres that bear down on one, itself included.
+/// All spheres on the dependency cone of one sphere, itself included.
 fn cone(balance: &Balance, at: Place) -> BTreeSet<Place> {
     let mut cone = BTreeSet::new();
-    let mut waiting = vec![at];
-    while let Some(at) = waiting.pop() {
+    let mut pending = vec![at];
+    while let Some(at) = pending.pop() {
         if cone.insert(at) {
-            waiting.extend((0..3).filter_map(|m| balance.above(at, m)));
+            pending.extend((0..3).filter_map(|m| balance.above(at, m)));
         }
     }
     cone
 }
 
-fn visits_what_it_must(case: &Case) {
+fn tree_size_is_exact(case: &Case) {
     let balance = &case.balance;
     for at in balance.places().filter(|at| balance.sign(at.0).is_some()) {
         let changes = (0..=at.0).filter(|k| at_a_change(balance, *k)).count();
@@ -63,30 +63,30 @@ fn visits_what_it_must(case: &Case) {
 }
 
 #[test]
-fn a_tree_visits_the_spheres_that_its_lines_pass_at_changes_and_each_once() {
+fn a_tree_visits_each_dependency_once() {
     for signs in (1..8).flat_map(all_signs) {
-        visits_what_it_must(&Case::under(&Bounds::SITE, &signs));
+        tree_size_is_exact(&Case::under(&Bounds::SITE, &signs));
     }
-    visits_what_it_must(&Case::under(&Bounds::SITE, &repeated("+-", 11)));
+    tree_size_is_exact(&Case::under(&Bounds::SITE, &repeated("+-", 11)));
     let mut random = Random(81);
     for _ in 0..40 {
         let signs = random.signs(8);
-        visits_what_it_must(&Case::under(&random.bounds(4), &signs));
+        tree_size_is_exact(&Case::under(&random.bounds(4), &signs));
         if let Some(case) = Case::on(&random.bounds(12), &signs) {
-            visits_what_it_must(&case);
+            tree_size_is_exact(&case);
         }
     }
 }
 
 #[test]
-fn no_tree_is_asked_of_a_bottom_sphere_for_a_contact() {
+fn a_bottom_sphere_has_no_tree_of_a_contact() {
     let case = Case::under(&Bounds::SITE, "+-");
     let bottom = Site { i: 0, j: 0, k: 2 };
     assert!(case.pile.tree_size(bottom, Direction::Alpha).is_err());
 }
 
 #[test]
-fn where_a_tree_would_be_too_large_a_sweep_answers() {
+fn a_sweep_replaces_a_tree_that_is_too_large() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(400).unwrap()).unwrap();
     let middle = Site { i: 0, j: 0, k: 398 };
     assert!(matches!(
@@ -94,7 +94,7 @@ fn where_a_tree_would_be_too_large_a_sweep_answers() {
         Err(Error::TooLarge { .. })
     ));
     let forces = pile.forces::<f64>();
-    // But not where a tree is asked for.
+    // An explicit tree is still rejected.
     let by_tree = forces.clone().with_method(Method::Tree).unwrap();
     let refused = by_tree.contact(middle, Direction::Alpha);
     assert!(matches!(refused, Err(Error::TooLarge { .. })));
@@ -107,9 +107,9 @@ fn where_a_tree_would_be_too_large_a_sweep_answers() {
     assert_eq!(in_rows.map(|contact| contact.force), Some(one));
 }
 
-/// Nobody asked for a sweep, so that its refusal would be a riddle.
+/// The error must not mention a sweep, because the caller did not choose one.
 #[test]
-fn where_both_would_be_too_large_the_tree_is_what_is_refused() {
+fn the_error_names_the_tree_if_both_are_too_large() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(10_000).unwrap()).unwrap();
     let middle = Site {
         i: 0,

@@ -1,5 +1,5 @@
-//! The exact engine on both sides of every switch of its width: its numbers are those of the trees, of the oracle and of
-//! brute force, and as wide as was proved, or a few bits less.
+//! The exact engine on both sides of every switch of its bit width. Its values equal those of trees, of the oracle and of
+//! brute force. The proved width is exact or a few bits too large.
 
 use std::collections::BTreeSet;
 
@@ -26,20 +26,20 @@ fn power(base: u32, exponent: u32) -> BigInt {
     BigInt::from(base).pow(exponent)
 }
 
-/// So many limbs, each as great as one may be after a carry.
+/// A value with `limbs` limbs, each as large as possible after a carry.
 fn full(limbs: u32) -> BigInt {
     let limb = power(2, LIMB - 1) - 1;
     (0..limbs).map(|p| &limb * power(2, p * LIMB)).sum()
 }
 
-/// The bits of the greatest number that a sweep meets, sums on the way through a half-turn included.
+/// The bits of the greatest value of a sweep, including the intermediate sums of a half-turn.
 fn needed(case: &Case) -> u64 {
     let passed = brute::all(&case.balance);
     let greatest = passed.iter().map(|passed| passed.greatest.bits());
     greatest.max().unwrap_or(0)
 }
 
-/// Bits needed ≤ bits proved ≤ bits reserved, and no more than `loose` bits too many.
+/// Bits needed ≤ bits proved ≤ bits reserved. The proved bits exceed the needed ones by at most `loose`.
 fn is_wide_enough(case: &Case, loose: u64) {
     let (plan, needed) = (plan(case), needed(case));
     let Plan {
@@ -48,14 +48,17 @@ fn is_wide_enough(case: &Case, loose: u64) {
         planes,
         ..
     } = plan;
-    let said = format!("{needed} {bits} {reserved} {planes} {}", case.balance.signs);
-    assert!(needed <= bits && bits <= needed + loose, "{said}");
-    assert!(bits <= reserved, "{said}");
-    assert!(planes == 1 || bits + u64::from(LIMB) > reserved, "{said}");
+    let witness = format!("{needed} {bits} {reserved} {planes} {}", case.balance.signs);
+    assert!(needed <= bits && bits <= needed + loose, "{witness}");
+    assert!(bits <= reserved, "{witness}");
+    assert!(
+        planes == 1 || bits + u64::from(LIMB) > reserved,
+        "{witness}"
+    );
 }
 
 #[test]
-fn the_bound_is_never_exceeded_and_at_most_7_bits_loose() {
+fn the_bound_holds_and_is_tight_to_7_bits() {
     for signs in (2..=9).flat_map(all_signs) {
         let case = Case::under(&Bounds::SITE, &signs);
         if !case.pile.shape().stacking().is_straight() {
@@ -75,7 +78,7 @@ fn the_bound_is_never_exceeded_and_at_most_7_bits_loose() {
 }
 
 #[test]
-fn the_bound_holds_for_one_load_and_is_at_most_5_bits_loose() {
+fn the_bound_holds_for_one_load_and_is_tight_to_5_bits() {
     for signs in ["+-", "+-+-", "++-", "+-+-+-+-+-"] {
         for exponent in 0..130 {
             let load = BigRational::from(power(2, exponent));
@@ -93,18 +96,18 @@ fn the_bound_holds_for_many_loads() {
     for _ in 0..100 {
         let signs = format!("+-{}", random.signs(5));
         let mut case = Case::under(&random.bounds(3), &signs);
-        // A load on the floor is counted, and never on a line.
+        // A load in the bottom layer counts towards the bound but is never on a line.
         let places: Vec<_> = case.balance.places().filter(|at| at.0 < 7).collect();
         for _ in 0..10 {
             case = case.with_load(places[random.below(places.len())], &random.rational());
         }
-        // Ten loads on different spheres are summed as if they met: √10 too much, at worst.
+        // The bound adds the norms of ten loads on different spheres, which overestimates by at most √10.
         is_wide_enough(&case, 10);
     }
 }
 
 #[test]
-fn what_weighs_less_does_not_make_up_for_a_load() {
+fn light_spheres_do_not_offset_a_load() {
     for signs in ["+-+-+-+-+-", "+-+++++++++++", "+-+-+++++++++++"] {
         let mut case = Case::under(&Bounds::SITE, signs);
         let below: Vec<_> = case.balance.places().skip(1).collect();
@@ -116,13 +119,13 @@ fn what_weighs_less_does_not_make_up_for_a_load() {
     }
 }
 
-/// Whether it is n/d, without lowest terms, which take longer than all else.
+/// Tells whether x = n/d, without reduction to lowest terms, which would dominate the run time.
 fn is_quotient(x: &BigRational, n: &BigInt, d: &BigInt) -> bool {
     x.numer() * d == n * x.denom()
 }
 
-/// The sweep of the whole pile beside brute force; the tree for one contact of many.
-fn is_brute_force(case: &Case, selection: Selection) {
+/// Compares the sweep of a part with brute force, and the tree for some of its contacts.
+fn agrees_with_brute_force(case: &Case, selection: Selection) {
     let (passed, d) = (brute::all(&case.balance), brute::denominator(&case.balance));
     let forces = case.pile.forces::<BigRational>();
     let contacts = forces.contacts(selection).unwrap();
@@ -161,7 +164,7 @@ fn is_brute_force(case: &Case, selection: Selection) {
     }
 }
 
-/// The least numbers of steps at which a periodic stacking needs one plane more.
+/// The numbers of steps at which a periodic stacking needs one more limb plane.
 fn switches(period: &str, most: usize) -> Vec<usize> {
     let planes = |steps: usize| plan(&bare(period, steps)).planes;
     (6..most)
@@ -169,7 +172,7 @@ fn switches(period: &str, most: usize) -> Vec<usize> {
         .collect()
 }
 
-/// For the plan alone: without the sites of the oracle.
+/// A case for the plan only, without the oracle's sites.
 fn bare(period: &str, steps: usize) -> Case {
     let mut case = Case::under(&Bounds::SITE, "");
     let stacking = cannonpile_testkit::cases::stacking(&repeated(period, steps));
@@ -178,7 +181,7 @@ fn bare(period: &str, steps: usize) -> Case {
 }
 
 #[test]
-fn high_stackings_on_both_sides_of_the_first_switches() {
+fn high_stackings_around_the_first_switches() {
     let mut planes = BTreeSet::new();
     for (period, most) in [("+-", 106), ("+--", 60)] {
         for steps in switches(period, most) {
@@ -192,7 +195,7 @@ fn high_stackings_on_both_sides_of_the_first_switches() {
                 } else {
                     Selection::Layer(lowest)
                 };
-                is_brute_force(&case, selection);
+                agrees_with_brute_force(&case, selection);
             }
         }
     }
@@ -200,9 +203,9 @@ fn high_stackings_on_both_sides_of_the_first_switches() {
 }
 
 #[test]
-fn a_load_of_any_power_of_two() {
+fn loads_at_any_power_of_two() {
     let mut planes = BTreeSet::new();
-    // From a limb's border on, and about 62 bits, where the first one ends.
+    // Exponents from a limb boundary on, and near 62 bits, where the first limb ends.
     let near = |e: &u32| {
         [0..4, 7..20, LIMB - 1..LIMB]
             .iter()
@@ -224,8 +227,8 @@ fn a_load_of_any_power_of_two() {
 }
 
 #[test]
-fn limbs_that_are_all_full_or_all_empty() {
-    // Over one denominator, limbs as great as they are after a carry, and of 0 and 1.
+fn full_and_empty_limbs() {
+    // Limbs over one denominator, each as large as after a carry, or 0 and 1.
     for (limbs, signs) in [
         (1, "+-+-+-+-+-"),
         (2, "-+-+-++-+-"),
@@ -249,19 +252,19 @@ fn limbs_that_are_all_full_or_all_empty() {
 }
 
 #[test]
-fn many_turns_between_carries() {
+fn many_half_turns_between_carries() {
     // A denominator of full limbs fills the lower limbs of every increment.
     for limbs in [1, 2] {
         let load = BigRational::new(1.into(), full(limbs));
         let case = Case::under(&Bounds::SITE, &repeated("+-", 23));
         let case = case.with_load((0, 0, 0), &load);
         assert!(plan(&case).planes > 1);
-        is_brute_force(&case, Selection::All);
+        agrees_with_brute_force(&case, Selection::All);
     }
 }
 
 #[test]
-fn layer_by_layer_from_any_layer_on() {
+fn single_layers_equal_the_whole_pile() {
     let load = BigRational::from(power(2, 100));
     let case = Case::under(&Bounds::SITE, "+-+-++--+-").with_load((3, 0, 0), &load);
     let forces = case.balance.forces();

@@ -1,5 +1,5 @@
-//! Every contact and every base sphere of every straight pile up to 12 layers, against elimination; and the oracle of
-//! any stacking against elimination, where both apply, and against the equations that it solves.
+//! Every contact and every base sphere of every straight pile up to 12 layers, compared with elimination. The oracle of any
+//! stacking is compared with elimination where both apply, and with the equations that it solves.
 
 use cannonpile::geometry::Vector;
 use num_bigint::BigInt;
@@ -36,7 +36,7 @@ fn discs() {
     agrees(&Shape::Discs);
 }
 
-/// A straight pile is one of any stacking.
+/// Compares both oracles on straight piles.
 #[test]
 fn both_oracles_agree() {
     for layers in 1..=8 {
@@ -59,8 +59,8 @@ fn both_oracles_agree() {
     }
 }
 
-/// What a sphere hands on is what it receives and what it weighs, and pushes along the lines of centres, whose places
-/// come from no equation of the oracle's.
+/// Checks that each sphere transmits the incoming forces and its weight, along the lines of centres. The positions of the
+/// centres are independent of the oracle's equations.
 fn balances(pile: &Balance, forces: &Forces) -> bool {
     let along = |from: [BigInt; 2], to: [BigInt; 2], axis: usize| {
         BigRational::from(&to[axis] - &from[axis])
@@ -99,7 +99,7 @@ fn the_oracle_of_any_stacking_balances_every_sphere() {
         }
         let forces = pile.forces();
         assert!(balances(&pile, &forces), "{pile:?}");
-        // And not with a force a little greater.
+        // A slightly larger force is rejected.
         let mut wrong = forces.clone();
         let place = places[random.below(forces.below.len())];
         wrong.below.get_mut(&place).unwrap()[random.below(3)] += ratio(1, i64::MAX);

@@ -1,7 +1,7 @@
-//! Every contact, every bottom sphere and every verdict of small piles, exactly as the oracle has them.
+//! Every contact, every bottom sphere and every verdict of small piles equals the oracle's, exactly.
 //!
-//! Under one sphere: all stackings up to 9 layers. On a base: triangles and hexagons with sides up to 6, with all
-//! stackings of every height that they carry.
+//! Under one sphere: all stackings up to 9 layers. On triangles and hexagons with sides up to 6: all stackings of every
+//! height that they support.
 
 use std::ops::RangeInclusive;
 
@@ -20,7 +20,7 @@ fn every_stacking_under_one_sphere_up_to_9_layers() {
     }
 }
 
-/// Every `step`-th stacking, carried to every height, of the bases of these sides.
+/// Compares every `step`-th stacking of every height on the bases with these sides.
 fn agree_on(sides: RangeInclusive<i128>, step: usize) {
     for (_, _, base) in bases().filter(|(p, q, _)| sides.contains(p.max(q))) {
         for signs in all_on(&base).into_iter().step_by(step) {
@@ -37,12 +37,12 @@ fn every_stacking_on_triangles_and_hexagons_with_sides_up_to_5() {
 
 #[test]
 fn every_stacking_on_triangles_and_hexagons_with_a_side_of_6() {
-    // All of them in release, which wraps; every seventh where arithmetic is checked, and takes its time.
+    // All of them in release. Only every seventh in debug, where checked arithmetic is slow.
     agree_on(6..=6, if cfg!(debug_assertions) { 7 } else { 1 });
 }
 
 #[test]
-fn a_layer_alone_has_the_forces_that_it_has_among_all() {
+fn a_single_layer_has_the_forces_of_the_whole_pile() {
     let mut random = Random(8);
     for _ in 0..30 {
         let signs = random.signs(8);
@@ -55,7 +55,7 @@ fn a_layer_alone_has_the_forces_that_it_has_among_all() {
 }
 
 #[test]
-fn the_named_regions_are_those_of_the_bounds() {
+fn named_regions_have_the_expected_bounds() {
     for (p, q, bounds) in bases() {
         assert_eq!(Region::hexagon(p, q), Ok(bounds.region()));
     }
@@ -65,7 +65,7 @@ fn the_named_regions_are_those_of_the_bounds() {
     assert_eq!(Region::SITE, Bounds::SITE.region());
 }
 
-/// Hexagons, which with a side of 1 are triangles, of either orientation.
+/// Hexagons of both orientations. Those with a side of 1 are triangles.
 fn bases() -> impl Iterator<Item = (i128, i128, Bounds)> {
     (1..=6).flat_map(|p| (1..=6).map(move |q| (p, q, Bounds::hexagon(p, q))))
 }

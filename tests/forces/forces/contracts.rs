@@ -1,4 +1,4 @@
-//! What the documentation promises at the edges: of other piles' rows, single layers, straight piles of − steps.
+//! Documented special cases: a single layer, and straight piles of − steps.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Region;
@@ -13,7 +13,7 @@ fn under_one_sphere(signs: &str) -> Pile {
 }
 
 #[test]
-fn a_single_layer_is_the_same_stacking_with_no_sign_reversed() {
+fn a_single_layer_is_its_own_mirror_image() {
     let single = Stacking::single_layer();
     assert_eq!(single.mirrored(), single);
     let [pile, image] = [single.clone(), single.mirrored()].map(|s| Pile::under(Region::SITE, s));
@@ -21,7 +21,7 @@ fn a_single_layer_is_the_same_stacking_with_no_sign_reversed() {
 }
 
 #[test]
-fn a_straight_pile_of_minus_steps_is_as_well_known_as_its_mirror_image() {
+fn a_straight_minus_pile_matches_its_mirror_image() {
     let (plus, minus) = (repeated("+", 5), repeated("-", 5));
     let [plus, minus] = [plus, minus].map(|signs| under_one_sphere(&signs));
     for n in 0..7 {

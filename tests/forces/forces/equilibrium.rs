@@ -1,12 +1,12 @@
-//! Every sphere of every pile up to a size is in exact equilibrium, and the base carries the pile.
+//! Every sphere of every pile up to a size is in exact equilibrium, and the base supports the pile.
 
 use cannonpile::geometry::Vector;
 use cannonpile_testkit::answers::{Answers, Shape};
 use cannonpile_testkit::theorems::{Verdict, balance, base};
 use num_rational::BigRational;
 
-/// What holds of a pile of any shape.
-fn stands(shape: &Shape, layers: i128) -> Verdict {
+/// Checks all theorems about a pile of this shape.
+fn theorems_hold(shape: &Shape, layers: i128) -> Verdict {
     let pile = Answers::of(shape, layers);
     balance::every_sphere_is_balanced(&pile)?;
     balance::neighbours_agree(&pile)?;
@@ -26,7 +26,7 @@ fn stands(shape: &Shape, layers: i128) -> Verdict {
 #[test]
 fn equilateral_piles_up_to_40_layers() {
     for layers in 1..=40 {
-        stands(&Shape::equilateral(), layers).unwrap();
+        theorems_hold(&Shape::equilateral(), layers).unwrap();
     }
 }
 
@@ -34,7 +34,7 @@ fn equilateral_piles_up_to_40_layers() {
 fn isosceles_piles_up_to_12_layers() {
     for shape in Shape::isosceles() {
         for layers in 1..=12 {
-            stands(&shape, layers).unwrap();
+            theorems_hold(&shape, layers).unwrap();
         }
     }
 }
@@ -42,12 +42,12 @@ fn isosceles_piles_up_to_12_layers() {
 #[test]
 fn discs_up_to_40_layers() {
     for layers in 1..=40 {
-        stands(&Shape::Discs, layers).unwrap();
+        theorems_hold(&Shape::Discs, layers).unwrap();
     }
 }
 
 #[test]
-fn the_library_finds_nothing_unbalanced() {
+fn the_unbalanced_force_is_zero() {
     let tall = [Shape::equilateral(), Shape::Discs].map(|shape| (shape, 40));
     for (shape, layers) in tall
         .into_iter()
@@ -66,7 +66,7 @@ fn the_library_finds_nothing_unbalanced() {
 }
 
 #[test]
-fn only_equilateral_bases_press_evenly() {
+fn only_an_equilateral_base_is_uniform() {
     for shape in Shape::isosceles() {
         let pile = Answers::of(&shape, 12);
         let mut normals = pile.floor.values().map(|force| &force.z);

@@ -1,5 +1,5 @@
-//! How far the forces of a layer can be from the exact ones: 13 units in the last place for each pass and sum on the way, of
-//! a bound on all forces.
+//! Error bounds of the forces of a layer: 13 units in the last place for each pass and each sum, relative to a bound on all
+//! forces.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::scalar::{Algebra, Interval};
@@ -10,19 +10,19 @@ use num_rational::BigRational;
 
 use cannonpile_testkit::answers::ratio;
 
-/// Runs among the steps of layers 0 … k.
+/// The number of runs among the steps of layers 0 … k.
 fn runs(signs: &str, k: usize) -> usize {
     let steps: Vec<char> = signs.chars().take(k + 1).collect();
     1 + steps.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// (⌊√(36 K N)⌋ + 1)/3 of the weights of K layers, of N spheres in all, and twice what is loaded.
+/// (⌊√(36 K N)⌋ + 1)/3 for the weights of K layers with N spheres, plus twice the load.
 fn greatest(layers: usize, spheres: usize, load: &BigRational) -> BigRational {
     let root = BigUint::from(36 * layers * spheres).sqrt() + 1_u32;
     (BigRational::from_integer(BigInt::from(root)) + load * ratio(6, 1)) / ratio(3, 1)
 }
 
-/// The bounds of all layers but the floor, as they are gone through.
+/// The bounds of all layers above the bottom layer, in order.
 fn bounds<T: Algebra>(pile: &Pile) -> Vec<(usize, Option<BigRational>)> {
     let mut layers = pile.forces::<T>().layers(Selection::All).unwrap();
     let mut bounds = Vec::new();
@@ -39,10 +39,10 @@ fn counts_every_step<T: Algebra>(pile: &Pile, signs: &str, bits: u32, loads: &[(
     for (k, (of_layer, bound)) in bounds::<T>(pile).into_iter().enumerate() {
         spheres += of_layer;
         let loaded = loads.iter().filter(|(at, _)| *at <= k).count();
-        // As often as was stopped, as there are runs, and loads; one more for what a sphere adds itself.
+        // One for each stop, each run and each load, and one for the sphere's own weight.
         let steps = (k + 1) + runs(signs, k) + loaded + 1;
         let units = BigRational::new((13 * steps).into(), BigInt::from(1) << bits);
-        // A 64th more for what underflows.
+        // A factor of 65/64 covers underflow.
         let wanted = units * greatest(k + 1, spheres, &ratio(load, 1)) * ratio(65, 64);
         assert_eq!(bound, Some(wanted), "{signs}, layer {k}");
     }
@@ -62,17 +62,17 @@ fn every_pass_and_sum_counts() {
 }
 
 #[test]
-fn layers_that_are_passed_by_are_no_stops() {
+fn skipped_layers_are_not_stops() {
     let pile = Pile::under(Region::SITE, "+-+-+-".parse().unwrap()).unwrap();
     let forces = pile.forces::<f64>();
     let mut one = forces.layers(Selection::Layer(5)).unwrap();
     let alone = one.next_layer().unwrap().unwrap().error_bound().unwrap();
     let (_, among) = bounds::<f64>(&pile).pop().unwrap();
-    // 1 stop of 6, 6 runs and the sphere's own.
+    // 1 stop instead of 6, 6 runs, and one for the sphere's own weight.
     assert_eq!(alone / among.unwrap(), ratio(1 + 6 + 1, 6 + 6 + 1));
 }
 
-/// 10⁻⁴⁰ is subnormal in f32 and has few digits there; in f64 it has all.
+/// 10⁻⁴⁰ is subnormal in `f32`, with few digits. `f64` represents it with full precision.
 #[test]
 fn forces_that_underflow_have_no_bound() {
     let pile = Pile::under(Region::SITE, "+-+".parse().unwrap()).unwrap();
@@ -99,13 +99,13 @@ fn forces_that_underflow_have_no_bound() {
     assert_eq!(are_bound(40), [false, true]);
     assert_eq!(are_bound(280), [false, true]);
     assert_eq!(are_bound(310), [false, false]);
-    // No force at all is met exactly.
+    // Zero forces are exact.
     let none = bounds::<f32>(&pile.clone().weightless());
     assert!(none.iter().all(|(_, bound)| *bound == Some(ratio(0, 1))));
 }
 
 #[test]
-fn exact_numbers_are_off_by_nothing_and_enclosures_say_it_themselves() {
+fn exact_scalars_have_zero_error_bound() {
     let pile = Pile::under(Region::SITE, "+-+".parse().unwrap()).unwrap();
     for (_, bound) in bounds::<BigRational>(&pile) {
         assert_eq!(bound, Some(ratio(0, 1)));
@@ -113,9 +113,9 @@ fn exact_numbers_are_off_by_nothing_and_enclosures_say_it_themselves() {
     assert!(bounds::<Interval>(&pile).iter().all(|(_, b)| b.is_none()));
 }
 
-/// 10³⁹ is beyond the f32: of the loaded sphere itself, below it on the way, and below a change of sign.
+/// 10³⁹ overflows `f32`: at the loaded sphere, below it, and below a sign change.
 #[test]
-fn forces_beyond_the_floats_are_refused_in_every_layer() {
+fn an_overflow_is_an_error_in_every_layer() {
     let pile = Pile::under(Region::SITE, "++-+".parse().unwrap()).unwrap();
     let great = BigRational::from_integer(BigInt::from(10).pow(39));
     let pile = pile.with_load(Site::APEX, great).unwrap();
@@ -127,7 +127,7 @@ fn forces_beyond_the_floats_are_refused_in_every_layer() {
         let filled = layer.fill([&mut a, &mut b, &mut c]);
         assert!(matches!(filled, Err(Error::Overflow { .. })), "layer {k}");
     }
-    // In doubles there is room.
+    // `f64` can represent it.
     let mut layers = pile.forces::<f64>().layers(Selection::Layer(1)).unwrap();
     let layer = layers.next_layer().unwrap().unwrap();
     let [mut a, mut b, mut c] = [[0.0; 3]; 3];
@@ -135,9 +135,9 @@ fn forces_beyond_the_floats_are_refused_in_every_layer() {
     assert!((a[0] / 1e39 - 1.0).abs() < 1e-15);
 }
 
-/// A table of forces ends with the greatest that is asked for.
+/// A query of some layers ignores an overflow below them.
 #[test]
-fn what_is_not_asked_for_overflows_nothing() {
+fn layers_outside_the_query_cannot_overflow() {
     let pile = Pile::triangular(3).unwrap();
     let packing = super::layers::packing_of(&pile);
     let light = packing.unit_force().nearest::<f64>().unwrap();
@@ -153,9 +153,9 @@ fn what_is_not_asked_for_overflows_nothing() {
     assert!(matches!(twice, Some(Error::Overflow { .. })), "{twice:?}");
 }
 
-/// Forces that are floats, from sums on the way that are not: no infinity is passed off as one of them.
+/// The final forces are representable but the intermediate sums overflow. No infinity may be returned as a force.
 #[test]
-fn sums_on_the_way_overflow_too() {
+fn intermediate_sums_overflow_too() {
     let pile = Pile::under(Region::SITE, "++--+++-+--++---+-++++".parse().unwrap()).unwrap();
     let load = BigRational::from_float(0.3 * f64::MAX).unwrap();
     let pile = pile.with_load(Site::APEX, load).unwrap();

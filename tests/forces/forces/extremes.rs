@@ -1,4 +1,4 @@
-//! Extremes over a base, and the least contact, found among few spheres, are those of all.
+//! Extremes over a base, and the least contact force. A search among few spheres must find the extremes of all.
 
 use cannonpile::lattice::{Axis, HorizontalContact, Region, Site};
 use cannonpile::shape::Selection;
@@ -13,7 +13,7 @@ fn ratio(n: i64, d: i64) -> BigRational {
     BigRational::new(n.into(), d.into())
 }
 
-/// Piles with runs so long that a layer has hundreds of times more spheres than rows.
+/// Piles with long runs, so that a layer has hundreds of times more spheres than rows.
 fn piles() -> Vec<Pile> {
     let tops = [Region::SITE, Region::new(-3..=12, 0..=5, -2..=14).unwrap()];
     let stackings = ["(490)", "(2,1,480)", "-(490,2)", "(300,1,180)"];
@@ -39,7 +39,7 @@ fn piles() -> Vec<Pile> {
         .nth(9999)
         .unwrap();
     piles.push(pile.with_load(below, ratio(5000, 7)).unwrap());
-    // On the floor itself, and on a layer where the sign changes: on no line of the run above.
+    // Special spheres in the bottom layer and in a layer with a sign change. No line of the last run contains them.
     let pile = Pile::triangular(480).unwrap();
     let on_floor = Site {
         i: 150,
@@ -70,7 +70,7 @@ fn piles() -> Vec<Pile> {
     piles
 }
 
-/// The extremes over every bottom sphere.
+/// The extremes over all bottom spheres.
 fn over_all(pile: &Pile) -> [BigRational; 3] {
     let forces = pile.forces::<BigRational>();
     let on_floor: Vec<_> = forces
@@ -80,7 +80,7 @@ fn over_all(pile: &Pile) -> [BigRational; 3] {
         .collect();
     let normals = || on_floor.iter().map(|force| force.normal.clone());
     let loaded = on_floor.iter().filter(|force| !force.normal.is_zero());
-    // In integers over one denominator a sphere, which divides out; in lowest terms the greatest alone.
+    // Each sphere compares integers over one denominator, which cancels. Only the greatest is reduced to lowest terms.
     let squares = loaded.map(|force| {
         let FloorForce {
             normal,
@@ -97,7 +97,7 @@ fn over_all(pile: &Pile) -> [BigRational; 3] {
     [normals().min(), normals().max(), ratio].map(Option::unwrap_or_default)
 }
 
-/// Piles whose base is swept, with loads: on the floor, so great that floats are of no use, or nothing but loads.
+/// Piles with loads whose base is swept: loads in the bottom layer, loads that overflow floats, and weightless piles.
 fn swept() -> Vec<Pile> {
     let skewed = Region::new(-3..=2, 0..=5, -2..=4).unwrap();
     let mut piles = Vec::new();
@@ -126,11 +126,11 @@ fn swept() -> Vec<Pile> {
 #[test]
 fn of_the_base() {
     for pile in piles().into_iter().chain(swept()) {
-        are_those_over_all(&pile);
+        equals_the_search_over_all(&pile);
     }
 }
 
-fn are_those_over_all(pile: &Pile) {
+fn equals_the_search_over_all(pile: &Pile) {
     let BaseExtremes {
         normal_min,
         normal_max,
@@ -141,7 +141,8 @@ fn are_those_over_all(pile: &Pile) {
     assert_eq!(found, over_all(pile), "{}", pile.shape().stacking());
 }
 
-/// Lines only grow within a run: the least contact is where they begin, and a pull only where the sign changes.
+/// Lines only grow within a run. So the least contact force is at the start of a line, and tension occurs only at a sign
+/// change.
 #[test]
 fn of_contacts() {
     let mut failures = 0;
@@ -152,7 +153,7 @@ fn of_contacts() {
             *layer += run.steps;
             Some(*layer)
         });
-        // And the first layers, where surfaces begin.
+        // Also the first layers, where surfaces begin.
         let layers = changes
             .take(pile.shape().stacking().changes())
             .chain([0, 1]);
@@ -177,16 +178,16 @@ fn of_contacts() {
         let stacking = pile.shape().stacking();
         assert_eq!(standing.first_failure, first_failure, "{stacking}");
         failures += usize::from(first_failure.is_some());
-        // Where several are least, the first is told.
+        // Of several minima, the result is the first.
         assert_eq!(standing.least, least, "{stacking}");
     }
     assert!(failures > 1);
 }
 
-/// The greatest of a few spheres is beside the end of a piece: next to one whose line begins at a change of sign, or
-/// carries more than its own weight. Both ratios were found by another program, over all spheres of the base.
+/// The sphere with the greatest ratio is next to the end of a piece: a neighbour line begins at a sign change or carries
+/// more than its own weight. Another program found both ratios over all spheres of the base.
 #[test]
-fn beside_the_ends_of_pieces() {
+fn next_to_the_ends_of_pieces() {
     let top = Region::new(-3..=3, -4..=4, -2..=5).unwrap();
     let beside_a_change = Pile::under(top, "(1,647)".parse().unwrap()).unwrap();
     let on_top = [
@@ -228,8 +229,8 @@ fn beside_the_ends_of_pieces() {
     }
 }
 
-/// The lines above a base that is cut off at a corner rise and fall along its rows: at one place three of them are as high
-/// as 120, 240 and 240, and nowhere else do they sum to as much.
+/// The corner of the base is cut off, so the counts on the lines above rise and fall along its rows. At one position the
+/// three lines have 120, 240 and 240 spheres. No other position has the same sum.
 #[test]
 fn at_the_top_of_a_line() {
     let n = 120;
@@ -239,9 +240,9 @@ fn at_the_top_of_a_line() {
     assert_eq!(normal_max, ratio((120 + 240 + 240) / 3 + 1, 1));
 }
 
-/// Where a pile fails near the top, the least contact down to there need not be the least of all: none is named.
+/// A pile that fails near the top may have a smaller force further down. So the verdict names no least contact.
 #[test]
-fn no_least_contact_is_named_where_not_all_were_looked_at() {
+fn an_unstable_pile_has_no_least_contact() {
     let small = Pile::under(Region::SITE, Stacking::hcp(12).unwrap()).unwrap();
     let standing = small.standing().unwrap();
     assert_eq!(standing.first_failure, Some(4));
@@ -252,10 +253,10 @@ fn no_least_contact_is_named_where_not_all_were_looked_at() {
     assert_eq!((standing.first_failure, standing.least), (Some(4), None));
 }
 
-/// Small piles, with another weight on one sphere of the base after the other: no float of a sphere as it would be without
-/// decides what it is.
+/// Small piles with another weight on each sphere of the base in turn. The float of a sphere without that weight must not
+/// decide.
 #[test]
-fn of_a_base_with_one_other_sphere() {
+fn of_a_base_with_one_special_sphere() {
     let tiny = BigRational::from_integer(BigInt::from(7).pow(200)).recip();
     for (top, stacking) in [
         (Region::SITE, "+-+-+"),
@@ -270,7 +271,7 @@ fn of_a_base_with_one_other_sphere() {
                 .with_load(first, tiny.clone())
                 .unwrap()
                 .weightless(),
-            // Beyond the floats, and then not, on some spheres alone.
+            // First all forces overflow floats, then only those of some spheres.
             pile.clone().with_load(first, tiny.recip().pow(3)).unwrap(),
         ];
         for site in pile.rows(Selection::Base).unwrap().flatten() {
@@ -281,13 +282,13 @@ fn of_a_base_with_one_other_sphere() {
             ]);
         }
         for pile in changed {
-            are_those_over_all(&pile);
+            equals_the_search_over_all(&pile);
         }
     }
 }
 
-/// Loads on the spheres with the greatest ratio and the least normal force, and with the greatest of those that are left:
-/// what they would be without says nothing of others between them.
+/// Loads on the spheres with the greatest ratio and the least normal force, and on those with the greatest remaining ratio.
+/// Their values without loads must not decide about the spheres between them.
 #[test]
 fn of_a_base_where_the_extremes_are_loaded() {
     let row = Region::new(0..=2, 0..=0, 0..=2).unwrap();
@@ -296,25 +297,25 @@ fn of_a_base_where_the_extremes_are_loaded() {
         let site = Site { i, j, k: 3 };
         pile.with_load(site, ratio(1, 1)).unwrap()
     });
-    are_those_over_all(&loaded);
+    equals_the_search_over_all(&loaded);
 }
 
-/// A load on each sphere in turn that is beyond the floats, so that some spheres of a row have one and others none.
+/// A load that overflows floats on each sphere in turn. Some spheres of a row then have a float and others not.
 #[test]
-fn of_a_base_half_of_which_is_beyond_the_floats() {
+fn of_a_base_with_some_overflows() {
     let great = BigRational::from_integer(BigInt::from(7).pow(600));
     let top = Region::new(-1..=1, 0..=2, -1..=2).unwrap();
     let pile = Pile::under(top, "+--".parse().unwrap()).unwrap();
     for site in pile.rows(Selection::Layer(1)).unwrap().flatten() {
-        are_those_over_all(&pile.clone().with_load(site, great.clone()).unwrap());
+        equals_the_search_over_all(&pile.clone().with_load(site, great.clone()).unwrap());
     }
 }
 
-/// Four bottom spheres of which no other bears anything, but for others with loads beyond all shear. Two of them are pressed
-/// evenly, the others but for parts of 2^−537, 7.28 and 7.32 of them: of the squares of such shears the floats keep no digit
-/// beyond 2^−1074, and say that the first has the greater ratio.
+/// Four bottom spheres with separate loads, among others with loads that hide their own shear. Two of the four have uniform
+/// loads. The other two differ from that by 7.28 and 7.32 parts of 2^−537. Floats lose the digits of their squared shears
+/// below 2^−1074 and give the first a greater ratio.
 #[test]
-fn of_ratios_that_are_too_small_for_their_floats() {
+fn of_ratios_with_underflowing_squares() {
     let power =
         |exponent: u32| BigRational::from_integer(num_bigint::BigInt::from(2).pow(exponent));
     let part = power(537).recip();
@@ -349,9 +350,9 @@ fn of_ratios_that_are_too_small_for_their_floats() {
             pile = load(pile, [site.i, site.j, 2], &power(600));
         }
     }
-    are_those_over_all(&pile);
+    equals_the_search_over_all(&pile);
     let greatest = pile.base_extremes().unwrap().max_shear_ratio.square();
-    // (7.32/3)² parts, and a little less, for the normal force has one too.
+    // (7.32/3)² parts, and slightly less because of the normal force.
     let parts = greatest / (&part * &part);
     assert!(
         ratio(595, 100) < parts && parts < ratio(596, 100),
@@ -359,9 +360,9 @@ fn of_ratios_that_are_too_small_for_their_floats() {
     );
 }
 
-/// Two spheres of the base with known ratios of shear to normal force, of which one is so great that its square is no float.
+/// Two bottom spheres with known ratios of shear to normal force. The square of one overflows floats.
 #[test]
-fn of_ratios_whose_squares_are_no_floats() {
+fn of_ratios_with_overflowing_squares() {
     let power = |exponent: u32| BigRational::from_integer(BigInt::from(2).pow(exponent));
     let contact = |i, j| HorizontalContact {
         site: Site { i, j, k: 7 },
@@ -379,5 +380,5 @@ fn of_ratios_whose_squares_are_no_floats() {
     for ([i, j], load) in loads {
         pile = pile.with_load(Site { i, j, k: 7 }, load).unwrap();
     }
-    are_those_over_all(&pile);
+    equals_the_search_over_all(&pile);
 }

@@ -1,8 +1,8 @@
-//! What holds of every stacking on every region (`paper`, "Invariants"): weight, first and second moments, no torsion.
+//! Invariants of every stacking on every region (`paper`, "Invariants"): weight, first and second moments, zero torsion.
 //!
-//! Horizontal positions are taken in thirds of the two lattice vectors of a layer, where all of it is rational: the
-//! lattice vectors are √3·2R sinθ long and at 60° to each other, so (p, q) is √((p² + pq + q²)/3)·2R sinθ from the axis.
-//! Heights are n·2R cosθ over the base, and (n·2R cosθ)² tan²θ = n² in the unit (2R sinθ)².
+//! Horizontal positions are in thirds of the two lattice vectors of a layer, so all values are rational. The lattice vectors
+//! have length √3·2R sinθ and meet at 60°. So (p, q) has the distance √((p² + pq + q²)/3)·2R sinθ from the axis. The height
+//! over the base is n·2R cosθ, and (n·2R cosθ)² tan²θ = n² in the unit (2R sinθ)².
 
 use cannonpile::Forces;
 use cannonpile::shape::Selection;
@@ -13,7 +13,7 @@ use num_traits::{One, Zero};
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
 use cannonpile_testkit::oracles::balance::{Balance, Place, ratio};
 
-/// What the bottom spheres feel: where, normal force in mg, shears in mg·tanθ and √3·mg·tanθ.
+/// The forces on the floor: position, normal force in mg, shear in mg·tanθ and √3·mg·tanθ.
 pub(crate) type Base = Vec<(Place, [BigRational; 3])>;
 
 pub(crate) fn base(case: &Case) -> Base {
@@ -31,8 +31,8 @@ pub(crate) fn square([p, q]: &[BigInt; 2]) -> BigRational {
     BigRational::new(p * p + p * q + q * q, 3.into())
 }
 
-/// Normal forces carry the weights with their first and second moments.
-pub(crate) fn carries(balance: &Balance, base: &Base) -> Result<(), String> {
+/// The normal forces have the total weight and its first and second moments.
+pub(crate) fn has_the_moments(balance: &Balance, base: &Base) -> Result<(), String> {
     let same = |what: &str, base: &BigRational, spheres: &BigRational| {
         let parted = format!("{what}: {base} on the base, {spheres} of the spheres");
         if base == spheres { Ok(()) } else { Err(parted) }
@@ -57,12 +57,12 @@ pub(crate) fn carries(balance: &Balance, base: &Base) -> Result<(), String> {
     same("second moment", &over_base(&second), &over_spheres(&second))
 }
 
-/// Nothing pushes or turns the pile sideways.
-pub(crate) fn is_not_turned(balance: &Balance, base: &Base) -> Result<(), String> {
+/// The total shear and the torsion are zero.
+pub(crate) fn has_no_shear_or_torsion(balance: &Balance, base: &Base) -> Result<(), String> {
     let [mut x, mut y, mut torsion] = [0; 3].map(|_: i32| BigRational::zero());
     for (at, [_, shear_x, shear_y]) in base {
         let [p, q] = balance.position(*at).map(BigRational::from);
-        // (p, q) is (q/2, (p + q/2)/3) in 2R sinθ and √3 of them.
+        // (p, q) is (q/2, (p + q/2)/3) in units of 2R sinθ and √3·2R sinθ.
         let half = &q / BigInt::from(2);
         let across = (p + &half) / BigInt::from(3);
         torsion += half * shear_y - across * shear_x;
@@ -77,8 +77,8 @@ pub(crate) fn is_not_turned(balance: &Balance, base: &Base) -> Result<(), String
 
 fn holds(case: &Case) {
     let base = base(case);
-    carries(&case.balance, &base).unwrap();
-    is_not_turned(&case.balance, &base).unwrap();
+    has_the_moments(&case.balance, &base).unwrap();
+    has_no_shear_or_torsion(&case.balance, &base).unwrap();
 }
 
 #[test]
@@ -122,20 +122,22 @@ fn of_piles_of_40_layers() {
 }
 
 #[test]
-fn a_force_that_is_a_little_off_is_noticed() {
+fn a_slightly_wrong_force_is_caught() {
     let case = Case::under(&Bounds::triangle(2), "+-+");
     let right = base(&case);
     for n in 0..right.len() {
         for component in 0..3 {
             let mut wrong = right.clone();
             wrong[n].1[component] += ratio(1, 81);
-            let noticed = carries(&case.balance, &wrong).and(is_not_turned(&case.balance, &wrong));
+            let noticed = has_the_moments(&case.balance, &wrong)
+                .and(has_no_shear_or_torsion(&case.balance, &wrong));
             assert!(noticed.is_err(), "{n} {component}");
         }
     }
-    // One of two spheres at the same distance from the axis gives to the other: the weight and second moment stay.
+    // One sphere gives some force to another at the same distance from the axis. The weight and the second moment stay the
+    // same.
     let mut wrong = right.clone();
     wrong[0].1[0] += ratio(1, 81);
     wrong[1].1[0] -= ratio(1, 81);
-    assert!(carries(&case.balance, &wrong).is_err());
+    assert!(has_the_moments(&case.balance, &wrong).is_err());
 }

@@ -1,4 +1,4 @@
-//! Forces filled into slices are those that are asked for one by one.
+//! The forces in slices equal those of single queries.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Site};
@@ -38,7 +38,7 @@ pub(super) fn piles() -> Vec<Pile> {
         Pile::triangular(6).expect("a pile"),
         Site { i: 1, j: 1, k: 3 },
     ));
-    // Under any top, up from any base, whichever way the layers lean.
+    // Under tops and on bases of every kind, with both signs first.
     for (top, signs_of) in [
         ("hexagon:1", "----"),
         ("hexagon:3,2", "+++"),
@@ -63,7 +63,7 @@ pub(super) fn piles() -> Vec<Pile> {
     piles
 }
 
-/// The contact forces of every sphere, by direction; 0 along γ for discs.
+/// The contact forces of every sphere by direction. Discs have 0 along γ.
 fn one_by_one<V>(
     pile: &Pile,
     force: impl Fn(Site, Direction) -> V,
@@ -90,7 +90,7 @@ fn transposed<V: Clone>([a, b, c]: &[Vec<V>; 3]) -> Vec<[V; 3]> {
         .collect()
 }
 
-fn nearest_are_those_of_the_packing<F: NearestFloat + PartialEq + core::fmt::Debug>(zero: F) {
+fn nearest_floats_equal_the_packing<F: NearestFloat + PartialEq + core::fmt::Debug>(zero: F) {
     for pile in piles() {
         let packing = packing_of(&pile);
         let asked = one_by_one(
@@ -132,13 +132,13 @@ fn nearest_are_those_of_the_packing<F: NearestFloat + PartialEq + core::fmt::Deb
 }
 
 #[test]
-fn nearest_doubles_are_those_of_the_packing() {
-    nearest_are_those_of_the_packing(0.0_f64);
+fn nearest_doubles_equal_the_packing() {
+    nearest_floats_equal_the_packing(0.0_f64);
 }
 
 #[test]
-fn nearest_singles_are_those_of_the_packing() {
-    nearest_are_those_of_the_packing(0.0_f32);
+fn nearest_singles_equal_the_packing() {
+    nearest_floats_equal_the_packing(0.0_f32);
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn numerators_are_exact() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused() {
+fn slices_of_a_wrong_length_are_rejected() {
     let layers = |pile: &Pile| {
         let layers = pile.forces::<BigRational>().layers(Selection::All);
         layers.expect("layers").numerators::<i8>().err()
@@ -208,10 +208,10 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(floor, Ok(0));
 }
 
-/// Small forces, whose denominators are not: where fractions of 32 bits hold no power of 3 beyond the twentieth, layers are
-/// refused, and filled down to there.
+/// The forces are small but their denominators are not. 32-bit fractions cannot represent 3²¹, so layers below that many
+/// sign changes are rejected. The layers above are filled.
 #[test]
-fn small_forces_that_are_no_fractions_of_words_are_refused() {
+fn small_forces_with_long_denominators_are_rejected() {
     type Fraction = FixedRational<i32>;
     let pile = Pile::under(Region::SITE, Stacking::hcp(24).expect("layers")).expect("a pile");
     let (fractions, exact) = (pile.forces::<Fraction>(), pile.forces::<BigRational>());
@@ -243,7 +243,7 @@ fn small_forces_that_are_no_fractions_of_words_are_refused() {
 }
 
 #[test]
-fn a_layer_fills_what_its_spheres_hand_on_to_the_floor() {
+fn the_bottom_layer_fills_the_forces_on_the_floor() {
     for pile in piles() {
         let forces = pile.forces::<BigRational>();
         let mut layers = forces.layers(Selection::Base).expect("a base");
@@ -262,7 +262,7 @@ fn a_layer_fills_what_its_spheres_hand_on_to_the_floor() {
 }
 
 #[test]
-fn layers_refuse_what_is_asked_of_others() {
+fn layers_reject_sites_of_other_layers() {
     let pile = Pile::triangular(5).expect("a pile");
     let (site, floor) = (Site { i: 1, j: 0, k: 2 }, 4);
     let forces = pile.forces::<BigRational>();
@@ -289,9 +289,9 @@ fn layers_refuse_what_is_asked_of_others() {
     assert_eq!(layer.fill_base([&mut a, &mut b, &mut c]), refused);
 }
 
-/// Also where the next layer would be beyond all numbers.
+/// Also if the index of the next layer would overflow.
 #[test]
-fn layers_that_no_pile_has_are_refused() {
+fn nonexistent_layers_are_rejected() {
     let pile = Pile::triangular(3).expect("a pile");
     let packing = packing_of(&pile);
     let (floats, exact) = (pile.forces::<f64>(), pile.forces::<BigRational>());
@@ -313,9 +313,9 @@ fn layers_that_no_pile_has_are_refused() {
     }
 }
 
-/// What stands beside a table or a sweep says where it is.
+/// The debug output of an iterator and of a layer states the current position.
 #[test]
-fn layers_are_shown_by_where_they_are() {
+fn debug_output_states_the_position() {
     let pile = Pile::triangular(5).expect("a pile");
     let forces = pile.forces::<BigRational>();
     let layers = || forces.layers(Selection::All).expect("layers");

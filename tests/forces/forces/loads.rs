@@ -1,4 +1,4 @@
-//! Random tops and bases, stackings, weights and loads: every answer as the oracle has it.
+//! Random tops, bases, stackings, weights and loads: every answer equals the oracle's.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Region, Site};
@@ -61,7 +61,7 @@ fn random_weights_and_loads_on_random_bases() {
 }
 
 #[test]
-fn loads_on_spheres_that_weigh_nothing() {
+fn loads_on_weightless_spheres() {
     let mut random = Random(5);
     for _ in 0..250 {
         let top = random.bounds(3);
@@ -82,7 +82,7 @@ fn every_sphere_of_small_piles_has_its_own_weight_and_load() {
         let mut case = Case::under(&random.bounds(2), &signs);
         let places: Vec<_> = case.balance.places().collect();
         for place in places {
-            // Zero more often than not: then lines begin where nothing is added to them.
+            // Zero occurs more often than not. Then lines begin without an increment.
             let weight = [ratio(0, 1), ratio(0, 1), random.rational()];
             let weight = &weight[random.below(3)];
             case = case.with_weight(place, weight);
@@ -107,7 +107,7 @@ fn one_load_at_a_time_anywhere() {
 }
 
 #[test]
-fn the_floor_bears_a_load_on_a_single_layer() {
+fn the_floor_supports_a_load_on_a_single_layer() {
     let case = Case::under(&Bounds::triangle(3), "").with_load((0, 1, 1), &ratio(1, 3));
     agrees(&case).unwrap();
     let standing = case.pile.standing().unwrap();
@@ -121,7 +121,7 @@ fn the_floor_bears_a_load_on_a_single_layer() {
 }
 
 #[test]
-fn extremes_over_the_base_are_those_of_the_oracle() {
+fn extremes_over_the_base_equal_the_oracle() {
     let mut random = Random(9);
     for _ in 0..60 {
         let signs = random.signs(5);
@@ -139,7 +139,7 @@ fn extremes_over_the_base_are_those_of_the_oracle() {
 }
 
 #[test]
-fn weights_replace_loads_add_up_and_without_weight_only_loads_are_left() {
+fn weights_replace_and_loads_add_up() {
     let at = |i, j, k| Site { i, j, k };
     let pile = Pile::under(Region::SITE, stacking("+-+")).unwrap();
     let (here, there) = (at(1, 0, 1), at(0, 0, 2));

@@ -1,4 +1,5 @@
-//! Symmetric piles have symmetric forces: the mirror image of any pile, the rotations and reflections of tops that have them.
+//! Symmetric piles have symmetric forces. This covers the mirror image of any pile, and the rotations and reflections of
+//! symmetric tops.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
@@ -9,7 +10,7 @@ use num_rational::BigRational;
 use cannonpile_testkit::cases::{Bounds, Random, all_signs, repeated, stacking};
 use cannonpile_testkit::oracles::balance::ratio;
 
-/// Contacts and bottom spheres, in the order of tables.
+/// Contacts and bottom spheres in the order of tables.
 #[derive(Debug, PartialEq)]
 struct Answers {
     contacts: Vec<ContactForce<BigRational>>,
@@ -33,8 +34,7 @@ impl Answers {
         }
     }
 
-    /// Every sphere moved to another place of its layer, its contacts with it: α to the place `turn` in α, β, γ and so
-    /// on.
+    /// Moves every sphere within its layer, together with its contacts. α moves to position `turn[0]` of α, β, γ, and so on.
     fn moved(mut self, to: impl Fn(Site) -> Site, turn: [usize; 3]) -> Self {
         for contact in &mut self.contacts {
             contact.site = to(contact.site);
@@ -101,10 +101,10 @@ fn of_piles_on_random_bases() {
     }
 }
 
-/// Rotation by a third about the axis, and the reflection that exchanges β and γ.
+/// The rotation by a third about the axis, and the reflection that exchanges β and γ.
 ///
-/// The corners of a hexagon have i, j and c − i − j in the same bounds, with c = p − q; a + step moves the axis by one
-/// more. Along the rotation α comes to lie on β, β on γ, γ on α.
+/// At the corners of a hexagon, i, j and c − i − j have the same bounds, with c = p − q. Each + step moves the axis by one
+/// more. The rotation maps α to β, β to γ and γ to α.
 fn is_symmetric(pile: &Pile, c: i128) {
     let answers = || Answers::of(pile);
     let signs: Vec<_> = pile.shape().stacking().signs().collect();
@@ -126,7 +126,7 @@ fn is_symmetric(pile: &Pile, c: i128) {
     let rotated = rotated.with_shears(|x, y| [y * &three_halves - x * &half, -(x + y) * &half]);
     assert_eq!(rotated, answers());
     let reflected = answers().moved(|Site { i, j, k }| Site { i: j, j: i, k }, [0, 2, 1]);
-    // (0, 1) and (3/2, 1/2) change places.
+    // (0, 1) and (3/2, 1/2) are exchanged.
     let reflected = reflected.with_shears(|x, y| [y * &three_halves - x * &half, (x + y) * &half]);
     assert_eq!(reflected, answers());
 }
@@ -151,7 +151,7 @@ fn of_piles_under_hexagons_and_triangles_about_the_axis() {
 
 #[test]
 #[should_panic(expected = "assertion")]
-fn of_a_pile_loaded_off_the_axis_they_are_not() {
+fn a_load_off_the_axis_breaks_the_symmetry() {
     let pile = Pile::under(Region::SITE, stacking("+-+")).unwrap();
     let site = Site { i: 1, j: 0, k: 1 };
     is_symmetric(&pile.with_load(site, ratio(1, 9)).unwrap(), 0);

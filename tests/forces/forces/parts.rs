@@ -1,5 +1,4 @@
-//! Parts of a pile: of one sphere, of a pile equal to another; and piles of discs and on isosceles
-//! bases with loads.
+//! Parts of a pile, equal piles, and loads on piles of discs and on isosceles bases.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
@@ -39,13 +38,13 @@ fn one_sphere_has_its_three_contacts_or_its_force_on_the_floor() {
 }
 
 #[test]
-fn a_pile_equal_to_another_is_the_same_pile() {
+fn equal_piles_are_interchangeable() {
     let pile = Pile::under(Region::SITE, stacking("+-+-+-+-+-")).unwrap();
     let twin = pile.clone();
     for part in [Selection::All, Selection::Layer(7)] {
         let [own, other] = [&pile, &twin].map(|pile| pile.forces::<BigRational>());
         let [own, other] = [own, other].map(|forces| forces.contacts(part).unwrap());
-        // By the same method, too.
+        // The planned method is the same too.
         assert_eq!(own.plan(), other.plan());
         assert!(own.eq(other));
     }
@@ -54,7 +53,7 @@ fn a_pile_equal_to_another_is_the_same_pile() {
     assert!(matches!(refused, Some(Error::NotOnFloor { .. })));
 }
 
-/// Straight piles with another increment in each direction: what a sphere adds goes down its three lines, and nowhere else.
+/// Straight piles with a different increment in each direction. A sphere adds forces to its three lines only.
 #[test]
 fn loads_on_isosceles_piles_and_on_discs() {
     let mut random = Random(111);
@@ -101,7 +100,7 @@ fn loads_on_isosceles_piles_and_on_discs() {
     }
 }
 
-/// The least force is the least of all contacts, the first of them.
+/// The least force is the first minimum over all contacts.
 fn is_least(pile: &Pile) {
     let all = contacts(&pile.forces(), Selection::All);
     let mut least: Option<ContactForce<BigRational>> = None;

@@ -1,4 +1,4 @@
-//! Each comparison can fail: one planted fault at a time, on the oracle's side, and it is told apart.
+//! Each comparison can fail: it detects a single fault on the oracle's side.
 
 use num_rational::BigRational;
 use num_traits::One;
@@ -11,13 +11,13 @@ fn case() -> Case {
     Case::under(&Bounds::triangle(2), "+-++-").with_load((1, 0, 1), &ratio(2, 5))
 }
 
-/// A difference no greater than the least that forces can have.
+/// The least possible difference of two forces.
 fn least_difference() -> BigRational {
     ratio(1, 5 * 3_i64.pow(5))
 }
 
 #[test]
-fn without_a_fault_they_agree() {
+fn results_agree_without_a_fault() {
     agrees(&case()).unwrap();
 }
 
@@ -55,7 +55,7 @@ fn one_force_from_above_or_on_the_floor_is_wrong() {
 }
 
 #[test]
-fn two_forces_have_changed_places() {
+fn two_forces_are_swapped() {
     let (case, right) = (case(), case().balance.forces());
     let mut told_apart = 0;
     for (place, [a, b, _]) in &right.below {
@@ -82,7 +82,7 @@ fn one_sign_is_wrong() {
         };
         signs.replace_range(n..=n, flipped);
         let other = Case::under(&Bounds::triangle(2), &signs);
-        // The sphere with the load may not be there: without it, as with it.
+        // The loaded sphere may be missing in the other pile, so this compares without the load as well.
         for forces in [other.balance.forces(), case.balance.forces()] {
             assert!(all_agree(&other.pile, &forces).is_err() || forces == other.balance.forces());
         }
@@ -94,7 +94,7 @@ fn one_sign_is_wrong() {
 }
 
 #[test]
-fn one_site_is_missing_or_one_too_many() {
+fn a_site_is_missing_or_surplus() {
     let case = case();
     for (k, j, i) in case.balance.places().collect::<Vec<Place>>() {
         let mut wrong = case.balance.clone();
@@ -126,7 +126,7 @@ fn one_weight_is_wrong() {
 }
 
 #[test]
-fn the_least_force_is_another_or_elsewhere() {
+fn the_least_force_is_different_or_elsewhere() {
     let (case, right) = (case(), case().balance.forces());
     standing(&case.pile, &right).unwrap();
     let (least, at, m) = right.least().unwrap();
@@ -134,7 +134,7 @@ fn the_least_force_is_another_or_elsewhere() {
     let mut more = right.clone();
     more.below.get_mut(&at).unwrap()[m] += least_difference();
     assert!(standing(&case.pile, &more).is_err());
-    // As little before it in the order of tables; and a pull in an earlier layer.
+    // An equally small force earlier in the order of tables, and tension in an earlier layer.
     let first = *right.below.keys().next().unwrap();
     for force in [least.clone(), -BigRational::one()] {
         let mut wrong = right.clone();

@@ -1,4 +1,4 @@
-//! Every theorem about forces, and their oracle, refuses something: one planted fault each, at least.
+//! Every theorem about forces, and the oracle of straight piles, rejects at least one injected fault.
 
 use cannonpile::lattice::{Direction, Site};
 use cannonpile_testkit::answers::{Answers, Contact, Shape, ratio};
@@ -13,19 +13,19 @@ const LAYERS: i128 = 5;
 const INNER: Site = Site { i: 1, j: 1, k: 3 };
 const CORNER: Site = Site { i: 4, j: 0, k: 4 };
 
-/// The theorem holds of the paper's pile, and no longer of one with the fault.
+/// The theorem holds for the paper's pile and fails for the pile with the fault.
 fn catches(theorem: impl Fn(&Answers) -> Verdict, fault: impl FnOnce(&mut Answers)) {
     let mut pile = Answers::of(&Shape::equilateral(), LAYERS);
     assert_eq!(theorem(&pile), Ok(()));
     fault(&mut pile);
-    assert!(theorem(&pile).is_err(), "the fault passes");
+    assert!(theorem(&pile).is_err(), "the theorem misses the fault");
 }
 
 fn contact(pile: &mut Answers, site: Site, direction: Direction) -> &mut Contact {
     pile.contacts.get_mut(&(site, direction)).unwrap()
 }
 
-/// One contact carries an increment too much, as a number and as a vector.
+/// One contact has one increment too many, as a magnitude and as a vector.
 fn one_increment_more(pile: &mut Answers) {
     let contact = contact(pile, INNER, Direction::Beta);
     let more = (&contact.force + BigRational::one()) / &contact.force;
@@ -33,7 +33,7 @@ fn one_increment_more(pile: &mut Answers) {
     contact.vector = contact.vector.clone().scaled(&more);
 }
 
-/// Two supports of a sphere are taken one for the other.
+/// Two supports of a sphere are exchanged.
 fn neighbours_transposed(pile: &mut Answers) {
     let site = Site { i: 2, j: 0, k: 2 };
     let beta = contact(pile, site, Direction::Beta).clone();
@@ -41,7 +41,7 @@ fn neighbours_transposed(pile: &mut Answers) {
     *contact(pile, site, Direction::Beta) = gamma;
 }
 
-/// The names α and β are exchanged everywhere, but not what they name.
+/// The names α and β are exchanged, but not their contacts.
 fn alpha_for_beta(pile: &mut Answers) {
     for site in pile.shape.sites(LAYERS - 1) {
         let alpha = contact(pile, site, Direction::Alpha).force.clone();
@@ -61,7 +61,7 @@ fn base_without_its_own_weight(pile: &mut Answers) {
     }
 }
 
-/// The floor on the pile instead of the pile on the floor.
+/// The reaction of the floor in place of the force on the floor.
 fn shear_reversed(pile: &mut Answers) {
     for force in pile.floor.values_mut() {
         force.x = -&force.x;
@@ -74,7 +74,7 @@ fn one_shear_reversed(pile: &mut Answers) {
     force.x = -&force.x;
 }
 
-/// A swirl: it adds up to nothing, but turns.
+/// The sum is zero, but not the moment.
 fn shear_turned(pile: &mut Answers) {
     for force in pile.floor.values_mut() {
         let [x, y] = TURNS[1].map(|[x, y]| &force.x * ratio(x, 2) + &force.y * ratio(y, 2));
@@ -82,7 +82,7 @@ fn shear_turned(pile: &mut Answers) {
     }
 }
 
-/// The weight in all is right, but some of it went from one corner to another.
+/// The total weight is right, but one corner has some weight of another.
 fn load_shifted(pile: &mut Answers) {
     pile.floor.get_mut(&CORNER).unwrap().z += BigRational::one();
     let other = Site { i: 0, j: 4, k: 4 };
@@ -136,7 +136,7 @@ fn direction_of_forces() {
         catches(balance::forces_lie_along_contacts, fault);
     }
     catches(balance::forces_lie_along_contacts, |pile| {
-        // A pull, along the right line.
+        // Tension along the right line.
         let contact = contact(pile, INNER, Direction::Alpha);
         contact.force = -&contact.force;
         contact.vector = -contact.vector.clone();
@@ -182,7 +182,7 @@ fn published_base() {
 fn greatest_shear() {
     let at_most = |pile: &Answers| base::base_shear_is_at_most(pile, &ratio(4, 7));
     catches(at_most, |pile| {
-        // A signed comparison would let this pass.
+        // A comparison with signs would miss this.
         let force = pile.floor.get_mut(&CORNER).unwrap();
         force.x = &force.x * ratio(-2, 1);
     });
@@ -207,7 +207,7 @@ fn symmetries() {
                 .remove(&(Site { i: 0, j: 1, k: 3 }, Direction::Alpha));
         });
     }
-    // A right pile, with the wrong way round.
+    // A correct pile with the wrong rotation.
     let pile = Answers::of(&Shape::equilateral(), LAYERS);
     assert!(invariant(&pile, Symmetry::ROTATION, &TURNS[2]).is_err());
     assert!(invariant(&pile, Symmetry::ROTATION, &MIRRORED).is_err());
@@ -240,7 +240,7 @@ fn the_oracle_of_forces() {
         let there = pile.floor[&CORNER].clone();
         pile.floor.insert(INNER, there);
     });
-    // It is no constant either.
+    // The oracle depends on the shape.
     for other in [Shape::Spheres(ratio(501, 1000)), Shape::Discs] {
         assert!(
             cannonpile_testkit::theorems::agree(&Answers::of(&other, LAYERS), &solved).is_err()

@@ -1,4 +1,4 @@
-//! Given forces in horizontal contacts: what balances them is what the oracle says, by every method and in floats.
+//! Given forces in horizontal contacts. All methods and floats agree with the oracle on the forces that balance them.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Axis, HorizontalContact, Site};
@@ -12,7 +12,7 @@ use cannonpile_testkit::cases::{Bounds, Case, Random, repeated};
 use cannonpile_testkit::compare::agrees;
 use cannonpile_testkit::oracles::balance::ratio;
 
-/// Random tops and bases, with loads or without.
+/// Random tops and bases, with and without loads.
 fn cases(number: usize, random: &mut Random) -> Vec<Case> {
     let mut cases = Vec::new();
     while cases.len() < number {
@@ -30,7 +30,7 @@ fn cases(number: usize, random: &mut Random) -> Vec<Case> {
 }
 
 #[test]
-fn every_force_is_the_oracle_s() {
+fn every_force_equals_the_oracle() {
     let mut random = Random(41);
     let cases = cases(250, &mut random);
     let pushed = cases
@@ -43,7 +43,7 @@ fn every_force_is_the_oracle_s() {
 }
 
 #[test]
-fn every_method_and_the_floats_nearest_to_it_agree() {
+fn every_method_and_its_nearest_floats_agree() {
     let mut random = Random(42);
     for case in cases(60, &mut random) {
         let forces = case.pile.forces::<BigRational>();
@@ -73,9 +73,9 @@ fn every_method_and_the_floats_nearest_to_it_agree() {
     }
 }
 
-/// What is the same after a third of a turn until a push makes it another.
+/// Symmetric under a third of a turn until a horizontal force breaks the symmetry.
 #[test]
-fn one_push_breaks_every_symmetry() {
+fn one_horizontal_force_breaks_every_symmetry() {
     let contact = HorizontalContact {
         site: Site { i: 0, j: 0, k: 2 },
         axis: Axis::AlphaBeta,
@@ -95,9 +95,9 @@ fn one_push_breaks_every_symmetry() {
     }
 }
 
-/// Long numbers, over coprime denominators, after many changes of sign: as many limbs as they take.
+/// Long values over coprime denominators, after many sign changes, with many limbs.
 #[test]
-fn long_pushes_keep_every_digit() {
+fn long_horizontal_forces_are_exact() {
     let denominators = [10_007_i64, 99_991, 1_000_003];
     let mut case = Case::under(&Bounds::SITE, &repeated("+-", 12));
     for (n, denominator) in denominators.into_iter().enumerate() {
@@ -133,7 +133,7 @@ fn long_pushes_keep_every_digit() {
 }
 
 #[test]
-fn extremes_of_the_base_are_those_of_its_spheres() {
+fn extremes_of_the_base_equal_those_of_its_spheres() {
     let mut random = Random(44);
     for case in cases(80, &mut random) {
         let Ok(extremes) = case.pile.base_extremes() else {
@@ -147,7 +147,7 @@ fn extremes_of_the_base_are_those_of_its_spheres() {
 }
 
 #[test]
-fn neighbours_push_each_other_and_the_floor_bears_the_weight() {
+fn horizontal_forces_do_not_change_the_total_weight() {
     let mut random = Random(43);
     for case in cases(60, &mut random) {
         let [normal, x, y] = case.pile.forces().sum_on_floor(Selection::Base).unwrap();
@@ -159,7 +159,7 @@ fn neighbours_push_each_other_and_the_floor_bears_the_weight() {
 }
 
 #[test]
-fn what_cannot_push_is_refused() {
+fn invalid_horizontal_forces_are_rejected() {
     let pile = Pile::triangular(4).unwrap();
     let contact = |i, j, k, axis| HorizontalContact {
         site: Site { i, j, k },
@@ -193,7 +193,7 @@ fn what_cannot_push_is_refused() {
         pull.to_string(),
         "the horizontal force of the sphere (i,j,k) = (0,0,2) must not be negative, but is -1/2"
     );
-    // Nothing is no force, and what is taken away leaves nothing.
+    // A force of zero leaves the pile unchanged, and so does a removed force.
     assert_eq!(
         push(contact(0, 0, 2, Axis::AlphaBeta), BigRational::zero()),
         Ok(pile.clone())

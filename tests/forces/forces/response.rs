@@ -1,5 +1,6 @@
-//! The response to a unit load on spheres that weigh nothing (`paper`, "Invariants"): Σv = 1, Σv² = 1/3, Σvr² = n² at depth n,
-//! v the vertical part of a contact force, r the distance of the lower sphere from the line of the load, in 2R sinθ.
+//! The response to a unit load on weightless spheres (`paper`, "Invariants"): Σv = 1, Σv² = 1/3 and Σvr² = n² at depth n.
+//! Here v is the vertical part of a contact force, and r the distance of the lower sphere from the line of the load, in 2R
+//! sinθ.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +14,10 @@ use crate::forces::invariants::square;
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
 use cannonpile_testkit::oracles::balance::{Balance, Place, ratio};
 
-/// The vertical parts of the contact forces that are not zero, with the lower sphere, by depth from 1 on.
+/// The vertical parts of the nonzero contact forces with their lower sphere, by depth from 1 on.
 type Response = Vec<Vec<(Place, BigRational)>>;
 
-/// A pile on whose sphere (0, 0) of the top, with others around it, lies all the weight there is.
+/// A weightless pile with a unit load on the sphere (0, 0) of the top layer.
 fn loaded(signs: &str) -> Case {
     let case = Case::under(&Bounds::hexagon(2, 2), signs).weightless();
     case.with_load((0, 0, 0), &BigRational::one())
@@ -78,7 +79,7 @@ fn of_long_stackings() {
 }
 
 #[test]
-fn a_small_fault_is_noticed() {
+fn a_small_fault_is_caught() {
     let case = loaded("+-+");
     let right = response(&case);
     for (depth, contacts) in right.iter().enumerate() {
@@ -91,7 +92,7 @@ fn a_small_fault_is_noticed() {
 }
 
 #[test]
-fn straight_piles_hand_it_down_three_lines() {
+fn straight_piles_transmit_a_load_along_three_lines() {
     for signs in ["+++++++", "-------"] {
         for contacts in response(&loaded(signs)) {
             let thirds: Vec<BigRational> = contacts.into_iter().map(|(_, v)| v).collect();
@@ -100,7 +101,7 @@ fn straight_piles_hand_it_down_three_lines() {
     }
 }
 
-/// The response of the oracle, in the same form.
+/// The oracle's response in the same form.
 fn response_by_oracle(balance: &Balance) -> Response {
     let mut response = vec![Vec::new(); balance.signs.len()];
     for (at, forces) in balance.forces().below {
@@ -115,7 +116,7 @@ fn response_by_oracle(balance: &Balance) -> Response {
     response
 }
 
-/// How many contacts have each force, but for those that feel nothing.
+/// The number of contacts with each nonzero force.
 fn profile(contacts: &[(Place, BigRational)]) -> BTreeMap<BigRational, usize> {
     let mut profile = BTreeMap::new();
     for (_, v) in contacts {
@@ -124,7 +125,7 @@ fn profile(contacts: &[(Place, BigRational)]) -> BTreeMap<BigRational, usize> {
     profile
 }
 
-/// What the spheres at each distance from the line of the load receive together, by squared distance.
+/// The total force on the spheres at each squared distance from the line of the load.
 fn rings(
     balance: &Balance,
     contacts: &[(Place, BigRational)],
@@ -136,7 +137,7 @@ fn rings(
     rings
 }
 
-/// At depths 1 to 6 of HCP: how often each force occurs, as its numerator over 3^depth. Found by the oracle.
+/// For depths 1 to 6 of HCP: the frequency of each force, as its numerator over 3^depth. Found by the oracle.
 const FORCES_OF_HCP: [&[(i64, usize)]; 6] = [
     &[(1, 3)],
     &[(-1, 3), (2, 6)],
@@ -179,7 +180,7 @@ const RINGS_OF_HCP: [&[(i64, i64)]; 6] = [
 ];
 
 #[test]
-fn hcp_spreads_it_over_a_ring_and_pulls_inside() {
+fn hcp_has_a_ring_of_compression_around_tension() {
     let case = loaded("+-+-+-");
     for response in [response(&case), response_by_oracle(&case.balance)] {
         for (n, contacts) in response.iter().enumerate() {
@@ -198,8 +199,8 @@ fn hcp_spreads_it_over_a_ring_and_pulls_inside() {
 }
 
 #[test]
-fn prestress_bears_a_load_up_to_what_the_weights_push() {
-    // Below the sign change the contacts under the edge carry 1 − (1 + w)/3.
+fn weight_keeps_contacts_compressive_up_to_a_critical_load() {
+    // Below the sign change the contacts under the edge have 1 − (1 + w)/3.
     let failure = |load: BigRational| {
         let case = Case::under(&Bounds::SITE, "+-").with_load((0, 0, 0), &load);
         case.pile.standing().unwrap().first_failure

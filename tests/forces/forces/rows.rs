@@ -1,4 +1,4 @@
-//! Rows of nearest floats, in any pieces and by any method, and sums, are those of what is asked for one by one.
+//! Rows of correctly rounded floats, in pieces of any length and by any method, and sums equal single queries.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use num_traits::Zero;
 use super::layers::{packing_of, piles};
 use cannonpile_testkit::answers::ratio;
 
-/// Rows in pieces: some spheres are left out.
+/// Rows in pieces, without some of their spheres.
 fn pieces(pile: &Pile, size: i128) -> impl Iterator<Item = Row> {
     let rows = pile.rows(Selection::All).expect("rows");
     let pieces: Vec<Row> = rows.flat_map(|row| row.pieces(size)).collect();
@@ -32,7 +32,7 @@ fn nearest<F: NearestFloat>(exact: &Surd) -> F {
     exact.nearest().expect("a float")
 }
 
-fn rows_are_the_nearest<F>(packing: &Packing<'_>, size: i128)
+fn rows_are_correctly_rounded<F>(packing: &Packing<'_>, size: i128)
 where
     F: NearestFloat + Default + PartialEq + core::fmt::Debug,
 {
@@ -72,7 +72,7 @@ where
             }
             continue;
         }
-        // Whatever is asked for first.
+        // The order of the queries does not matter.
         let mut vectors = [(); 3].map(|()| columns::<F>(&row));
         let slices = vectors
             .each_mut()
@@ -103,21 +103,21 @@ where
 }
 
 #[test]
-fn rows_are_the_nearest_floats() {
+fn rows_have_the_nearest_floats() {
     for (n, pile) in (1..).zip(piles()) {
         let packing = packing_of(&pile);
-        rows_are_the_nearest::<f64>(&packing, n % 4 + 1);
-        rows_are_the_nearest::<f32>(&packing, 1024);
+        rows_are_correctly_rounded::<f64>(&packing, n % 4 + 1);
+        rows_are_correctly_rounded::<f32>(&packing, 1024);
     }
 }
 
 #[test]
-fn rows_are_the_nearest_floats_by_any_method() {
+fn rows_have_the_nearest_floats_by_any_method() {
     let mut met = 0;
     for pile in piles() {
         for method in [Method::Closed, Method::Tree, Method::Sweep] {
             if let Ok(packing) = packing_of(&pile).with_method(method) {
-                rows_are_the_nearest::<f64>(&packing, 3);
+                rows_are_correctly_rounded::<f64>(&packing, 3);
                 met += 1;
             }
         }
@@ -126,7 +126,7 @@ fn rows_are_the_nearest_floats_by_any_method() {
 }
 
 #[test]
-fn what_no_row_can_be_is_refused() {
+fn invalid_rows_are_rejected() {
     let pile = Pile::triangular(5).expect("a pile");
     let packing = packing_of(&pile);
     let mut layers = packing.layers::<f64>(Selection::All).expect("layers");
@@ -197,9 +197,9 @@ fn what_no_row_can_be_is_refused() {
     assert!(matches!(above, Err(Error::NotOnFloor { .. })));
 }
 
-/// With weight of their own these spheres would carry 5/3 of a unit of which a float holds 8/5.
+/// With their own weight, these spheres would carry 5/3 of a unit, and the greatest float is 8/5 of it.
 #[test]
-fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
+fn weightless_spheres_do_not_overflow_with_their_neighbours() {
     let stacking = || "+-".parse().expect("signs");
     let light = |sites: Vec<Site>| {
         let pile = Pile::under(Region::SITE, stacking()).expect("a pile");
@@ -271,9 +271,9 @@ fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
     }
 }
 
-/// No layer is said to be filled where no force of it has a float.
+/// A layer must not count as filled if none of its forces has a float.
 #[test]
-fn layers_without_a_float_are_refused() {
+fn layers_without_a_float_are_rejected() {
     let pile = Pile::under(Region::SITE, "+-+-".parse().expect("signs")).expect("a pile");
     let packing = packing_of(&pile);
     let heavy = BigRational::from_float(1e60).expect("a number");
@@ -296,7 +296,7 @@ fn layers_without_a_float_are_refused() {
 }
 
 #[test]
-fn sums_are_those_of_all_rows() {
+fn sums_equal_those_of_all_rows() {
     let on_floor = Site { i: 0, j: 0, k: 5 };
     let special = Pile::triangular(6).expect("a pile");
     let special = special.with_load(on_floor, ratio(7, 3)).expect("a load");
@@ -315,7 +315,7 @@ fn sums_are_those_of_all_rows() {
         ];
         for part in parts.into_iter().chain(layers) {
             let Ok(contacts) = forces.contacts(part) else {
-                // The apex of a pile grown from its base may be elsewhere.
+                // The apex of a pile on a base may lie elsewhere.
                 assert!(forces.sum_of_contacts(part).is_err());
                 continue;
             };
@@ -351,7 +351,7 @@ fn sums_of_huge_piles() {
         matches!(refused, Err(Error::TooLarge { .. })),
         "{refused:?}"
     );
-    // All that is above.
+    // All spheres above.
     let layer = forces
         .sum_of_contacts(Selection::Layer(10_i128.pow(30)))
         .expect("a sum");
@@ -371,9 +371,9 @@ fn sums_of_huge_piles() {
     );
 }
 
-/// Forces below the normal floats, and zeros.
+/// Subnormal forces, and zeros.
 #[test]
-fn what_loses_digits_is_known() {
+fn subnormal_results_are_reported() {
     let pile = Pile::triangular(4).expect("a pile");
     let layers = |exponent: i32| {
         let mass = num_traits::pow(ratio(1, 10), exponent.unsigned_abs() as usize);
@@ -397,9 +397,9 @@ fn what_loses_digits_is_known() {
     assert_eq!(layers(-309), (false, false));
 }
 
-/// The unit is 3^−78 and 3^−80: a normal float, and less than any.
+/// The unit is 3^−78, a normal float, or 3^−80, which is subnormal.
 #[test]
-fn digits_are_kept_where_the_unit_is_a_normal_float() {
+fn a_normal_unit_keeps_all_digits() {
     let pile = Pile::under(Region::SITE, "+-".repeat(41).parse().unwrap()).unwrap();
     let keeps_digits = |k| {
         let layers = pile.forces::<BigRational>().layers(Selection::Layer(k));

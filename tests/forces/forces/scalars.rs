@@ -1,5 +1,5 @@
-//! Other scalars than `BigRational`, against the oracle: rounded ones within a bound that follows from their
-//! precision, enclosing ones around it, bounded ones equal to it or refused.
+//! Other scalars than `BigRational`, compared with the oracle. Rounded ones stay within a bound for their precision.
+//! Enclosures contain the exact value. Fixed-width ones are equal or report an overflow.
 
 use cannonpile::Error;
 use cannonpile::scalar::{Algebra, DoubleDouble, FixedRational, Interval, Polynomial};
@@ -11,7 +11,7 @@ use num_traits::Signed;
 use cannonpile_testkit::cases::{Bounds, Case, Random, repeated};
 use cannonpile_testkit::oracles::balance::{Forces, direction, ratio, site};
 
-/// Every answer of a pile in one scalar with the true value, one by one and in rows.
+/// Every answer of a pile in one scalar with the exact value, from single queries and from rows.
 fn answers<T: Algebra>(case: &Case, known: &Forces) -> Vec<(Result<T, Error>, BigRational)> {
     let forces = case.pile.forces::<T>();
     let mut answers = Vec::new();
@@ -38,7 +38,7 @@ fn answers<T: Algebra>(case: &Case, known: &Forces) -> Vec<(Result<T, Error>, Bi
     answers
 }
 
-/// Random piles: tops and stackings of all kinds, with and without loads; the last ones large.
+/// Random piles: tops and stackings of all kinds, with and without loads. The last ones are large.
 fn piles() -> Vec<Case> {
     let mut random = Random(21);
     let mut piles = Vec::new();
@@ -53,11 +53,11 @@ fn piles() -> Vec<Case> {
     piles
 }
 
-/// What no error is greater than, in units of the rounding error.
+/// A bound on all errors, in units of the rounding error.
 ///
-/// G is orthogonal, so in ℓ² over a layer an error is passed on as large as it is. Every run adds a few roundings, each
-/// of a number that is at most 2√3·‖f‖ < 4·Σ√3‖w‖; a load adds one or two. The sums that make a force on the floor of three
-/// contacts are no greater. 16 roundings a layer, and as many for each load, are more than there are.
+/// G is orthogonal, so a half-turn preserves the ℓ² norm of an error over a layer. Every run adds a few roundings of values
+/// that are at most 2√3·‖f‖ < 4·Σ√3‖w‖. A load adds one or two. The sums of three contacts in a force on the floor are not
+/// greater. So 16 roundings for each layer and each load are a safe bound.
 fn scale(case: &Case) -> BigRational {
     let balance = &case.balance;
     let mut norms = ratio(0, 1);
@@ -102,9 +102,9 @@ fn double_doubles_within_their_rounding() {
 }
 
 #[test]
-fn intervals_hold_every_force_and_little_more() {
+fn intervals_contain_every_force_and_stay_narrow() {
     for case in piles() {
-        // Bounds do not know that G is a rotation: they may grow by 5/3 at each change.
+        // Enclosures ignore that G is a rotation, so they may grow by 5/3 at each change.
         let growth =
             ratio(5, 3).pow(i32::try_from(case.pile.shape().stacking().changes()).unwrap());
         let bound = scale(&case) * growth / BigRational::from(BigInt::from(1) << 53);
@@ -127,8 +127,8 @@ fn polynomials_without_symbols_are_rationals() {
     }
 }
 
-/// How many answers there are, and how many are refused: none is wrong.
-fn equal_or_refused<T: Algebra>(exactly: impl Fn(&T) -> Option<BigRational>) -> [usize; 2] {
+/// The numbers of exact answers and of rejected ones. An answer is never wrong.
+fn equal_or_overflow<T: Algebra>(exactly: impl Fn(&T) -> Option<BigRational>) -> [usize; 2] {
     let mut counts = [0, 0];
     for case in piles() {
         for (answer, expected) in answers::<T>(&case, &case.balance.forces()) {
@@ -146,19 +146,19 @@ fn equal_or_refused<T: Algebra>(exactly: impl Fn(&T) -> Option<BigRational>) -> 
 }
 
 #[test]
-fn fixed_rationals_are_equal_or_refused() {
-    let [equal, refused] = equal_or_refused(FixedRational::<i128>::to_rational);
+fn fixed_rationals_are_equal_or_overflow() {
+    let [equal, refused] = equal_or_overflow(FixedRational::<i128>::to_rational);
     assert!(equal > 10 * refused, "{equal} {refused}");
-    let [equal, refused] = equal_or_refused(FixedRational::<i64>::to_rational);
+    let [equal, refused] = equal_or_overflow(FixedRational::<i64>::to_rational);
     assert!(equal > 10 * refused, "{equal} {refused}");
-    let [equal, refused] = equal_or_refused(FixedRational::<i32>::to_rational);
+    let [equal, refused] = equal_or_overflow(FixedRational::<i32>::to_rational);
     assert!(equal > 0 && refused > 0, "{equal} {refused}");
-    let [equal, refused] = equal_or_refused(FixedRational::<i16>::to_rational);
+    let [equal, refused] = equal_or_overflow(FixedRational::<i16>::to_rational);
     assert!(equal > 0 && refused > 0, "{equal} {refused}");
 }
 
 #[test]
-fn the_statics_are_of_the_pile_that_was_asked() {
+fn forces_refer_to_their_own_pile() {
     let case = Case::under(&Bounds::triangle(2), "+-");
     let forces: cannonpile::Forces<f64> = case.pile.forces();
     assert_eq!(forces.pile(), &case.pile);

@@ -1,5 +1,5 @@
-//! At the limits of floats every way to compute is as far off as the table in `crates/testkit/src/stress/table.md` says, and no more
-//! than its bound.
+//! At the limits of floats, the errors of each scalar equal the table in `crates/testkit/src/stress/table.md` and respect
+//! their bounds.
 
 use std::fs;
 
@@ -15,7 +15,7 @@ fn rows(case: &Case) -> Result<String, String> {
 }
 
 #[test]
-fn errors_at_the_limits_are_those_of_the_table() {
+fn errors_at_the_limits_match_the_table() {
     let cases: Vec<Case> = cases::all();
     let rows = cases.iter().map(rows).collect::<Result<String, _>>();
     let measured = table::HEAD.to_owned() + &rows.unwrap_or_else(|fault| panic!("{fault}"));
@@ -36,8 +36,8 @@ fn errors_at_the_limits_are_those_of_the_table() {
     assert_eq!(measured.lines().count(), table.lines().count());
 }
 
-/// After a thousand changes the other scalars take minutes: the bench `rounding` measures them, with `-- --stress`. Without
-/// optimization even the exact forces do.
+/// After a thousand sign changes the other scalars take minutes. The bench `rounding` measures them with `-- --stress`.
+/// Without optimisation even the exact forces are slow.
 #[cfg(not(debug_assertions))]
 #[test]
 fn errors_after_many_changes_of_sign_are_those_of_the_table() {
@@ -46,14 +46,16 @@ fn errors_after_many_changes_of_sign_are_those_of_the_table() {
     let [in_floats, in_all] = Deep::LAYERS;
     let mut deep = Deep::new(in_floats);
     deep.measure_floats();
-    // What it is of, and the table.
+    // The title of a table and its rows.
     let parts: Vec<&str> = include_str!("../../../crates/testkit/src/stress/deep.md")
         .split("\n\n")
         .collect();
     for (measured, layers) in [(deep, in_floats), (Deep::measured(in_all), in_all)] {
         let mut tables = parts.chunks(2);
         let written = tables.find(|table| table[0].starts_with(&format!("{layers} layers ")));
-        let written = written.expect("a table of so many layers").join("\n\n");
+        let written = written
+            .expect("a table for this number of layers")
+            .join("\n\n");
         for line in measured.to_string().lines() {
             assert!(
                 written.contains(line),
@@ -63,7 +65,7 @@ fn errors_after_many_changes_of_sign_are_those_of_the_table() {
     }
 }
 
-/// Single precision passed off as double, and intervals that are a float too short.
+/// Single precision presented as double, and intervals that are one float too short.
 #[test]
 fn wrong_answers_break_the_table() {
     for case in [cases::alternating(2, 6), cases::tall().swap_remove(2)] {
@@ -82,7 +84,7 @@ fn wrong_answers_break_the_table() {
             ..right
         };
         let fault = table::rows(&case, &short).expect_err("too short");
-        assert!(fault.contains("does not hold"), "{fault}");
+        assert!(fault.contains("does not contain"), "{fault}");
     }
 }
 

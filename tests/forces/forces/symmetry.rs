@@ -1,4 +1,4 @@
-//! The symmetries of a pile carry its forces along; the others do not.
+//! The symmetries of a pile preserve its forces. Other mappings do not.
 
 use cannonpile::lattice::{Direction, Site, count};
 use cannonpile_testkit::answers::{Answers, Shape, ratio};
@@ -18,7 +18,7 @@ fn equilateral_piles_have_all_six() {
 }
 
 #[test]
-fn isosceles_piles_have_the_mirror_and_no_other() {
+fn isosceles_piles_have_only_the_mirror() {
     for shape in Shape::isosceles() {
         for layers in 1..=10 {
             let pile = Answers::of(&shape, layers);
@@ -37,9 +37,9 @@ fn isosceles_piles_have_the_mirror_and_no_other() {
     }
 }
 
-/// The contact forces alone, no vectors: the rotation fails there too.
+/// Compares only the magnitudes of contact forces, without vectors. The rotation fails for them too.
 #[test]
-fn an_isosceles_base_is_felt_in_the_magnitudes() {
+fn an_isosceles_base_breaks_the_symmetry_of_magnitudes() {
     let forces = |shape: &Shape| {
         let pile = shape.pile(2);
         Direction::ALL.map(|direction| pile.forces().contact(Site::APEX, direction))
@@ -62,7 +62,7 @@ fn discs_have_the_mirror() {
 }
 
 #[test]
-fn rotation_thrice_and_mirror_twice_are_nothing() {
+fn three_rotations_and_two_mirrors_are_the_identity() {
     let chain = |site, symmetries: &[Symmetry]| {
         let mut symmetries = symmetries.iter();
         symmetries.try_fold(site, |site, symmetry| symmetry.apply(site))
@@ -82,7 +82,7 @@ fn rotation_thrice_and_mirror_twice_are_nothing() {
     assert_eq!(mirror.apply(outside), None);
 }
 
-/// The appendix: N_γ = j becomes N_α under {j → k−i−j, i → j}, and N_β when it is applied again.
+/// The appendix: {j → k−i−j, i → j} turns N_γ = j into N_α, and a second application turns it into N_β.
 #[test]
 fn the_papers_rotation_permutes_the_counts() {
     let counts = |Site { i, j, k }| count::above(&i, &j, &k);

@@ -1,4 +1,5 @@
-//! One body, many scalars: bounds hold the exact answer, rounded ones are near it, polynomials take its value.
+//! One generic body for each formula. Enclosures contain the exact answer, rounded scalars are close to it, and polynomials
+//! evaluate to it.
 
 use cannonpile::formula::{
     force, half_turn, handed_on, increments, passed_on, resultant, tripled_apart,
@@ -15,10 +16,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Signed, Zero};
 
-/// How fast a quantity grows with the pile: what its rounding error is measured by.
+/// The growth of a quantity with the pile, which scales its rounding error.
 #[derive(Clone, Copy, Debug)]
 enum Growth {
-    /// Forces, positions: a few times the depth.
+    /// Forces and positions: a few times the depth.
     Linear,
     /// Squared distances.
     Square,
@@ -26,7 +27,7 @@ enum Growth {
     Cube,
 }
 
-/// Every formula at a site (i, j, k) of a pile of L layers, with s = sin φ and σ = sin²θ; the half-turn in the way of the
+/// Every formula at a site (i, j, k) of a pile of L layers, with s = sin φ and σ = sin²θ. `turn` is the half-turn of the
 /// scalar.
 fn formulas<T: Algebra>(
     [i, j, k, l, s, sin2]: &[T; 6],
@@ -111,7 +112,7 @@ fn formulas<T: Algebra>(
     all
 }
 
-/// Sites in piles up to 10⁶ layers, sin φ and sin²θ, without a pattern, the same in every run.
+/// Sites in piles of up to 10⁶ layers, with sin φ and sin²θ. They have no pattern and are the same in every run.
 fn places() -> impl Iterator<Item = [Q; 6]> {
     let next = |n: &u64| Some(n.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1));
     let mut numbers = core::iter::successors(Some(1998), next)
@@ -130,10 +131,10 @@ fn places() -> impl Iterator<Item = [Q; 6]> {
     })
 }
 
-/// The rounding errors allowed, in units of 2^−p times the growth: a handful, whatever the precision p.
+/// The allowed rounding errors in units of 2^−p times the growth: a few, for any precision p.
 const ROUNDINGS: i64 = 8;
 
-/// Whether an answer is as near to the exact one as its scalar can make it.
+/// Tells whether an answer is as close to the exact one as its scalar permits.
 fn is_near<T: Algebra + RealEmbeddable>(got: &T, want: &Q, growth: &Q) -> bool {
     let Some(bounds) = got.enclosure() else {
         return false;
@@ -142,7 +143,7 @@ fn is_near<T: Algebra + RealEmbeddable>(got: &T, want: &Q, growth: &Q) -> bool {
         let unit = growth / (BigInt::one() << bits);
         (bounds.lower - want).abs() <= unit * BigInt::from(ROUNDINGS)
     } else {
-        // Bounds must hold it, and keep most digits.
+        // An enclosure must contain the exact value and keep most digits.
         let unit = growth / (BigInt::one() << 53);
         let width = &bounds.upper - &bounds.lower;
         bounds.contains(want) && width <= unit * BigInt::from(2 * ROUNDINGS)
@@ -179,7 +180,7 @@ fn formulas_are_near<T: Field + Algebra<Numerator = T> + RealEmbeddable>() {
 }
 
 #[test]
-fn intervals_hold_the_exact_value() {
+fn intervals_contain_the_exact_value() {
     formulas_are_near::<Interval>();
 }
 
@@ -198,9 +199,9 @@ fn singles_are_near() {
     formulas_are_near::<f32>();
 }
 
-/// Run on symbols, then evaluated: what runs on the numbers.
+/// Computes with symbols and then evaluates. The result equals the computation with numbers.
 #[test]
-fn polynomials_take_the_exact_value() {
+fn polynomials_evaluate_to_the_exact_value() {
     let symbols = ["i", "j", "k", "L", "s", "σ"].map(Symbol);
     let on_symbols = formulas(&symbols.map(Polynomial::from), half_turn::<Polynomial>);
     for place in places().step_by(3) {
@@ -225,7 +226,7 @@ fn polynomials_take_the_exact_value() {
     }
 }
 
-/// All that can be asked of a pile.
+/// All answers about a pile.
 fn answers<T: Algebra>(pile: &Pile) -> Result<Vec<T>, Error> {
     let forces = pile.forces::<T>();
     let mut all = vec![forces.increment_sum()?];
@@ -279,7 +280,7 @@ fn statics_are_near<T: Field + RealEmbeddable>(layers: i128) {
 }
 
 #[test]
-fn statics_in_intervals_hold_the_exact_answer() {
+fn statics_in_intervals_contain_the_exact_answer() {
     statics_are_near::<Interval>(12);
 }
 
@@ -304,9 +305,9 @@ fn statics_in_polynomials_are_exact() {
     }
 }
 
-/// Bounds that miss, and values that are too far off, are seen.
+/// Enclosures that miss the value, and values that are too far off, are detected.
 #[test]
-fn what_is_not_near_is_caught() {
+fn wrong_answers_are_caught() {
     let (third, one) = (Q::new(1.into(), 3.into()), Q::one());
     assert!(is_near(&Interval::from_rational(&third), &third, &one));
     assert!(!is_near(&Interval::point(1.0 / 3.0), &third, &one));

@@ -1,11 +1,11 @@
-//! The half-turn in the way of each scalar: bounds stay narrow, and rounded numbers are divided once.
+//! The half-turn of each scalar: enclosures stay narrow, and rounded values are divided once.
 
 use cannonpile::formula::half_turn;
 use cannonpile::scalar::Interval;
 
-/// From [2, 4] along one line come −[2, 4]/3 along it and 2·[2, 4]/3 along the others, and no more but a rounding.
+/// Inputs [2, 4] along one line give −[2, 4]/3 along it and 2·[2, 4]/3 along the others, plus one rounding.
 #[test]
-fn bounds_widen_by_what_they_must() {
+fn intervals_widen_minimally() {
     let g = [
         Interval::new(2.0, 4.0).unwrap(),
         Interval::point(0.0),
@@ -18,7 +18,7 @@ fn bounds_widen_by_what_they_must() {
     }
 }
 
-/// 2/3 is rounded, and what is taken from it is not rounded again.
+/// 2/3 is rounded. The subtraction after it adds no rounding.
 #[test]
 fn floats_are_divided_once() {
     let third: f64 = 2.0 / 3.0;

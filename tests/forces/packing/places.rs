@@ -1,4 +1,4 @@
-//! Places that are written along rows are those that are asked for one by one.
+//! Positions written along rows equal those of single queries.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Row, Site};
@@ -18,7 +18,7 @@ fn nearest(exact: &Surd) -> f64 {
     exact.nearest().unwrap()
 }
 
-/// x, y and z of each sphere of a row.
+/// The values x, y and z of each sphere of a row.
 fn filled(row: &Row, fill: impl FnOnce([&mut [f64]; 3])) -> Vec<[f64; 3]> {
     let [mut x, mut y, mut z] = [(); 3].map(|()| vec![0.0; row.clone().into_iter().count()]);
     fill([&mut x, &mut y, &mut z]);
@@ -55,7 +55,7 @@ fn rows_agree(pile: &Pile, rows: impl Iterator<Item = Row>) {
 }
 
 #[test]
-fn centres_and_points_of_contact_are_the_nearest_floats() {
+fn centres_and_contact_points_are_the_nearest_floats() {
     let hcp = Pile::under(Region::hexagon(2, 1).unwrap(), "+-+".parse().unwrap()).unwrap();
     for pile in [
         Pile::triangular(4).unwrap(),
@@ -67,7 +67,7 @@ fn centres_and_points_of_contact_are_the_nearest_floats() {
     }
 }
 
-/// Coordinates that no machine integer holds.
+/// Coordinates that exceed every machine integer.
 #[test]
 fn far_from_the_axis_too() {
     let far = 10_i128.pow(25);
@@ -84,7 +84,7 @@ fn far_from_the_axis_too() {
     }
 }
 
-/// Near it, where one float differs from the next.
+/// Close to the axis, where neighbouring floats are distinct.
 #[test]
 fn of_many_digits() {
     let sin_phi = ratio(412_345_678_901_234_567, 1_000_000_000_000_000_003);
@@ -92,9 +92,9 @@ fn of_many_digits() {
     rows_agree(&pile, pile.rows(Selection::All).unwrap());
 }
 
-/// Layers lie one as far below the other as the next, whichever way they lean.
+/// All layers have the same distance, for any signs of the steps.
 #[test]
-fn heights_are_those_of_layers() {
+fn layers_are_equally_spaced() {
     for signs in ["----", "+-+-", "-++-"] {
         let pile = Pile::under(Region::SITE, signs.parse().unwrap()).unwrap();
         let packing = packing(&pile);
@@ -111,7 +111,7 @@ fn heights_are_those_of_layers() {
 }
 
 #[test]
-fn rows_that_leave_the_pile_are_refused() {
+fn rows_outside_the_pile_are_rejected() {
     let pile = Pile::triangular(3).unwrap();
     let places = packing(&pile).places::<f64>();
     let [mut x, mut y, mut z] = [[0.0; 4]; 3];
@@ -122,9 +122,9 @@ fn rows_that_leave_the_pile_are_refused() {
     }
 }
 
-/// From sphere to sphere the way to the point of contact is as far as from there to the other.
+/// The contact point is the midpoint of both centres.
 #[test]
-fn points_of_contact_lie_half_way() {
+fn contact_points_are_midpoints() {
     let pile = Pile::isosceles(3, ratio(1, 3)).unwrap();
     let packing = packing(&pile);
     let places = packing.places::<f64>();
@@ -152,7 +152,7 @@ fn points_of_contact_lie_half_way() {
 }
 
 #[test]
-fn a_packing_knows_by_what_method_it_is_asked() {
+fn method_returns_the_chosen_method() {
     let pile = Pile::triangular(3).unwrap();
     assert_eq!(packing(&pile).method(), None);
     for method in [Method::Closed, Method::Tree, Method::Sweep] {
@@ -172,7 +172,7 @@ fn a_packing_knows_by_what_method_it_is_asked() {
 }
 
 #[test]
-fn masses_are_those_of_weights() {
+fn masses_follow_the_weights() {
     let heavy = Site { i: 1, j: 0, k: 1 };
     let pile = Pile::triangular(3).unwrap();
     let pile = pile.with_weight(heavy, ratio(5, 2)).unwrap();

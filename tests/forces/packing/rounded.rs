@@ -1,6 +1,6 @@
-//! No quantity of any pile is rounded to a wrong float: 100,000 random and adversarial values of each.
+//! Every quantity of every pile is rounded correctly: 100,000 random and adversarial values of each.
 //!
-//! The bench `rounding` judges ten million in the same way.
+//! The bench `rounding` checks ten million values in the same way.
 
 use cannonpile::scalar::Surd;
 use num_bigint::BigInt;
@@ -12,10 +12,10 @@ use cannonpile_testkit::rounding::quantities::Quantity;
 use cannonpile_testkit::rounding::random::Random;
 use cannonpile_testkit::rounding::tally::Tally;
 
-/// Values of each quantity.
+/// The number of values for each quantity.
 const CASES: u64 = 100_000;
 
-fn none_is_wrong(tally: impl FnOnce(&mut Random, u64) -> Tally) {
+fn all_are_correct(tally: impl FnOnce(&mut Random, u64) -> Tally) {
     let Tally {
         cases,
         wrong,
@@ -28,24 +28,24 @@ fn none_is_wrong(tally: impl FnOnce(&mut Random, u64) -> Tally) {
 
 #[test]
 fn random_roots() {
-    none_is_wrong(numbers::random_roots);
+    all_are_correct(numbers::random_roots);
 }
 
 #[test]
 fn critical_roots() {
-    none_is_wrong(numbers::critical_roots);
+    all_are_correct(numbers::critical_roots);
 }
 
 #[test]
 fn rationals() {
-    none_is_wrong(numbers::rationals);
+    all_are_correct(numbers::rationals);
 }
 
 macro_rules! quantities {
     ($($name:ident: $quantity:ident;)*) => {$(
         #[test]
         fn $name() {
-            none_is_wrong(|random, cases| Quantity::$quantity.tally(random, cases));
+            all_are_correct(|random, cases| Quantity::$quantity.tally(random, cases));
         }
     )*};
 }
@@ -62,7 +62,7 @@ quantities! {
     filled_in_contact_forces_of_stackings: FilledStacking;
 }
 
-/// (2^p + 1)·(1 ± a hair), beside the middle between two floats of p bits: no double-double is near enough.
+/// (2^p + 1)·(1 ± δ), close to the midpoint of two floats of p bits. No double-double resolves it.
 fn near_ties(bits: u32) -> impl Iterator<Item = Surd> {
     let one = || BigRational::from_integer(1.into());
     let middle = BigRational::from_integer((1_i64 << bits).into()) + one();
@@ -82,7 +82,7 @@ fn near_ties(bits: u32) -> impl Iterator<Item = Surd> {
 }
 
 #[test]
-fn near_ties_and_roots_of_integers_are_rounded_to_the_nearest() {
+fn near_ties_and_roots_of_integers_are_rounded_correctly() {
     let mut tally = Tally::default();
     for surd in near_ties(53).chain(near_ties(24)) {
         tally.meet(&surd);

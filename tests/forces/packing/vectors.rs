@@ -1,4 +1,4 @@
-//! Forces as vectors and positions: of any stacking, from where the oracle has the spheres.
+//! Forces as vectors and positions, for any stacking, compared with the positions of the oracle.
 
 use cannonpile::Forces;
 use cannonpile::geometry::Vector;
@@ -9,8 +9,8 @@ use num_traits::Zero;
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs};
 use cannonpile_testkit::oracles::balance::{Balance, Place, direction, ratio, site};
 
-/// A horizontal way in thirds of lattice vectors, and layers down, in the basis of the paper's (1): 2R times sinθ,
-/// √3·sinθ, cosθ. The lattice vectors are (0, 1) and (3/2, 1/2) in it.
+/// A horizontal displacement in thirds of lattice vectors, and a number of layers down, in the basis of the paper's (1): 2R
+/// times sinθ, √3·sinθ, cosθ. In this basis the lattice vectors are (0, 1) and (3/2, 1/2).
 fn vector([p, q]: &[BigInt; 2], down: i128) -> Vector<BigRational> {
     Vector {
         x: BigRational::new(q.clone(), 2.into()),
@@ -19,8 +19,8 @@ fn vector([p, q]: &[BigInt; 2], down: i128) -> Vector<BigRational> {
     }
 }
 
-/// From a sphere to the next one in the direction of a contact.
-fn way(balance: &Balance, from: Place, to: Place) -> Vector<BigRational> {
+/// The displacement from a sphere to the next one along a contact.
+fn displacement(balance: &Balance, from: Place, to: Place) -> Vector<BigRational> {
     let [[p0, q0], [p1, q1]] = [from, to].map(|at| balance.position(at));
     vector(&[p1 - p0, q1 - q0], to.0 - from.0)
 }
@@ -32,12 +32,12 @@ fn agrees(case: &Case) {
     let origin = forces.position(site(first)).unwrap();
     for at in balance.places() {
         let from_first = forces.position(site(at)).unwrap() - &origin;
-        assert_eq!(from_first, way(balance, first, at), "{at:?}");
+        assert_eq!(from_first, displacement(balance, first, at), "{at:?}");
         let mut resultant = Vector::zero();
         for m in 0..3 {
             if let Some(above) = balance.above(at, m) {
                 let force = &known.above[&at][m];
-                resultant = resultant + &way(balance, above, at).map(|c| c * force);
+                resultant = resultant + &displacement(balance, above, at).map(|c| c * force);
             }
         }
         assert_eq!(forces.resultant_above(site(at)), Ok(resultant), "{at:?}");
@@ -46,8 +46,8 @@ fn agrees(case: &Case) {
         };
         for (m, force) in below.iter().enumerate() {
             let to = balance.below(at, m).expect("off the floor");
-            // On the upper sphere: away from the lower one.
-            let expected = way(balance, to, at).map(|c| c * force);
+            // The force on the upper sphere points away from the lower one.
+            let expected = displacement(balance, to, at).map(|c| c * force);
             let vector = forces.contact_vector(site(at), direction(m));
             assert_eq!(vector, Ok(expected), "{at:?} {m}");
         }
@@ -75,16 +75,16 @@ fn of_random_piles_with_loads() {
 }
 
 #[test]
-fn under_one_sphere_positions_are_from_it() {
+fn positions_are_relative_to_the_apex() {
     let case = Case::under(&Bounds::SITE, "+-++-");
     let apex = case.pile.forces::<BigRational>().position(site((0, 0, 0)));
     assert_eq!(apex, Ok(Vector::zero()));
 }
 
 #[test]
-fn a_sphere_moved_is_told_apart() {
+fn a_moved_sphere_is_caught() {
     let balance = Case::under(&Bounds::SITE, "+-").balance;
-    let [here, there] = [(2, 0, 0), (2, 0, 1)].map(|at| way(&balance, (0, 0, 0), at));
+    let [here, there] = [(2, 0, 0), (2, 0, 1)].map(|at| displacement(&balance, (0, 0, 0), at));
     assert!(here.x.is_zero() && here.y.is_zero());
     assert_eq!((there.x, there.y), (ratio(0, 1), ratio(1, 1)));
 }

@@ -1,4 +1,4 @@
-//! Which spacings fit, and what touches: the library against the distances of all pairs.
+//! Allowed spacings and touching spheres, compared with the distances of all pairs.
 
 use std::collections::BTreeSet;
 
@@ -19,9 +19,9 @@ fn shapes() -> impl Iterator<Item = Shape> {
     Shape::isosceles().chain([Shape::Discs])
 }
 
-/// Every q at which two spheres touch that are a few steps apart, and q a billionth to both sides of
-/// it; also some between, and where contacts would be horizontal.
-fn questions(shape: &Shape, tall: &BTreeSet<Difference>) -> Vec<BigRational> {
+/// Every q at which two spheres a few steps apart touch, and q slightly smaller and larger. Also some values between, and
+/// those at which contacts would be horizontal.
+fn test_values(shape: &Shape, tall: &BTreeSet<Difference>) -> Vec<BigRational> {
     let few = tall
         .iter()
         .filter(|n| n.iter().all(|steps| steps.abs() <= 2));
@@ -48,13 +48,13 @@ fn questions(shape: &Shape, tall: &BTreeSet<Difference>) -> Vec<BigRational> {
 }
 
 #[test]
-fn every_verdict_is_that_of_all_pairs() {
+fn every_verdict_agrees_with_all_pairs() {
     for shape in shapes() {
-        let questions = questions(&shape, &overlap::differences(&shape, 9));
+        let test_values = test_values(&shape, &overlap::differences(&shape, 9));
         for layers in 1..=9 {
             let differences = overlap::differences(&shape, layers);
             let clearance = shape.pile(layers).clearance();
-            for q in &questions {
+            for q in &test_values {
                 let room = overlap::room(&shape, &differences, q);
                 let answer = clearance.check(&spacing(q));
                 let agree = overlap::agree(room.as_ref(), &answer);
@@ -67,18 +67,18 @@ fn every_verdict_is_that_of_all_pairs() {
     }
 }
 
-/// What an error says is so: the spheres named do overlap, the spacing lies outside the bounds named,
-/// and "none fits" is said just where none of the questions has room.
+/// An error is true: the named spheres overlap, and the spacing lies outside the named bounds. The error says that no
+/// spacing fits exactly if none of the tested ones does.
 #[test]
 fn every_error_is_true() {
     for shape in shapes() {
-        let questions = questions(&shape, &overlap::differences(&shape, 9));
+        let test_values = test_values(&shape, &overlap::differences(&shape, 9));
         for layers in 1..=9 {
             let differences = overlap::differences(&shape, layers);
             let clearance = shape.pile(layers).clearance();
             let fits = |q: &BigRational| overlap::room(&shape, &differences, q).is_some();
-            let some_fit = questions.iter().any(fits);
-            for q in &questions {
+            let some_fit = test_values.iter().any(fits);
+            for q in &test_values {
                 let case = format!("{shape:?}, {layers} layers, q = {q}");
                 match clearance.check(&spacing(q)) {
                     Ok(_) => {}
@@ -100,7 +100,7 @@ fn every_error_is_true() {
                         let (least, most) = *allowed;
                         let outside = least.is_some_and(|least| q < least.square())
                             || most.is_some_and(|most| q > most.square());
-                        assert!(outside, "{case} lies within the bounds it is told to keep");
+                        assert!(outside, "{case} lies within the bounds of the error");
                         assert!(some_fit, "{case}");
                     }
                     Err(other) => panic!("{case}: {other:?}"),
@@ -110,7 +110,7 @@ fn every_error_is_true() {
     }
 }
 
-/// A q just below `q`, and one just above.
+/// A q slightly below `q`, and one slightly above.
 fn around(q: &BigRational) -> [BigRational; 2] {
     let little = ratio(1, 1_000_000_000_000);
     [q - &little, q + little]
@@ -162,7 +162,7 @@ fn known_bounds_of_discs() {
 fn known_bounds_of_isosceles_bases() {
     for shape in Shape::isosceles() {
         let Shape::Spheres(s) = &shape else {
-            unreachable!("no discs among them")
+            unreachable!("isosceles bases only")
         };
         let one = BigRational::one();
         let legs = ratio(3, 2) / (&one + s);
@@ -182,13 +182,13 @@ fn known_bounds_of_isosceles_bases() {
             );
         }
     }
-    // At 5/6 exactly one spacing is left.
+    // At 5/6 exactly one spacing remains.
     let clearance = Shape::Spheres(ratio(5, 6)).pile(3).clearance();
     assert_eq!(clearance.least(), clearance.most());
     assert_eq!(clearance.most(), Some(spacing(&ratio(27, 11))));
 }
 
-/// `least` and `most` are allowed, and nothing beyond them is.
+/// `least` and `most` are allowed. No spacing beyond them is.
 #[test]
 fn the_bounds_are_sharp() {
     for shape in shapes() {
@@ -201,7 +201,7 @@ fn the_bounds_are_sharp() {
                 .as_ref()
                 .map_or(ratio(1, 1_000_000), |q| q.square().clone());
             if !fits(&low) {
-                // Then no spacing is: known_bounds_of_isosceles_bases says where.
+                // No spacing fits here. The test known_bounds_of_isosceles_bases covers this.
                 continue;
             }
             let [below, _] = around(&low);
@@ -223,7 +223,7 @@ fn the_bounds_are_sharp() {
     }
 }
 
-/// Layers whose rows along every direction but one have a single sphere.
+/// Layers in which a row has two spheres along one direction only.
 #[test]
 fn two_spheres_are_neighbours_in_a_layer() {
     let pair = |x, y, s| Region::new(0..=x, 0..=y, 0..=s).unwrap();
@@ -241,7 +241,7 @@ fn two_spheres_are_neighbours_in_a_layer() {
                     .map(|sign| if sign == '+' { Sign::Plus } else { Sign::Minus }),
             );
             let pile = Pile::under(base, stacking.unwrap()).unwrap();
-            // Under two spheres and under one, every layer but the first has neighbours.
+            // Below one or two spheres, every layer but the first has neighbours.
             let overlap = neighbours || !signs.is_empty();
             let verdict = pile.clearance().check(&tight);
             assert_eq!(
@@ -254,9 +254,9 @@ fn two_spheres_are_neighbours_in_a_layer() {
     }
 }
 
-/// The comparison with all pairs refuses wrong verdicts.
+/// The comparison with all pairs rejects wrong verdicts.
 #[test]
-fn wrong_verdicts_are_refused() {
+fn wrong_verdicts_are_caught() {
     const LAYERS: i128 = 5;
     let shape = Shape::equilateral();
     let differences = overlap::differences(&shape, LAYERS);
@@ -269,7 +269,7 @@ fn wrong_verdicts_are_refused() {
     for q in [&tight, &wide, &open] {
         assert!(overlap::agree(room(q).as_ref(), &check(&right, q)));
     }
-    // A touch too few, a touch too many, and touching spheres of other layers.
+    // A missing pair that touches, a surplus one, and one of other layers.
     assert!(!overlap::agree(room(&tight).as_ref(), &Ok(vec![])));
     assert!(!overlap::agree(
         room(&open).as_ref(),
@@ -279,7 +279,7 @@ fn wrong_verdicts_are_refused() {
         room(&wide).as_ref(),
         &check(&right, &tight)
     ));
-    // Room where there is none, and the other way round.
+    // An allowed spacing taken as rejected, and the converse.
     assert!(!overlap::agree(room(&ratio(14, 5)).as_ref(), &Ok(vec![])));
     let refused = Err(Error::Interrupted);
     assert!(!overlap::agree(room(&open).as_ref(), &refused));
@@ -296,7 +296,7 @@ fn wrong_verdicts_are_refused() {
     ));
 }
 
-/// One sphere has no neighbour, whatever it was grown from.
+/// A single sphere has no neighbour, for any base and top.
 #[test]
 fn one_sphere_sets_no_lower_bound() {
     let elsewhere = Region::new(5..=5, -3..=-3, 2..=2).unwrap();
@@ -312,10 +312,10 @@ fn one_sphere_sets_no_lower_bound() {
     }
 }
 
-/// sin φ = 4/5: the neighbours across are at q = 25/12, spheres two layers apart at q = 5/2, which both are irrational; a
-/// lower bound is rounded up, an upper one down.
+/// sin φ = 4/5. The horizontal neighbours touch at q = 25/12, and spheres two layers apart at q = 5/2. Both spacings are
+/// irrational, so the message rounds a lower bound up and an upper bound down.
 #[test]
-fn what_is_too_close_and_the_bounds_are_named() {
+fn errors_name_the_overlap_and_the_bounds() {
     let clearance = Shape::Spheres(ratio(4, 5)).pile(9).clearance();
     let apart = |layers| LayerGap { layers };
     let touching = |q| clearance.check(&spacing(&q)).unwrap();

@@ -1,4 +1,4 @@
-//! Where the spheres are, in lengths: contacts are a diameter long, contact points halfway.
+//! Positions of spheres as lengths: contacts have the length of a diameter, and contact points are midpoints.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Region, Site};
@@ -11,7 +11,7 @@ use num_traits::{One, Zero};
 
 const LAYERS: i128 = 4;
 
-/// Shapes with an allowed q each: between the bounds, and at them.
+/// Shapes with allowed values of q: between the bounds, and at them.
 fn cases() -> impl Iterator<Item = (Shape, BigRational)> {
     let spheres = [
         ((1, 2), (1, 1)),
@@ -44,7 +44,7 @@ fn packing<'p>(pile: &'p Pile, q: &BigRational) -> Packing<'p> {
         .unwrap()
 }
 
-/// a − b, of numbers along one axis: their roots are the same, unless one is zero.
+/// a − b for values along one axis. They have the same root unless one is zero.
 fn minus(a: &Surd, b: &Surd) -> Surd {
     if *b == Surd::zero() {
         return a.clone();
@@ -62,7 +62,7 @@ fn squared_distance(a: &[Surd; 3], b: &[Surd; 3]) -> BigRational {
     squares.sum()
 }
 
-/// The distance of the brute-force search, from (k−i−j, i, j) steps along ê_a, ê_b, ê_c.
+/// The distance from the brute-force search, by (k−i−j, i, j) steps along ê_a, ê_b, ê_c.
 fn expected(shape: &Shape, q: &BigRational, from: Site, to: Site) -> BigRational {
     let steps = |s: Site| [s.k - s.i - s.j, s.i, s.j];
     let [[a, b, c], [x, y, z]] = [steps(from), steps(to)];
@@ -94,7 +94,7 @@ fn all_distances() {
 }
 
 #[test]
-fn contacts_are_a_diameter_long_and_halved_by_their_point() {
+fn contact_points_are_midpoints_of_the_centres() {
     let square = radius() * radius();
     for (shape, q) in cases() {
         let pile = shape.pile(LAYERS);
@@ -104,7 +104,7 @@ fn contacts_are_a_diameter_long_and_halved_by_their_point() {
                 let upper = packing.position(site).unwrap();
                 let lower = packing.position(below(site, *direction)).unwrap();
                 assert_eq!(squared_distance(&upper, &lower), &square * ratio(4, 1));
-                // At R from both centres, 2R apart, there is only the point between.
+                // Only the midpoint has the distance R from both centres, which are 2R apart.
                 let point = packing.contact_point(site, *direction).unwrap();
                 assert_eq!(squared_distance(&upper, &point), square);
                 assert_eq!(squared_distance(&lower, &point), square);
@@ -113,7 +113,7 @@ fn contacts_are_a_diameter_long_and_halved_by_their_point() {
     }
 }
 
-/// z points up, and a/R is half the distance of two neighbours of one layer over R.
+/// z points up, and a/R is half the distance of two neighbours in a layer over R.
 #[test]
 fn the_frame() {
     for (shape, q) in cases() {
@@ -121,7 +121,7 @@ fn the_frame() {
         let packing = packing(&pile, &q);
         let [x, y, top] = packing.position(Site::APEX).unwrap();
         assert!(x == Surd::zero() && y == Surd::zero());
-        // A layer is 2R cosθ high.
+        // Two layers have the distance 2R cosθ.
         let cos2 =
             BigRational::one() - &q / BigRational::from_integer(overlap::flat(&shape).into());
         let height = ratio(2, 1) * radius() * BigRational::from_integer((LAYERS - 1).into());
@@ -136,7 +136,7 @@ fn the_frame() {
     }
 }
 
-/// Forces in newtons have the direction of the line of centres, and the size of the pile units'.
+/// Forces in newtons are parallel to the line of centres, and their magnitudes agree with pile units.
 #[test]
 fn forces_point_from_centre_to_centre() {
     for (shape, q) in cases() {
@@ -163,7 +163,7 @@ fn forces_point_from_centre_to_centre() {
     }
 }
 
-/// On the floor the normal force is in mg, the shear in mg·tanθ and 2cosφ·mg·tanθ.
+/// On the floor the normal force is in mg, and shear in mg·tanθ and 2cosφ·mg·tanθ.
 #[test]
 fn forces_on_the_floor_in_newtons() {
     for (shape, q) in cases() {
@@ -197,9 +197,9 @@ fn forces_on_the_floor_in_newtons() {
     }
 }
 
-/// Of a pile grown up from its base the origin is over the base's site (0, 0), and the steps lead up from there.
+/// For a pile on a base, the origin is above the site (0, 0) of the base, and the steps lead up from there.
 #[test]
-fn positions_are_counted_from_the_site_that_a_pile_was_grown_from() {
+fn positions_on_a_base_are_relative_to_its_origin() {
     let base = Region::hexagon(4, 4).unwrap();
     let top = Region::hexagon(2, 2).unwrap();
     let spacing = Spacing::new(ratio(1, 1)).unwrap();

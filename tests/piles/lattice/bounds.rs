@@ -1,14 +1,14 @@
-//! Bounds of regions against sets of sites: tight, complete, in row order.
+//! Regions compared with sets of sites: bounds are tight and complete, and rows are in order.
 
 use cannonpile::lattice::{Region, Row};
 
 use crate::lattice::{each_bounds, random_bounds, region};
 use cannonpile_testkit::oracles::sets::{Sites, within};
 
-/// Beyond every bound that is tried.
+/// A bound that lies outside every tested region.
 const REACH: i128 = 8;
 
-/// The sites of the region are those of the set, and everything it says of itself is so.
+/// The region has exactly these sites, and all its accessors agree with them.
 fn agrees(region: &Region, sites: &Sites) {
     let every = (-REACH..=REACH).flat_map(|j| (-REACH..=REACH).map(move |i| (j, i)));
     for (j, i) in every {
@@ -32,10 +32,10 @@ fn agrees(region: &Region, sites: &Sites) {
     mirror_images(region, sites);
 }
 
-/// i, j or i+j of a site (j, i).
+/// The value i, j or i+j of a site (j, i).
 type Coordinate = fn(&(i128, i128)) -> i128;
 
-/// Each bound is attained, and none is passed.
+/// Each bound is the extreme value of its coordinate.
 fn is_tight(region: &Region, sites: &Sites) {
     let along: [Coordinate; 3] = [|(_, i)| *i, |(j, _)| *j, |(j, i)| i + j];
     let bounds = [region.x(), region.y(), region.s()];
@@ -55,14 +55,14 @@ fn rows_are_in_order(region: &Region, sites: &Sites) {
     assert!(walked.eq(sites.iter().copied()), "{region}");
 }
 
-/// Six corners in turn, which are the extremes of i, j and i+j.
+/// The six corners in order are the extremes of i, j and i+j.
 fn corners_are_attained(region: &Region, sites: &Sites) {
     let corners = region.corners();
     for [i, j] in corners {
         assert!(sites.contains(&(j, i)), "{region}: corner ({i}, {j})");
     }
     let [x, y, s] = [region.x(), region.y(), region.s()];
-    // The sides of y₀, x₁, s₁, y₁, x₀, s₀: each corner ends one of them and begins the next.
+    // The sides y₀, x₁, s₁, y₁, x₀, s₀. Each corner ends one side and begins the next.
     let sides: [(Coordinate, &i128); 6] = [
         (|(j, _)| *j, y.start()),
         (|(_, i)| *i, x.end()),
@@ -78,10 +78,11 @@ fn corners_are_attained(region: &Region, sites: &Sites) {
     }
 }
 
-/// The image by (i, j) → (−i, −j), and whether a translate of it is the region.
+/// The image under (i, j) → (−i, −j). Also compares whether a translation maps it to the region.
 fn mirror_images(region: &Region, sites: &Sites) {
     let image: Sites = sites.iter().map(|(j, i)| (-j, -i)).collect();
     let mirrored = region.mirrored();
+    assert_eq!(mirrored.mirrored(), *region, "{region}");
     is_tight(&mirrored, &image);
     rows_are_in_order(&mirrored, &image);
     let moved_onto = |(j, i): (i128, i128), to: (i128, i128)| {
@@ -90,13 +91,13 @@ fn mirror_images(region: &Region, sites: &Sites) {
             .map(|site| (site.0 - j + to.0, site.1 - i + to.1));
         moved.collect::<Sites>() == *sites
     };
-    // In row order first goes onto first, if any translation does.
+    // A translation must map the first site in row order to the first.
     let same = image.first().zip(sites.first());
     let same = same.is_some_and(|(from, to)| moved_onto(*from, *to));
     assert_eq!(region.is_its_own_mirror_image(), same, "{region}");
 }
 
-/// A region of these bounds is just what they enclose.
+/// The region with these bounds has exactly the enclosed sites.
 fn is_enclosed(bounds: [i128; 6]) {
     let sites = within(bounds, REACH);
     let made = region(bounds);
@@ -134,7 +135,7 @@ fn named_regions() {
     assert_eq!(Region::SITE, Region::triangle(1).expect("a side"));
 }
 
-/// The oracle is not content with a region of other sites.
+/// The check rejects a region with other sites.
 #[test]
 #[should_panic(expected = "(0, 2)")]
 fn a_site_too_few_is_caught() {

@@ -1,4 +1,4 @@
-//! Dilation and erosion against their definitions, and the spheres above on a line against a walk up it.
+//! Dilation and erosion compared with their definitions, and the numbers of spheres above with a walk up each line.
 
 use cannonpile::lattice::{Region, Sign};
 
@@ -17,9 +17,9 @@ fn grows_and_shrinks(bounds: [i128; 6]) {
         assert_eq!(sites_of(&grown), dilated(&sites, sign), "{region} {sign:?}");
         assert_eq!(grown.eroded(sign), Some(region), "{region} {sign:?}");
         assert_eq!(region.dilated_by(sign, 0), Ok(region));
-        let thrice = under(sites.clone(), &[sign; 3]).pop();
-        let by_three = region.dilated_by(sign, 3).expect("small");
-        assert_eq!(Some(sites_of(&by_three)), thrice, "{region} {sign:?}");
+        let by_sets = under(sites.clone(), &[sign; 5]).pop();
+        let by_five = region.dilated_by(sign, 5).expect("small");
+        assert_eq!(Some(sites_of(&by_five)), by_sets, "{region} {sign:?}");
         let shrunk = region.eroded(sign);
         let left = eroded(&sites, sign);
         let kept = shrunk.as_ref().map_or_else(Sites::new, sites_of);
@@ -29,7 +29,7 @@ fn grows_and_shrinks(bounds: [i128; 6]) {
             let again = shrunk.dilated(sign).expect("small");
             assert!(sites_of(&again).is_subset(&sites), "{region} {sign:?}");
         }
-        // A mirrored pile has its steps mirrored.
+        // The mirror image of a pile has mirrored steps.
         let image = region.mirrored().dilated(-sign).expect("small");
         assert_eq!(image, grown.mirrored(), "{region} {sign:?}");
     }
@@ -50,12 +50,12 @@ fn of_random_regions() {
     random_bounds(6, 1_000, grows_and_shrinks);
 }
 
-/// How many spheres one meets going up from a site of the last layer along each direction.
+/// The numbers of spheres on the way up from a site of the last layer, along each direction.
 fn walked_up(layers: &[Sites], signs: &[Sign], site: (i128, i128)) -> [i128; 3] {
     core::array::from_fn(|m| {
         let (mut here, mut count) = (site, 0);
         for (layer, sign) in layers.iter().zip(signs).rev() {
-            // The support m of the sphere above is the one here: the step down from (0, 0), taken back.
+            // This sphere is support m of the one above, so this takes the step down from (0, 0) back.
             let (dj, di) = supports((0, 0), *sign)[m];
             here = (here.0 - dj, here.1 - di);
             if !layer.contains(&here) {
@@ -78,7 +78,7 @@ fn counts_the_spheres_above(last: &Region, layers: &[Sites], sign: Sign) {
     }
 }
 
-/// A pile grown down from the region, and one grown up from it as far as it goes.
+/// Checks a pile grown down from the region, and the highest one grown up from it.
 fn counts_above(bounds: [i128; 6]) {
     let Ok(region) = region(bounds) else {
         return;
@@ -108,9 +108,9 @@ fn spheres_above_in_random_regions() {
     random_bounds(6, 250, counts_above);
 }
 
-/// Not every line of a hexagon is cut off by the same side.
+/// Different sides of a hexagon end its lines.
 #[test]
-fn a_walk_up_tells_the_directions_apart() {
+fn a_walk_up_distinguishes_the_directions() {
     let layers = under(sites_of(&Region::SITE), &[Sign::Plus; 5]);
     let above = walked_up(&layers[..5], &[Sign::Plus; 5], (2, 1));
     assert_eq!(above, [2, 1, 2]);

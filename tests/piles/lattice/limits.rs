@@ -1,4 +1,4 @@
-//! Regions about the greatest coordinates, ±10³⁶: refused beyond, and nothing overflows up to them.
+//! Regions near the greatest coordinates, ±10³⁶. They are rejected beyond, and nothing overflows up to them.
 
 use cannonpile::Error;
 use cannonpile::lattice::{Axis, HorizontalContact, MAX_LAYERS, Region, Row, Sign, Site};
@@ -12,7 +12,7 @@ fn hexagon(p: i128, q: i128) -> Region {
     Region::hexagon(p, q).expect("sides within the limit")
 }
 
-/// Sides of p and q spheres: the triangle of p + 2(q−1) less three corners of q−1.
+/// A hexagon with sides of p and q spheres: the triangle of p + 2(q−1) without three corners of q−1.
 fn sites_of_hexagon(p: i128, q: i128) -> BigUint {
     let triangle = |n: BigInt| -> BigInt { &n * (&n + 1) / 2 };
     let (p, q) = (BigInt::from(p), BigInt::from(q));
@@ -35,7 +35,7 @@ fn the_greatest_regions_are_counted() {
         assert_eq!(hexagon.mirrored().mirrored(), hexagon);
         assert_eq!(hexagon.mirrored().site_count(), hexagon.site_count());
     }
-    // All of it: the bounds of i+j cut two corners off the square.
+    // The largest region. The bounds of i+j cut two corners off the square.
     let all = region([-MAX, MAX, -MAX, MAX, -MAX, MAX]).expect("at the limit");
     let n = BigUint::from(MAX.unsigned_abs());
     assert_eq!(all.site_count(), 3_u32 * &n * &n + 3_u32 * &n + 1_u32);
@@ -44,7 +44,7 @@ fn the_greatest_regions_are_counted() {
 }
 
 #[test]
-fn bounds_beyond_the_limit_are_refused() {
+fn bounds_beyond_the_limit_are_rejected() {
     let whole = [-MAX, MAX, -MAX, MAX, -MAX, MAX];
     assert!(region(whole).is_ok());
     for n in 0..6 {
@@ -61,7 +61,7 @@ fn bounds_beyond_the_limit_are_refused() {
 }
 
 #[test]
-fn sides_beyond_the_limit_are_refused() {
+fn sides_beyond_the_limit_are_rejected() {
     for side in [0, -1, MAX + 1, i128::MIN, i128::MAX] {
         let want = format!("a side must be at least 1 and at most 10^36 spheres, not {side}");
         for region in [
@@ -102,7 +102,7 @@ fn dilation_stops_at_the_limit() {
 }
 
 #[test]
-fn erosion_at_the_limit_leaves_what_it_should() {
+fn erosion_at_the_limit_is_exact() {
     let corner = region([-MAX, -MAX, -MAX, -MAX, -MAX, MAX]);
     assert!(
         matches!(corner, Err(Error::EmptyRegion { .. })),
@@ -113,21 +113,21 @@ fn erosion_at_the_limit_leaves_what_it_should() {
     let top = corner.eroded(Sign::Plus).expect("one site");
     assert_eq!(
         top,
-        region([-MAX, -MAX, 0, 0, -MAX, -MAX]).expect("that one")
+        region([-MAX, -MAX, 0, 0, -MAX, -MAX]).expect("one site")
     );
     assert_eq!(corner.eroded(Sign::Minus), None);
     assert_eq!(top.eroded(Sign::Plus), None);
     assert_eq!(top.eroded(Sign::Minus), None);
 }
 
-/// With bounds at the limit, and in a run of as many steps.
+/// Bounds at the limit, and a run with as many steps.
 #[test]
 fn lines_are_counted_at_the_limit() {
     let base = hexagon(MAX, MAX);
     let [low, high] = [1 - MAX, MAX - 1];
     for (i, j) in base.corners().map(|[i, j]| (i, j)) {
         for (sign, steps) in [(Sign::Plus, MAX), (Sign::Minus, MAX), (Sign::Plus, 1)] {
-            // A corner ends two of the three lines, or all.
+            // At least two of the three lines end at a corner.
             let above = base.spheres_above(i, j, sign, steps);
             let ended = above.iter().filter(|n| **n == 0).count();
             assert!(
@@ -144,9 +144,9 @@ fn lines_are_counted_at_the_limit() {
     }
 }
 
-/// Whatever there is on the way to it.
+/// The neighbour exists exactly if its coordinates fit into `i128`.
 #[test]
-fn the_neighbour_of_a_sphere_is_where_a_number_is() {
+fn a_neighbour_beyond_the_integers_is_none() {
     for axis in Axis::ALL {
         let neighbour = |i, j, k| {
             let site = Site { i, j, k };
@@ -164,7 +164,7 @@ fn the_neighbour_of_a_sphere_is_where_a_number_is() {
     }
 }
 
-/// From one end of the places a region grows by more steps than there are coordinates on one side.
+/// A region can grow from one limit to the other, by more steps than one side has coordinates.
 #[test]
 fn a_region_grows_from_one_limit_to_the_other() {
     let half = MAX / 2;
@@ -183,7 +183,7 @@ fn a_region_grows_from_one_limit_to_the_other() {
     }
 }
 
-/// The last piece is as long as the others where they are even, and there is none after it.
+/// The last piece has the full length if the row divides evenly, and no piece follows it.
 #[test]
 fn rows_are_cut_into_pieces() {
     let pieces = |start: i128, end: i128, sites| {

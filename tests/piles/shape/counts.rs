@@ -1,4 +1,4 @@
-//! Sites, neighbours, rows and sums, against lists made by hand.
+//! Sites, neighbours, rows and sums, compared with explicit lists.
 
 use std::collections::BTreeSet;
 
@@ -41,7 +41,7 @@ fn spheres_contacts_and_base() {
     }
 }
 
-/// Contacts by how many spheres their line has above the lower sphere, counted by walking up.
+/// The contacts by the number of spheres above on their line, from a walk up.
 #[test]
 fn contacts_of_each_strength() {
     for (shape, pile, sites) in piles() {
@@ -64,13 +64,13 @@ fn contacts_of_each_strength() {
 }
 
 #[test]
-fn sites_come_in_order_and_are_numbered_so() {
+fn sites_are_in_order_and_numbered() {
     for (shape, pile, sites) in piles() {
         assert!(sites.is_sorted());
         let listed: Vec<_> = pile.shape().sites().collect();
         assert_eq!(listed, sites);
         for (number, Site { i, j, k }) in sites.into_iter().enumerate() {
-            // The layers above, the rows 0 … j−1 of k+1, k, … spheres, and i in the row.
+            // The layers above, the rows 0 … j−1 with k+1, k, … spheres, and i in the row.
             let above = count::spheres(
                 &BigRational::from_integer(k.into()),
                 shape.dimension().number(),
@@ -82,7 +82,7 @@ fn sites_come_in_order_and_are_numbered_so() {
 }
 
 #[test]
-fn rows_hold_what_is_selected() {
+fn rows_contain_the_selection() {
     for (_, pile, sites) in piles() {
         let floor = pile.layers() - 1;
         let one = sites.iter().map(|site| Selection::One(*site));
@@ -105,9 +105,9 @@ fn rows_hold_what_is_selected() {
     }
 }
 
-/// `sites` counts down as the rows are given, and each row is whole and known in length.
+/// `site_count` decreases with each row. Each row is complete and has a known length.
 #[test]
-fn rows_know_how_many_sites_are_left() {
+fn rows_report_the_remaining_sites() {
     for (_, pile, sites) in piles() {
         let layers = (0..pile.layers()).map(Selection::Layer);
         for selection in layers.chain([Selection::Base, Selection::All, Selection::One(sites[0])]) {
@@ -126,10 +126,10 @@ fn rows_know_how_many_sites_are_left() {
 }
 
 #[test]
-fn corners_are_those_of_the_first_and_last_layer() {
+fn corners_belong_to_the_first_and_last_layer() {
     for (shape, pile, sites) in piles() {
         let corners: BTreeSet<_> = pile.rows(Selection::Base).unwrap().corners().collect();
-        // A corner has all the spheres above it on one line.
+        // All spheres above a corner are on one line.
         let corner = |site: &&Site| {
             let counts = [site.k - site.i - site.j, site.i, site.j];
             site.k == pile.layers() - 1 && counts.contains(&site.k)
@@ -141,7 +141,7 @@ fn corners_are_those_of_the_first_and_last_layer() {
     }
 }
 
-/// Membership and neighbours of every site in and just around the pile.
+/// Membership and neighbours of every site in the pile and next to it.
 #[test]
 fn neighbours() {
     for (shape, pile, sites) in piles().filter(|(_, pile, _)| pile.layers() <= 8) {
@@ -156,7 +156,7 @@ fn neighbours() {
                     assert_eq!(pyramid.contains(site), there, "{site}");
                     assert_eq!(pyramid.check(site).is_ok(), there, "{site}");
                     for direction in Direction::ALL {
-                        // Of discs, γ leaves the plane.
+                        // In a pile of discs, γ leaves the plane.
                         let known = |at: Site| Some(at).filter(|at| there && sites.contains(at));
                         let lower = known(below(site, direction));
                         assert_eq!(pyramid.below(site, direction), lower, "{shape:?} {site}");
@@ -169,7 +169,7 @@ fn neighbours() {
     }
 }
 
-/// L = 10³⁶, from L(L+1)(L+2)/6 and its like in another program's integers.
+/// L = 10³⁶. The values come from L(L+1)(L+2)/6 and similar formulas in another program.
 #[test]
 fn the_greatest_pile() {
     let number = |digits: &str| digits.parse::<BigUint>().unwrap();
@@ -238,7 +238,7 @@ fn layers_have_limits() {
     }
 }
 
-/// No site whatever makes a lookup panic, and none beyond the pile is found.
+/// No site makes a lookup panic, and no site outside the pile is found.
 #[test]
 fn sites_at_the_ends_of_the_integers() {
     let ends = [
@@ -283,7 +283,7 @@ fn sites_at_the_ends_of_the_integers() {
     }
 }
 
-/// The far corner of the greatest pile: its rows end where they should.
+/// The rows at the far corner of the greatest pile end correctly.
 #[test]
 fn the_last_rows_of_the_greatest_pile() {
     let k = MAX_LAYERS - 1;
@@ -303,9 +303,9 @@ fn the_last_rows_of_the_greatest_pile() {
     );
 }
 
-/// Each corner once, in turn, those of the top first; of one sphere itself, and of nothing none.
+/// Each corner occurs once, in order, those of the top first. A single sphere is its own corner.
 #[test]
-fn corners_come_in_turn_and_once() {
+fn each_corner_occurs_once_in_order() {
     let pile = Pile::triangular(4).unwrap();
     let site = |(i, j, k)| Site { i, j, k };
     let corners = |part| -> Vec<Site> { pile.rows(part).unwrap().corners().collect() };
@@ -318,9 +318,9 @@ fn corners_come_in_turn_and_once() {
     assert_eq!(none.corners().count(), 0);
 }
 
-/// On bases away from (0, 0) whose sides vanish one after another on the way up.
+/// Bases away from (0, 0). Their sides vanish one after another on the way up.
 #[test]
-fn piles_on_bases_anywhere_are_counted_as_their_sites() {
+fn counts_on_any_base_equal_their_sites() {
     let mut high = 0;
     for [x0, x1, y0, y1, s0, s1] in [
         [3, 20, 5, 18, 12, 33],
@@ -347,12 +347,12 @@ fn piles_on_bases_anywhere_are_counted_as_their_sites() {
 }
 
 #[test]
-fn an_anchor_has_the_name_of_its_option() {
+fn an_anchor_prints_as_its_option() {
     assert_eq!(Anchor::Top(Region::SITE).name(), "top");
     assert_eq!(Anchor::Base(Region::SITE).name(), "base");
 }
 
 #[test]
-fn a_dimension_is_shown_as_its_number() {
+fn a_dimension_prints_as_its_number() {
     assert_eq!(SHAPES.map(|dimension| dimension.to_string()), ["2", "3"]);
 }

@@ -1,4 +1,4 @@
-//! Edges at which a stacking, a region or a walk may betray its own promises.
+//! Limits of stackings, regions and row iterators.
 
 use std::panic::catch_unwind;
 
@@ -6,12 +6,6 @@ use cannonpile::Error;
 use cannonpile::lattice::{Dimension, Region, Sign};
 use cannonpile::shape::{Selection, Shape};
 use cannonpile::stacking::{MAX_RUNS, Run, Stacking};
-
-#[test]
-fn one_layer_is_its_own_mirror_image() {
-    let one = Stacking::single_layer();
-    assert_eq!(one.mirrored(), one);
-}
 
 fn has_too_many_runs(made: &Result<Stacking, Error>) -> bool {
     matches!(
@@ -23,7 +17,7 @@ fn has_too_many_runs(made: &Result<Stacking, Error>) -> bool {
     )
 }
 
-/// A stacking that is refused in one notation is refused in the other.
+/// All notations share the limit.
 #[test]
 fn the_limit_of_runs_holds_in_every_notation() {
     let runs = MAX_RUNS + 1;
@@ -46,15 +40,15 @@ fn the_limit_of_runs_holds_for_runs_and_signs() {
 
 #[test]
 fn the_limit_of_runs_holds_for_dhcp() {
-    // A million runs of two steps, and one of one step.
+    // A million runs of two steps, and one of a single step.
     let layers = 2 * i128::try_from(MAX_RUNS).expect("small") + 2;
     assert!(Stacking::dhcp(layers - 1).is_ok());
     assert!(has_too_many_runs(&Stacking::dhcp(layers)), "dhcp({layers})");
 }
 
-/// A region is never empty, whatever it was asked for.
+/// A region is never empty, for any argument.
 #[test]
-fn no_steps_lead_to_an_empty_region() {
+fn dilation_never_returns_an_empty_region() {
     for sign in [Sign::Plus, Sign::Minus] {
         let region = Region::SITE.dilated_by(sign, -1);
         let kept = region.as_ref().is_ok_and(|r| r.x().is_empty());
@@ -63,7 +57,7 @@ fn no_steps_lead_to_an_empty_region() {
 }
 
 #[test]
-fn a_region_can_be_asked_about_any_site() {
+fn any_site_is_a_valid_query() {
     for [i, j] in [[i128::MIN; 2], [i128::MAX; 2], [i128::MIN, i128::MAX]] {
         for sign in [Sign::Plus, Sign::Minus] {
             let asked = catch_unwind(|| Region::SITE.spheres_above(i, j, sign, 5));
@@ -73,7 +67,7 @@ fn a_region_can_be_asked_about_any_site() {
 }
 
 #[test]
-fn a_walk_begun_on_the_floor_can_be_taken_off_it() {
+fn rows_of_the_base_without_the_floor_are_empty() {
     let pyramid = Shape::pyramid(3, Dimension::Three).expect("three layers");
     let mut rows = pyramid.rows(Selection::Base).expect("a base");
     rows.next();

@@ -1,7 +1,7 @@
-//! How many layers a base carries, and closed counting of piles whose sides vanish on the way up.
+//! The number of layers that a base supports, and closed counts of piles whose sides vanish on the way up.
 //!
-//! Going up, sides of a layer shrink to nothing at different heights, and the count of spheres follows another
-//! polynomial from there on: every way in which that happens in a box is tried.
+//! On the way up, the sides of a layer vanish at different heights, and the count then follows another polynomial. The tests
+//! enumerate all ways in which this can happen in a box.
 
 use cannonpile::Error;
 use cannonpile::lattice::{Region, Row, Sign, Site};
@@ -11,9 +11,9 @@ use cannonpile::stacking::{Run, Stacking};
 use crate::lattice::{each_bounds, each_signs, random_bounds, region, sites_of};
 use cannonpile_testkit::oracles::sets::{Sites, on};
 
-/// On a base grown as far as `signs` go, the closed counts are those of the sets; beyond, the refusal names how far
-/// that is.
-fn carries(base: Region, signs: &[Sign]) {
+/// Checks the pile that is as high as `signs` permit: its closed counts equal those of the sets. For a higher pile, the
+/// error must name this height.
+fn fits_exactly(base: Region, signs: &[Sign]) {
     let layers = on(sites_of(&base), signs);
     let carried = layers.iter().rev().take_while(|layer| !layer.is_empty());
     let (most, asked) = (carried.count(), layers.len());
@@ -21,7 +21,7 @@ fn carries(base: Region, signs: &[Sign]) {
     let made = Shape::on(base, stacking.clone());
     if most < asked {
         let [layers, greatest] = [asked, most].map(|n| i128::try_from(n).expect("few"));
-        let refused = made.expect_err("it is too high");
+        let refused = made.expect_err("a pile that is too high");
         let Error::TooHigh {
             layers: named,
             greatest: most,
@@ -45,7 +45,7 @@ fn carries(base: Region, signs: &[Sign]) {
     }
 }
 
-/// Closed counts: of everything, and down to the first sphere of each row.
+/// The closed counts of all spheres, and of the spheres before the first of each row.
 fn counts(shape: &Shape, layers: &[Sites]) {
     let all: usize = layers.iter().map(Sites::len).sum();
     assert_eq!(shape.sphere_count(), all.into(), "{shape:?}");
@@ -59,13 +59,13 @@ fn counts(shape: &Shape, layers: &[Sites]) {
     assert_eq!(before, all, "{shape:?}");
 }
 
-/// A straight stacking until nothing is left, of either sign.
+/// Straight stackings of either sign up to the last layer.
 #[test]
 fn straight_on_every_small_base() {
     each_bounds(2, |bounds| {
         if let Ok(base) = region(bounds) {
             for sign in [Sign::Plus, Sign::Minus] {
-                (0..=5).for_each(|steps| carries(base, &vec![sign; steps]));
+                (0..=5).for_each(|steps| fits_exactly(base, &vec![sign; steps]));
             }
         }
     });
@@ -76,14 +76,14 @@ fn straight_on_random_bases() {
     random_bounds(12, 300, |bounds| {
         if let Ok(base) = region(bounds) {
             for sign in [Sign::Plus, Sign::Minus] {
-                (0..=13).for_each(|steps| carries(base, &vec![sign; steps]));
+                (0..=13).for_each(|steps| fits_exactly(base, &vec![sign; steps]));
             }
         }
     });
 }
 
-/// Every base of up to four sites a side, wherever i+j cuts its corners off, with every stacking that fits and every
-/// one that is too high.
+/// All bases of up to four sites a side, with all ways in which i+j cuts off their corners. Each base has every stacking
+/// that fits and every one that is too high.
 #[test]
 fn every_stacking_on_every_base_in_a_box() {
     let widths = (0..4).flat_map(|x| (0..4).map(move |y| (x, y)));
@@ -94,7 +94,7 @@ fn every_stacking_on_every_base_in_a_box() {
                 continue;
             };
             for steps in 0..=4 {
-                each_signs(steps).for_each(|signs| carries(base, &signs));
+                each_signs(steps).for_each(|signs| fits_exactly(base, &signs));
             }
         }
     }
@@ -106,13 +106,13 @@ fn every_stacking_on_random_bases() {
     random_bounds(4, 40, |bounds| {
         if let Ok(base) = region(bounds) {
             for steps in 0..=5 {
-                each_signs(steps).for_each(|signs| carries(base, &signs));
+                each_signs(steps).for_each(|signs| fits_exactly(base, &signs));
             }
         }
     });
 }
 
-/// Runs long enough that several sides vanish within one: there the pieces are summed by differences.
+/// The runs are so long that several sides vanish in one. Differences then sum the pieces.
 #[test]
 fn long_runs_on_random_bases() {
     random_bounds(20, 120, |bounds| {
@@ -126,26 +126,30 @@ fn long_runs_on_random_bases() {
                 of(Sign::Plus, middle),
                 of(Sign::Minus, bottom),
             ];
-            carries(base, &signs.concat());
+            fits_exactly(base, &signs.concat());
         }
     });
 }
 
-/// A tetrahedron on the greatest triangle stands; one layer more does not.
+/// A tetrahedron fits on the greatest triangle. One more layer does not.
 #[test]
 fn the_greatest_base() {
     let n = 10_i128.pow(36);
     let base = Region::triangle(n).expect("a side");
-    let tetrahedron = Shape::on(base, Stacking::fcc(n).expect("as many")).expect("it fits");
-    let pyramid = Shape::under(Region::SITE, Stacking::fcc(n).expect("as many"));
+    let tetrahedron =
+        Shape::on(base, Stacking::fcc(n).expect("a valid number of layers")).expect("it fits");
+    let pyramid = Shape::under(
+        Region::SITE,
+        Stacking::fcc(n).expect("a valid number of layers"),
+    );
     assert_eq!(
         tetrahedron.sphere_count(),
         pyramid.expect("it fits").sphere_count()
     );
     assert_eq!(tetrahedron.layer(0), Ok(Region::SITE));
-    // Upside down a triangle loses two sites a side: the layer above every third downward hole.
+    // The inverted pile loses two sites a side in each layer, because it uses every third hole of the triangle.
     let run = |sign, steps| Run { sign, steps };
-    let flipped = Stacking::from_runs([run(Sign::Minus, n - 1)]).expect("as many");
+    let flipped = Stacking::from_runs([run(Sign::Minus, n - 1)]).expect("a valid number of layers");
     let refused = Shape::on(base, flipped).expect_err("too high");
     let greatest = (n - 1) / 2 + 1;
     assert!(

@@ -1,4 +1,4 @@
-//! Piles of mixed stackings, layer by layer against sets of sites: what they have, how they are walked and counted.
+//! Piles of mixed stackings compared with sets of sites, layer by layer: sites, rows and counts.
 
 use cannonpile::Error;
 use cannonpile::lattice::{Direction, Region, Row, Sign, Site};
@@ -9,7 +9,7 @@ use num_bigint::BigUint;
 use crate::lattice::{each_bounds, each_signs, random_bounds, region, sites_of};
 use cannonpile_testkit::oracles::sets::{Sites, on, supports, under};
 
-/// The sites of layers from one number on, in order.
+/// The sites of the layers from one number on, in order.
 fn in_order(layers: &[Sites], from: usize) -> Vec<Site> {
     let numbered = layers.iter().zip(0..).skip(from);
     numbered
@@ -17,8 +17,8 @@ fn in_order(layers: &[Sites], from: usize) -> Vec<Site> {
         .collect()
 }
 
-/// Rows in order, none empty, counted rightly before each of them and at the end.
-fn walks(mut rows: Rows<'_>, want: &[Site]) {
+/// Rows are in order and nonempty. The count is correct before each row and at the end.
+fn has_rows(mut rows: Rows<'_>, want: &[Site]) {
     let mut left = want;
     loop {
         assert_eq!(rows.site_count(), BigUint::from(left.len()));
@@ -30,23 +30,23 @@ fn walks(mut rows: Rows<'_>, want: &[Site]) {
     assert!(left.is_empty() && rows.next().is_none(), "{left:?}");
 }
 
-/// The shape has these layers.
-fn is(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
+/// The shape has exactly these layers.
+fn has_layers(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
     let count = i128::try_from(layers.len()).expect("few");
     assert_eq!(shape.layers(), count);
     let all = in_order(layers, 0);
     assert_eq!(shape.sphere_count(), all.len().into(), "{shape:?}");
     assert!(shape.sites().eq(all.iter().copied()), "{shape:?}");
-    walks(shape.rows(Selection::All).expect("all"), &all);
+    has_rows(shape.rows(Selection::All).expect("all"), &all);
     let off_the_floor = shape.rows(Selection::All).expect("all").off_the_floor();
-    walks(off_the_floor, &in_order(&layers[..layers.len() - 1], 0));
+    has_rows(off_the_floor, &in_order(&layers[..layers.len() - 1], 0));
     let base = in_order(layers, layers.len() - 1);
-    walks(shape.rows(Selection::Base).expect("the base"), &base);
+    has_rows(shape.rows(Selection::Base).expect("the base"), &base);
     assert_eq!(sites_of(&shape.base()), layers[layers.len() - 1]);
     for (k, layer) in (0..).zip(layers) {
         let here = in_order(&layers[..=usize::try_from(k).expect("few")], 0);
         let here = &here[here.len() - layer.len()..];
-        walks(shape.rows(Selection::Layer(k)).expect("a layer"), here);
+        has_rows(shape.rows(Selection::Layer(k)).expect("a layer"), here);
         assert_eq!(sites_of(&shape.layer(k).expect("a layer")), *layer);
     }
     for k in [-1, count, i128::MIN, i128::MAX] {
@@ -60,11 +60,11 @@ fn is(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
     }
 }
 
-/// Every sphere has its number, its supports and its spheres above; no other site is one.
-fn every_sphere_is_in_place(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
+/// Every sphere has its number, its supports and its spheres above. All other sites are rejected.
+fn every_site_is_correct(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
     for (number, site) in in_order(layers, 0).into_iter().enumerate() {
         assert_eq!(shape.before(site), Ok(number.into()), "{site} {shape:?}");
-        walks(shape.rows(Selection::One(site)).expect("a sphere"), &[site]);
+        has_rows(shape.rows(Selection::One(site)).expect("a sphere"), &[site]);
         let k = usize::try_from(site.k).expect("few");
         for direction in Direction::ALL {
             let m = direction.index();
@@ -119,7 +119,7 @@ fn stacking(signs: &[Sign]) -> Stacking {
     Stacking::from_signs(signs.iter().copied()).expect("short")
 }
 
-/// Grown down and up with all stackings of so many steps; up only where they fit.
+/// Grows piles down and up with all stackings of `steps` steps. Upwards, only those that fit.
 fn both_ways(bounds: [i128; 6], steps: usize) {
     let Ok(region) = region(bounds) else {
         return;
@@ -128,13 +128,13 @@ fn both_ways(bounds: [i128; 6], steps: usize) {
         let layers = under(sites_of(&region), &signs);
         let shape = Shape::under(region, stacking(&signs)).expect("small");
         assert!(!shape.is_grown_from_base());
-        is(&shape, &layers, &signs);
-        every_sphere_is_in_place(&shape, &layers, &signs);
+        has_layers(&shape, &layers, &signs);
+        every_site_is_correct(&shape, &layers, &signs);
         let layers = on(sites_of(&region), &signs);
         if let Ok(shape) = Shape::on(region, stacking(&signs)) {
             assert!(shape.is_grown_from_base());
-            is(&shape, &layers, &signs);
-            every_sphere_is_in_place(&shape, &layers, &signs);
+            has_layers(&shape, &layers, &signs);
+            every_site_is_correct(&shape, &layers, &signs);
         }
     }
 }
@@ -157,7 +157,7 @@ fn of_the_apex() {
 }
 
 #[test]
-fn a_walk_goes_on_where_it_was_copied() {
+fn a_cloned_iterator_continues_at_the_same_row() {
     let shape = Shape::under(Region::SITE, stacking(&[Sign::Plus, Sign::Minus])).expect("small");
     let mut rows = shape.rows(Selection::All).expect("all");
     assert_eq!(
@@ -180,5 +180,5 @@ fn a_walk_goes_on_where_it_was_copied() {
         (rows.site_count(), copy.site_count()),
         (5_u32.into(), 7_u32.into())
     );
-    walks(copy.off_the_floor(), &[]);
+    has_rows(copy.off_the_floor(), &[]);
 }

@@ -1,6 +1,5 @@
-//! Which sites a pile has, who touches whom, how many there are: against sets of sites.
+//! The sites, contacts and counts of a pile, compared with sets of sites.
 
-use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
 use num_bigint::BigUint;
 
@@ -11,8 +10,8 @@ fn big(n: usize) -> BigUint {
     n.into()
 }
 
-/// All of it, for one pile.
-fn is_its_sites(case: &Case) {
+/// Makes all comparisons for one pile.
+fn agrees(case: &Case) {
     sites_in_order(case);
     counts(case);
     neighbours(case);
@@ -49,7 +48,7 @@ fn counts(Case { pile, balance }: &Case) {
     assert_eq!(pile.base_sphere_count(), big(bottom));
 }
 
-/// Of every site, and of all places around it.
+/// Compares every site and all positions around it.
 fn neighbours(Case { pile, balance }: &Case) {
     let shape = pile.shape();
     let around = |(k, j, i): Place| {
@@ -69,7 +68,10 @@ fn neighbours(Case { pile, balance }: &Case) {
             let here = balance.has(at);
             let below = balance.below(at, m).filter(|_| here);
             if let Some(below) = below {
-                assert!(balance.has(below), "every sphere stands on three: {at:?}");
+                assert!(
+                    balance.has(below),
+                    "every sphere has three supports: {at:?}"
+                );
             }
             let above = balance.above(at, m).filter(|_| here);
             assert_eq!(shape.below(site(at), direction(m)), below.map(site));
@@ -79,7 +81,7 @@ fn neighbours(Case { pile, balance }: &Case) {
 }
 
 #[test]
-fn sites_are_ordered_as_the_oracle_orders_them() {
+fn sites_have_the_order_of_the_oracle() {
     let mut random = Random(11);
     let mut any = || random.up_to(6) - 3;
     for _ in 0..300 {
@@ -92,7 +94,7 @@ fn sites_are_ordered_as_the_oracle_orders_them() {
 fn every_stacking_under_one_sphere_up_to_7_layers() {
     for steps in 0..7 {
         for signs in all_signs(steps) {
-            is_its_sites(&Case::under(&Bounds::SITE, &signs));
+            agrees(&Case::under(&Bounds::SITE, &signs));
         }
     }
 }
@@ -111,7 +113,7 @@ fn every_stacking_on_small_hexagons() {
     ] {
         let base = Bounds::hexagon(p, q);
         for signs in all_on(&base) {
-            is_its_sites(&Case::on(&base, &signs).expect("found by the oracle"));
+            agrees(&Case::on(&base, &signs).expect("found by the oracle"));
         }
     }
 }
@@ -122,15 +124,15 @@ fn random_regions_and_stackings() {
     for _ in 0..150 {
         let steps = random.below(8);
         let signs = random.signs(steps);
-        is_its_sites(&Case::under(&random.bounds(5), &signs));
+        agrees(&Case::under(&random.bounds(5), &signs));
         if let Some(case) = Case::on(&random.bounds(10), &signs) {
-            is_its_sites(&case);
+            agrees(&case);
         }
     }
 }
 
 #[test]
-fn long_runs_are_counted_piece_by_piece() {
+fn long_runs_are_counted_in_pieces() {
     let mut random = Random(13);
     for _ in 0..25 {
         let runs = [random.below(14), random.below(14), random.below(14)];
@@ -152,7 +154,7 @@ fn long_runs_are_counted_piece_by_piece() {
 }
 
 #[test]
-fn a_pile_that_does_not_fit_is_refused_with_its_greatest_height() {
+fn the_error_of_a_pile_too_high_names_the_greatest_height() {
     use cannonpile::{Error, Pile};
 
     let mut random = Random(14);
@@ -164,7 +166,7 @@ fn a_pile_that_does_not_fit_is_refused_with_its_greatest_height() {
             continue;
         }
         refused += 1;
-        // The layers next to the base are there: of the last signs as many as fit.
+        // The layers next to the base exist. So this counts how many of the last signs fit.
         let fits = (0..=steps)
             .rev()
             .find(|n| Case::on(&base, &signs[steps - n..]).is_some());
@@ -184,12 +186,4 @@ fn a_pile_that_does_not_fit_is_refused_with_its_greatest_height() {
         );
     }
     assert!(refused > 50);
-}
-
-#[test]
-fn a_place_of_another_pile_is_no_place_of_this_one() {
-    let case = Case::under(&Bounds::SITE, "+-");
-    let outside = Site { i: 2, j: 0, k: 2 };
-    assert!(!case.pile.shape().contains(outside));
-    assert!(case.pile.shape().before(outside).is_err());
 }

@@ -1,4 +1,4 @@
-//! The numbers of spheres, against counting them one by one.
+//! The numbers of spheres, compared with a plain count.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::stacking::Stacking;
@@ -6,7 +6,7 @@ use cannonpile::{Error, Pile};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 
-/// Straight, isosceles, discs; any stacking on and under points, rows, triangles, hexagons.
+/// Straight piles, isosceles piles and discs, and any stacking on and under points, rows, triangles and hexagons.
 fn piles() -> Vec<Pile> {
     let shape = |sides: [[i128; 2]; 3]| {
         let [x, y, s] = sides.map(|[from, to]| from..=to);
@@ -31,7 +31,7 @@ fn piles() -> Vec<Pile> {
                 Stacking::dhcp(layers),
             ] {
                 let stacking = stacking.expect("a stacking");
-                // Some bases do not carry as many layers.
+                // Some bases do not support this many layers.
                 piles.extend(Pile::on(top, stacking.clone()));
                 piles.push(Pile::under(top, stacking).expect("a pile"));
             }
@@ -62,8 +62,8 @@ fn numbers_count_the_spheres_in_order() {
 }
 
 #[test]
-fn the_most_spheres_that_are_numbered() {
-    // 8433 layers are the most whose spheres are at most 10¹¹.
+fn the_limit_of_numbered_spheres() {
+    // 8433 is the greatest number of layers with at most 10¹¹ spheres.
     let pile = Pile::triangular(8433).expect("a pile");
     let numbering = pile.numbering().expect("numbers");
     let last = Site {

@@ -1,17 +1,17 @@
-//! Stackings of many layers, which are as small as their changes of sign, and what is refused.
+//! Stackings of many layers, which take little memory if they have few sign changes, and rejected stackings.
 
 use cannonpile::Error;
 use cannonpile::lattice::{MAX_LAYERS, Sign};
 use cannonpile::stacking::{MAX_RUNS, Notation, Run, Stacking};
 
-/// The longest text read, in bytes.
+/// The length of the longest accepted text, in bytes.
 const LONGEST: usize = 4_000_000;
 
-/// 10¹⁵ layers with three changes of sign.
+/// 10¹⁵ layers with three sign changes.
 const LONG: &str = "(333333333333333,1,666666666666664,1)";
 
 #[test]
-fn a_long_stacking_is_a_few_numbers() {
+fn a_long_stacking_has_few_runs() {
     let stacking: Stacking = LONG.parse().expect("four runs");
     assert_eq!(stacking.layers(), 10_i128.pow(15));
     assert_eq!((stacking.changes(), stacking.runs().len()), (3, 4));
@@ -31,9 +31,9 @@ fn a_long_stacking_is_a_few_numbers() {
     );
 }
 
-/// A thousand round trips: none would end if 10¹⁵ of anything were done or kept.
+/// A thousand round trips. They would not end if the work or memory grew with the 10¹⁵ layers.
 #[test]
-fn a_long_stacking_is_read_and_printed_at_once() {
+fn a_long_stacking_is_read_and_printed_quickly() {
     for _ in 0..1_000 {
         let stacking: Stacking = LONG.parse().expect("four runs");
         assert_eq!(stacking.in_notation(Notation::Zhdanov).to_string(), LONG);
@@ -41,8 +41,8 @@ fn a_long_stacking_is_read_and_printed_at_once() {
     }
 }
 
-/// One line that names the value and the remedy.
-fn refused(text: &str, because: &str) {
+/// The error is one line that contains the value and the remedy.
+fn is_rejected(text: &str, because: &str) {
     let refusal = text.parse::<Stacking>().expect_err(text);
     let message = refusal.to_string();
     assert!(message.contains(because), "{text}: {message}");
@@ -51,7 +51,7 @@ fn refused(text: &str, because: &str) {
 }
 
 #[test]
-fn what_no_notation_has_is_refused() {
+fn invalid_texts_are_rejected() {
     let texts = [
         "", "AA", "ABB", "ABCC", "ABD", "abc", "A B", "AB+", "+x", "+ -", " +", "+\n", "++h", "hA",
         "ch+", "x", "H", "C+", "(0)", "(1,0)", "(1,,2)", "(1,-2)", "( 1)", "(1 )", "(1,)", "(,1)",
@@ -60,7 +60,7 @@ fn what_no_notation_has_is_refused() {
     ];
     for text in texts {
         let quoted: String = text.chars().flat_map(char::escape_debug).collect();
-        refused(
+        is_rejected(
             text,
             &format!("'{quoted}' is not a stacking such as ++-+, ABCBC, chh or (2,1,1)"),
         );
@@ -68,9 +68,9 @@ fn what_no_notation_has_is_refused() {
 }
 
 #[test]
-fn texts_that_are_too_long_are_refused() {
+fn long_texts_are_rejected() {
     let letters = "c".repeat(LONGEST);
-    let stacking: Stacking = letters.parse().expect("one run, just as long as may be");
+    let stacking: Stacking = letters.parse().expect("one run at the limit");
     assert_eq!(stacking.layers(), 4_000_002);
     let signs = "+".repeat(LONGEST + 1);
     let shown = format!(
@@ -78,20 +78,23 @@ fn texts_that_are_too_long_are_refused() {
         "+".repeat(30),
         "+".repeat(12)
     );
-    refused(&signs, &shown);
+    is_rejected(&signs, &shown);
 }
 
 #[test]
-fn stackings_of_too_many_runs_are_refused() {
+fn stackings_with_too_many_runs_are_rejected() {
     let hcp = |steps: usize| "+-".repeat(steps / 2);
-    let most: Stacking = hcp(MAX_RUNS).parse().expect("as many as may be");
+    let most: Stacking = hcp(MAX_RUNS).parse().expect("a stacking at the limit");
     assert_eq!(most.changes() + 1, MAX_RUNS);
     let because = "more than 1000000 runs is too long to keep: use fewer sign changes";
-    refused(&hcp(MAX_RUNS + 2), because);
-    refused(&"h".repeat(MAX_RUNS), because);
-    refused(&"AB".repeat(MAX_RUNS / 2 + 1), because);
+    is_rejected(&hcp(MAX_RUNS + 2), because);
+    is_rejected(&"h".repeat(MAX_RUNS), because);
+    is_rejected(&"AB".repeat(MAX_RUNS / 2 + 1), because);
     let layers = i128::try_from(MAX_RUNS).expect("small") + 1;
-    assert_eq!(Stacking::hcp(layers).expect("as many as may be"), most);
+    assert_eq!(
+        Stacking::hcp(layers).expect("a stacking at the limit"),
+        most
+    );
     for refusal in [
         Stacking::hcp(layers + 1),
         Stacking::hcp(MAX_LAYERS),
@@ -108,26 +111,28 @@ fn stackings_of_too_many_runs_are_refused() {
 }
 
 #[test]
-fn stackings_of_too_many_layers_are_refused() {
+fn stackings_with_too_many_layers_are_rejected() {
     let because =
         "layers must be at least 1 and at most 10^36, not 1000000000000000000000000000000000001";
     let most = MAX_LAYERS - 1;
-    let tallest: Stacking = format!("({most})").parse().expect("as tall as may be");
+    let tallest: Stacking = format!("({most})")
+        .parse()
+        .expect("a stacking at the limit");
     assert_eq!(
         tallest,
-        Stacking::fcc(MAX_LAYERS).expect("as tall as may be")
+        Stacking::fcc(MAX_LAYERS).expect("a stacking at the limit")
     );
     assert_eq!(
         tallest.in_notation(Notation::Zhdanov).to_string(),
         format!("({most})")
     );
-    refused(&format!("({MAX_LAYERS})"), because);
-    refused(&format!("({most},1)"), because);
-    refused(&format!("(1,{most})"), because);
+    is_rejected(&format!("({MAX_LAYERS})"), because);
+    is_rejected(&format!("({most},1)"), because);
+    is_rejected(&format!("(1,{most})"), because);
     let tall = format!("({},{})", i128::MAX, i128::MAX);
-    refused(&tall, "layers must be at least 1 and at most 10^36");
-    // Not a number of steps that could be counted.
-    refused(&format!("({})", "9".repeat(50)), "is not a stacking");
+    is_rejected(&tall, "layers must be at least 1 and at most 10^36");
+    // The number of steps exceeds the integer type.
+    is_rejected(&format!("({})", "9".repeat(50)), "is not a stacking");
     for layers in [0, -1, i128::MIN, MAX_LAYERS + 1, i128::MAX] {
         for made in [
             Stacking::fcc(layers),
@@ -140,7 +145,7 @@ fn stackings_of_too_many_layers_are_refused() {
 }
 
 #[test]
-fn runs_that_are_none_are_refused() {
+fn invalid_runs_are_rejected() {
     let run = |sign, steps| Run { sign, steps };
     for steps in [-1, i128::MIN] {
         let made = Stacking::from_runs([run(Sign::Plus, 3), run(Sign::Plus, steps)]);
@@ -155,24 +160,24 @@ fn runs_that_are_none_are_refused() {
         run(Sign::Minus, MAX_LAYERS / 2),
         run(Sign::Minus, MAX_LAYERS / 2 - 1),
     ];
-    let joined = Stacking::from_runs(halves).expect("as tall as may be");
+    let joined = Stacking::from_runs(halves).expect("a stacking at the limit");
     assert_eq!((joined.layers(), joined.runs().len()), (MAX_LAYERS, 1));
     let more = halves.into_iter().chain([run(Sign::Plus, 1)]);
     let given = (MAX_LAYERS + 1).into();
     assert_eq!(Stacking::from_runs(more), Err(Error::layers(given)));
 }
 
-/// Where the fault of a long text is, and what stands there.
+/// The error names the position of the fault in a long text, and the character there.
 #[test]
 fn the_fault_of_a_long_text_is_located() {
     let long = "1,".repeat(40);
     for (text, position, found) in [
         (format!("x{}", "+".repeat(70)), 1, Some('x')),
         (format!("{}x+", "+".repeat(70)), 71, Some('x')),
-        // Two equal letters: the second is wrong.
+        // Two equal letters. The second is wrong.
         (format!("{}CA", "ABC".repeat(30)), 91, Some('C')),
         (format!("{}xc", "ch".repeat(40)), 81, Some('x')),
-        // Ten places into the brackets, and in the middle of a length.
+        // Ten characters into the brackets, and in the middle of a length.
         (format!("(12,345,67x8,{long}1)"), 11, Some('x')),
         (format!("({long}x)"), 82, Some('x')),
         (format!("({long}12,0,{long}1)"), 85, Some('0')),
@@ -191,28 +196,28 @@ fn the_fault_of_a_long_text_is_located() {
 }
 
 #[test]
-fn more_layers_than_can_be_counted_are_refused_as_such() {
+fn a_number_of_layers_beyond_the_integers_is_rejected() {
     let beyond = format!("({})", "9".repeat(50));
-    refused(&beyond, "is not a stacking of at most 10^36 layers");
-    // 39 digits, past 2^127; 38 are a number of layers, if too many.
-    refused(
+    is_rejected(&beyond, "is not a stacking of at most 10^36 layers");
+    // 39 digits exceed 2^127. A number with 38 digits parses, but exceeds the limit.
+    is_rejected(
         &format!("(1,{})", "9".repeat(39)),
         "of at most 10^36 layers",
     );
-    refused(
+    is_rejected(
         &format!("({})", "9".repeat(38)),
         "layers must be at least 1 and at most 10^36, not 100000000000000000000000000000000000000",
     );
 }
 
 #[test]
-fn a_text_beyond_the_greatest_length_is_not_read() {
+fn an_overlong_text_is_not_parsed() {
     let letters = "c".repeat(LONGEST + 2);
-    refused(&letters, "is not a stacking of at most 4000000 characters");
+    is_rejected(&letters, "is not a stacking of at most 4000000 characters");
 }
 
 #[test]
-fn signs_are_shown_of_up_to_65_layers() {
+fn debug_output_shows_the_signs_of_up_to_65_layers() {
     for steps in [63, 64] {
         let shown = Stacking::fcc(steps + 1).unwrap().to_string();
         assert_eq!(shown, "+".repeat(usize::try_from(steps).unwrap()));

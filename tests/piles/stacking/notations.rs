@@ -1,11 +1,11 @@
-//! Every stacking of up to twelve steps in four notations, against signs kept as booleans.
+//! Every stacking of up to twelve steps in four notations, compared with a plain list of signs.
 
 use cannonpile::lattice::Sign;
 use cannonpile::stacking::{Notation, Run, Stacking};
 
 use crate::lattice::each_signs;
 
-/// The most steps that are tried.
+/// The maximal number of steps.
 const MOST: usize = 12;
 
 /// The signs of a stacking, + as `true`.
@@ -31,7 +31,7 @@ impl Naive {
         letters.into_iter().collect()
     }
 
-    /// One letter for each inner layer.
+    /// A letter for each inner layer: h at a sign change, c otherwise.
     fn jagodzinski(&self) -> String {
         let inner = self.0.windows(2);
         inner
@@ -54,7 +54,7 @@ impl Naive {
         .collect()
     }
 
-    /// With + for the first sign, as the notations without one are read.
+    /// Makes + the first sign, because two notations omit it.
     fn plus_first(&self) -> Self {
         let first = self.0.first().copied().unwrap_or(true);
         Self(self.0.iter().map(|plus| *plus == first).collect())
@@ -70,8 +70,8 @@ fn parsed(text: &str) -> Stacking {
         .unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// The stacking has these signs, and says so in every way.
-fn is(stacking: &Stacking, naive: &Naive) {
+/// The stacking has these signs, and all its accessors agree with them.
+fn has_signs(stacking: &Stacking, naive: &Naive) {
     let signs: Vec<Sign> = naive.0.iter().map(|plus| sign(*plus)).collect();
     let runs = naive.runs();
     assert!(stacking.signs().eq(signs.iter().copied()), "{stacking:?}");
@@ -98,7 +98,7 @@ fn is(stacking: &Stacking, naive: &Naive) {
     );
 }
 
-/// All sequences of up to the most steps.
+/// Calls `visit` for all sequences of up to `MOST` steps.
 fn each(mut visit: impl FnMut(&Naive, &Stacking)) {
     for steps in 0..=MOST {
         for signs in each_signs(steps) {
@@ -110,8 +110,8 @@ fn each(mut visit: impl FnMut(&Naive, &Stacking)) {
 }
 
 #[test]
-fn every_short_stacking_is_what_its_signs_say() {
-    each(|naive, stacking| is(stacking, naive));
+fn every_short_stacking_has_its_signs() {
+    each(|naive, stacking| has_signs(stacking, naive));
 }
 
 #[test]
@@ -121,18 +121,18 @@ fn every_notation_is_read_back() {
         if !naive.0.is_empty() {
             assert_eq!(parsed(&naive.hagg()), *stacking);
         }
-        // One inner layer at least: an empty text is refused.
+        // At least one inner layer, because an empty text is invalid.
         if naive.0.len() > 1 {
-            is(&parsed(&naive.jagodzinski()), &turned);
+            has_signs(&parsed(&naive.jagodzinski()), &turned);
         }
         assert_eq!(parsed(&naive.abc()), *stacking);
-        is(&parsed(&naive.zhdanov()), &turned);
+        has_signs(&parsed(&naive.zhdanov()), &turned);
     });
 }
 
-/// Round through all four, from any to any.
+/// Converts from any of the four notations to any other.
 #[test]
-fn conversion_loses_nothing_but_the_first_sign() {
+fn conversion_keeps_all_but_the_first_sign() {
     let shown = |stacking: &Stacking| {
         [
             stacking.in_notation(Notation::Hagg).to_string(),
@@ -152,9 +152,9 @@ fn conversion_loses_nothing_but_the_first_sign() {
     });
 }
 
-/// Read with any letter first: A is only the name that is printed.
+/// The first letter of a text is arbitrary. The library prints A.
 #[test]
-fn letters_may_begin_anywhere() {
+fn any_first_letter_is_valid() {
     each(|naive, stacking| {
         let rename = |by: u8| -> String {
             let abc = naive.abc();
@@ -172,14 +172,14 @@ fn mirrored_and_reversed() {
     each(|naive, stacking| {
         let mirrored = Naive(naive.0.iter().map(|plus| !plus).collect());
         let reversed = Naive(naive.0.iter().rev().copied().collect());
-        is(&stacking.mirrored(), &mirrored);
-        is(&stacking.reversed(), &reversed);
+        has_signs(&stacking.mirrored(), &mirrored);
+        has_signs(&stacking.reversed(), &reversed);
         assert_eq!(stacking.mirrored().mirrored(), *stacking);
         assert_eq!(stacking.reversed().reversed(), *stacking);
     });
 }
 
-/// Runs of one sign are joined, empty ones left out, wherever they stand.
+/// Neighbouring runs of one sign are joined, and empty ones are dropped.
 #[test]
 fn runs_are_joined_and_dropped() {
     let run = |symbol: char, steps| Run {
@@ -200,7 +200,7 @@ fn runs_are_joined_and_dropped() {
     for (runs, signs) in cases {
         let made = Stacking::from_runs(runs.iter().map(|(symbol, steps)| run(*symbol, *steps)));
         let naive = Naive(signs.chars().map(|symbol| symbol == '+').collect());
-        is(&made.expect("few steps"), &naive);
+        has_signs(&made.expect("few steps"), &naive);
     }
 }
 
@@ -212,12 +212,12 @@ fn named_stackings_are_periodic() {
         Naive(signs.take(steps).collect())
     };
     for layers in 1..=40 {
-        is(&Stacking::fcc(layers).expect("few"), &periodic("+", layers));
-        is(
+        has_signs(&Stacking::fcc(layers).expect("few"), &periodic("+", layers));
+        has_signs(
             &Stacking::hcp(layers).expect("few"),
             &periodic("+-", layers),
         );
-        is(
+        has_signs(
             &Stacking::dhcp(layers).expect("few"),
             &periodic("++--", layers),
         );
@@ -248,7 +248,8 @@ fn one_layer() {
     for text in ["A", "B", "C", "()"] {
         assert_eq!(parsed(text), Stacking::single_layer());
     }
-    is(&Stacking::single_layer(), &Naive(Vec::new()));
+    assert_eq!(Stacking::fcc(1), Ok(Stacking::single_layer()));
+    has_signs(&Stacking::single_layer(), &Naive(Vec::new()));
     assert_eq!(
         Stacking::single_layer()
             .in_notation(Notation::Abc)
@@ -261,22 +262,22 @@ fn one_layer() {
             .to_string(),
         "()"
     );
-    // Jagodzinski's letters begin with the second layer: one letter is three layers.
-    is(&parsed("h"), &Naive(vec![true, false]));
-    is(&parsed("c"), &Naive(vec![true, true]));
+    // Jagodzinski's letters begin with the second layer, so one letter stands for three layers.
+    has_signs(&parsed("h"), &Naive(vec![true, false]));
+    has_signs(&parsed("c"), &Naive(vec![true, true]));
 }
 
-/// The oracle is not content with another stacking.
+/// The check rejects another stacking.
 #[test]
 fn a_wrong_sign_is_caught() {
     let stacking = parsed("++-+");
-    is(&stacking, &Naive(vec![true, true, false, true]));
+    has_signs(&stacking, &Naive(vec![true, true, false, true]));
     for wrong in [
         vec![true, true, false],
         vec![true, true, true, false],
         vec![false, false, true, false],
     ] {
-        let caught = std::panic::catch_unwind(|| is(&stacking, &Naive(wrong)));
+        let caught = std::panic::catch_unwind(|| has_signs(&stacking, &Naive(wrong)));
         assert!(caught.is_err());
     }
 }

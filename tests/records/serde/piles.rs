@@ -1,4 +1,4 @@
-//! Piles as what they are made of.
+//! Piles are stored by their parts.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{MAX_LAYERS, Region, Site};
@@ -53,7 +53,7 @@ fn piles() {
 }
 
 #[test]
-fn no_invalid_pile_comes_in() {
+fn invalid_piles_are_rejected() {
     let text = |dimension: u8, sin_phi: &str, stacking: &str, anchor: &str, loads: &str| {
         format!(
             r#"{{"dimension":{dimension},"sin_phi":"{sin_phi}","stacking":"{stacking}","anchor":{anchor},"#
@@ -101,7 +101,7 @@ fn no_invalid_pile_comes_in() {
             .to_string()
             .contains("two weights of the sphere (i,j,k) = (0,0,1)")
     );
-    // Cut anywhere, or with a byte changed, it is a pile that can be written, or an error.
+    // A text that is cut off or has a changed byte yields an error or a pile that can be written.
     let pile = Pile::under(Region::hexagon(3, 2).unwrap(), "+-++".parse().unwrap());
     let pile = pile
         .and_then(|pile| pile.with_load(Site::APEX, ratio(7, 3)))
@@ -117,7 +117,7 @@ fn no_invalid_pile_comes_in() {
             }
         }
     }
-    // In bytes, too: the sign of a load is its first letter.
+    // The binary format too: the sign of a load is its first character.
     let pile = Pile::triangular(2)
         .unwrap()
         .with_load(Site::APEX, ratio(7, 1))

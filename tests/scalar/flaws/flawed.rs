@@ -1,4 +1,4 @@
-//! A scalar with exact arithmetic but for one planted fault.
+//! A scalar that is exact except for one fault.
 
 use core::cell::Cell;
 use core::fmt::Debug;
@@ -26,7 +26,7 @@ pub(crate) struct Operations {
     pub(crate) rational: fn(&Q) -> Q,
     pub(crate) div_int: fn(&Q, i64) -> Q,
     pub(crate) div: fn(&Q, &Q) -> Option<Q>,
-    /// Of a numerator and a denominator.
+    /// From a numerator and a denominator.
     pub(crate) ratio: fn(&Q, &Q) -> Option<Q>,
     pub(crate) is_defined: fn(&Q) -> bool,
     pub(crate) sign: fn(&Q) -> RealSign,
@@ -34,7 +34,7 @@ pub(crate) struct Operations {
 }
 
 impl Operations {
-    /// Without a fault.
+    /// The correct operations.
     pub(crate) const RIGHT: Self = Self {
         zero: Q::zero,
         one: Q::one,
@@ -54,11 +54,12 @@ impl Operations {
 }
 
 thread_local! {
-    /// Of all flawed numbers: a test has one fault, and the laws are compiled once for all faults.
+    /// The operations of all flawed values on this thread. A test has one fault at a time, so the laws are compiled once for
+    /// all faults.
     static OPERATIONS: Cell<Operations> = const { Cell::new(Operations::RIGHT) };
 }
 
-/// The flawed numbers of this thread compute so.
+/// Sets the operations of the flawed values on this thread.
 pub(crate) fn from_now_on(operations: Operations) {
     OPERATIONS.set(operations);
 }
@@ -67,7 +68,7 @@ fn operations() -> Operations {
     OPERATIONS.get()
 }
 
-/// How exact a flawed scalar claims to be.
+/// The exactness that a flawed scalar claims.
 pub(crate) trait Claim: Clone + Debug + PartialEq + Send + Sync {
     const EXACTNESS: Exactness;
 }
@@ -89,11 +90,11 @@ claims! {
     Enclosed = Exactness::Enclosure;
 }
 
-/// A rational whose operations are those that were last set on this thread.
+/// A rational with the operations that were last set on this thread.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Flawed<C>(Q, PhantomData<C>);
 
-/// A number of the flawed scalar.
+/// A value of the flawed scalar.
 pub(crate) fn flawed<C>(value: Q) -> Flawed<C> {
     Flawed(value, PhantomData)
 }

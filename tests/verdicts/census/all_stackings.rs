@@ -1,4 +1,4 @@
-//! The census against all stackings: under one sphere by brute force over 2^12 of them, on bases by the oracle.
+//! The census compared with all stackings: under one sphere by brute force over 2^12 of them, on bases by the oracle.
 
 use std::collections::BTreeSet;
 
@@ -15,13 +15,13 @@ use cannonpile_testkit::oracles::brute::Front;
 
 const MOST_STEPS: usize = 13;
 
-/// All beginnings that stand, and the shortest ones that fail, that begin with +; by the number of steps.
+/// All stable stackings and the shortest unstable ones that begin with +, by number of steps.
 struct Found {
     standing: Vec<BTreeSet<String>>,
     failing: Vec<BTreeSet<String>>,
 }
 
-/// Every stacking is looked at, layer by layer; of those that begin alike the beginning once.
+/// Examines every stacking layer by layer. Stackings with a common beginning share it.
 fn brute_force() -> Found {
     let none = || vec![BTreeSet::new(); MOST_STEPS + 1];
     let mut found = Found {
@@ -84,7 +84,7 @@ fn under_one_sphere_up_to_14_layers() {
         let failing: BTreeSet<String> = found.failing[..=steps].iter().flatten().cloned().collect();
         assert_eq!(fail.len(), failing.len());
         for entry in &fail {
-            // It fails at its last step, and not before.
+            // It fails at its last step and not before.
             assert_eq!(entry.standing.first_failure, Some(entry.pile.layers() - 2));
         }
         assert_eq!(
@@ -96,8 +96,8 @@ fn under_one_sphere_up_to_14_layers() {
 }
 
 #[test]
-fn brute_force_leaves_nothing_out() {
-    // What stands after all, and what began with a failure, is every stacking there is.
+fn brute_force_is_complete() {
+    // The stable stackings and the continuations of unstable ones are all stackings.
     let found = brute_force();
     for steps in 1..=MOST_STEPS {
         let failed = (1..=steps).map(|n| found.failing[n].len() << (steps - n));
@@ -107,13 +107,13 @@ fn brute_force_leaves_nothing_out() {
 }
 
 #[test]
-fn entries_come_in_the_order_of_their_runs() {
+fn entries_are_ordered_by_their_runs() {
     for failing in [false, true] {
         for layers in 1..=14 {
             let runs = entries(layers, failing).into_iter().map(|entry| {
                 let runs = entry.pile.shape().stacking().runs();
                 let mut runs: Vec<i128> = runs.map(|run| run.steps).collect();
-                // The last run goes on as far as there are layers.
+                // The last run is as long as the number of layers permits.
                 runs.pop();
                 runs
             });
@@ -123,7 +123,7 @@ fn entries_come_in_the_order_of_their_runs() {
 }
 
 #[test]
-fn entries_have_the_least_force_of_the_oracle() {
+fn entries_have_the_oracles_least_force() {
     for layers in 1..=10 {
         for entry in entries(layers, true) {
             let balance = Balance::under(&Bounds::SITE.sites(), &signs(&entry));
@@ -133,7 +133,7 @@ fn entries_have_the_least_force_of_the_oracle() {
     }
 }
 
-/// Whether a set of sites is its mirror image, moved to another place.
+/// Tells whether a set of sites is a translation of its mirror image.
 fn is_its_own_mirror_image(sites: &Sites) -> bool {
     let moved = |sites: Vec<(i128, i128)>| -> Sites {
         let first = |pick: fn(&(i128, i128)) -> i128| sites.iter().map(pick).min().expect("a site");
@@ -144,7 +144,7 @@ fn is_its_own_mirror_image(sites: &Sites) -> bool {
     moved(sites.iter().copied().collect()) == moved(mirrored)
 }
 
-fn on_base_is_the_oracle(base: &Bounds) {
+fn agrees_with_the_oracle(base: &Bounds) {
     let sites = base.sites();
     let one_of_two = is_its_own_mirror_image(&sites);
     assert_eq!(one_of_two, base.region().is_its_own_mirror_image());
@@ -175,10 +175,10 @@ fn on_base_is_the_oracle(base: &Bounds) {
 #[test]
 fn on_triangles_and_hexagons() {
     for (p, q) in (1..=4).flat_map(|p| (1..=4).map(move |q| (p, q))) {
-        on_base_is_the_oracle(&Bounds::hexagon(p, q));
+        agrees_with_the_oracle(&Bounds::hexagon(p, q));
     }
     for n in 5..=8 {
-        on_base_is_the_oracle(&Bounds::triangle(n));
+        agrees_with_the_oracle(&Bounds::triangle(n));
     }
 }
 
@@ -191,17 +191,17 @@ fn on_parallelograms_and_random_bases() {
             s: (-20, 20),
         };
         assert!(base.region().is_its_own_mirror_image());
-        on_base_is_the_oracle(&base);
+        agrees_with_the_oracle(&base);
     }
     let mut random = Random(91);
     for _ in 0..40 {
-        on_base_is_the_oracle(&random.bounds(6));
+        agrees_with_the_oracle(&random.bounds(6));
     }
 }
 
-/// Nothing is kept of the beginnings to come, nor of the stackings of a base.
+/// The census does not store future prefixes or the stackings of a base.
 #[test]
-fn a_census_of_any_size_begins_at_once() {
+fn a_census_of_any_size_starts_quickly() {
     let refused = census::under_one_sphere(10_i128.pow(36), true).err();
     assert!(matches!(refused, Some(Error::TooManyRows { .. })));
     let all = census::under_one_sphere(1_000_000, true).unwrap();
@@ -218,9 +218,9 @@ fn a_census_of_any_size_begins_at_once() {
     }
 }
 
-/// 11L − 50 entries of L layers, and no more than 10¹¹ of them.
+/// 11L − 50 entries of L layers. The limit is 10¹¹.
 #[test]
-fn a_census_of_too_many_entries_is_refused_with_their_number() {
+fn the_error_of_a_large_census_states_its_size() {
     let most = 9_090_909_095;
     assert!(census::under_one_sphere(most, true).is_ok());
     let refused = |layers, rows: u64| {

@@ -1,5 +1,5 @@
 //! The least contact and the first failure: at surfaces with other weights, of piles that end a search, and at the limits of
-//! what is looked at.
+//! a search.
 
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
 use cannonpile::shape::Selection;
@@ -19,8 +19,8 @@ fn least(case: &Case) -> (Site, Direction, BigRational) {
     (least.site, least.direction, least.force)
 }
 
-/// The sphere below both of the top receives 1, 1 and 0, turned 1/3, 1/3 and 4/3: at a change of sign no line begins with
-/// the weight of its sphere, here 0.
+/// The sphere below both top spheres receives 1, 1 and 0, which a half-turn changes to 1/3, 1/3 and 4/3. At a sign change,
+/// the force of a line is not the weight of its first sphere, here 0.
 #[test]
 fn no_line_begins_at_a_change_of_sign() {
     let pair = Bounds {
@@ -43,9 +43,9 @@ fn a_light_sphere_at_a_surface_inside_a_run_has_the_least_force() {
     assert_eq!(least(&case), (light, Direction::Alpha, ratio(1, 7)));
 }
 
-/// Two neighbours that are pushed apart in a straight pile: one pulls at a sphere below it, where no line begins.
+/// Two neighbours press each other in a straight pile. One has a tensile contact below it, although no line begins there.
 #[test]
-fn spheres_that_are_pushed_may_pull() {
+fn horizontal_forces_can_cause_tension() {
     let mut case = Case::under(&Bounds::SITE, "+++");
     let contact = HorizontalContact {
         site: Site { i: 0, j: 0, k: 2 },
@@ -61,7 +61,7 @@ fn spheres_that_are_pushed_may_pull() {
 }
 
 #[test]
-fn a_pushed_pile_is_as_the_oracle_has_it() {
+fn a_pile_with_horizontal_forces_agrees_with_the_oracle() {
     let mut random = Random(12);
     for signs in ["+-+", "++-", "-+"] {
         let case = Case::under(&Bounds::hexagon(2, 2), signs).pushed(3, &mut random);
@@ -70,20 +70,20 @@ fn a_pushed_pile_is_as_the_oracle_has_it() {
     }
 }
 
-/// Many changes of sign under tops that a third of a turn maps onto themselves: swept by thirds, in several windows.
+/// Many sign changes under tops with threefold symmetry. The sweep computes a third of each layer, in several sub-triangles.
 #[test]
-fn high_piles_are_as_the_oracle_has_them() {
+fn high_piles_agree_with_the_oracle() {
     for (top, signs) in [
         (Bounds::SITE, repeated("+-", 13)),
         (Bounds::hexagon(2, 1), repeated("+-++-", 13)),
     ] {
         let case = Case::under(&top, &signs);
         standing(&case.pile, &case.balance.forces()).unwrap();
-        extremes_are_those_of_the_oracle(&case);
+        extremes_agree_with_the_oracle(&case);
     }
 }
 
-fn extremes_are_those_of_the_oracle(case: &Case) {
+fn extremes_agree_with_the_oracle(case: &Case) {
     let floor = case.balance.forces().floor;
     let extremes = case.pile.base_extremes().unwrap();
     let normals = || floor.values().map(|[normal, ..]| normal);
@@ -94,9 +94,9 @@ fn extremes_are_those_of_the_oracle(case: &Case) {
     assert_eq!(Some(extremes.max_shear_ratio.square()), squared.max());
 }
 
-/// Numbers of two limbs, beside brute force.
+/// Values of two limbs, compared with brute force.
 #[test]
-fn the_least_of_numbers_of_two_limbs_is_that_of_brute_force() {
+fn the_least_value_of_two_limbs_equals_brute_force() {
     let case = Case::under(&Bounds::SITE, &repeated("+-", 40));
     assert_eq!(case.pile.plan(Selection::Base).unwrap().planes, 2);
     let passed = brute::all(&case.balance);
@@ -111,15 +111,15 @@ fn the_least_of_numbers_of_two_limbs_is_that_of_brute_force() {
             })
         })
     });
-    // The first of those that are least.
+    // The first of several minima.
     let least = contacts.min_by(|one, other| one.0.cmp(&other.0)).unwrap();
     let found = case.pile.standing().unwrap().least.unwrap();
     assert_eq!((found.force, found.site, found.direction), least);
 }
 
-/// A bottom sphere that weighs nothing, and carries what others beside it do, speaks for none of them.
+/// A weightless bottom sphere with the same load as its neighbours does not represent them.
 #[test]
-fn a_light_bottom_sphere_hides_no_other() {
+fn a_light_bottom_sphere_does_not_hide_others() {
     let row = Bounds {
         x: (0, 7),
         y: (0, 0),
@@ -128,19 +128,19 @@ fn a_light_bottom_sphere_hides_no_other() {
     let bottom = Case::under(&row, "+-").balance.layers[2].clone();
     for (j, i) in bottom {
         let case = Case::under(&row, "+-").with_weight((2, j, i), &ratio(0, 1));
-        extremes_are_those_of_the_oracle(&case);
+        extremes_agree_with_the_oracle(&case);
     }
-    // Of two that carry as much, and more than all others, it is the first.
+    // Of two maxima, this is the first.
     let top = Bounds {
         x: (-1, 2),
         y: (-1, 1),
         s: (-1, 2),
     };
     let case = Case::under(&top, "+-").with_weight((2, 0, 0), &ratio(0, 1));
-    extremes_are_those_of_the_oracle(&case);
+    extremes_agree_with_the_oracle(&case);
 }
 
-/// In units of 2cosφ that are not whole.
+/// The ratios have units of 2cosφ, which are irrational here.
 #[test]
 fn the_greatest_ratio_of_an_isosceles_pile_is_one_of_its_base() {
     for s in [ratio(1, 3), ratio(4, 5), ratio(5, 7)] {
@@ -157,21 +157,21 @@ fn the_greatest_ratio_of_an_isosceles_pile_is_one_of_its_base() {
     }
 }
 
-/// What lies below a failure is not looked at: not even a change of sign below a nonillion layers.
+/// The search stops at a failure. It ignores a sign change a nonillion layers below.
 #[test]
-fn a_failure_near_the_top_is_found_without_what_is_far_below() {
+fn the_search_stops_at_a_failure_near_the_top() {
     let stacking = format!("(1,1,1,1,{},1)", 10_i128.pow(30));
     let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
     assert_eq!(pile.first_failure(), Ok(Some(4)));
 }
 
-/// Nine rows of n to n + 8 spheres at the only change of sign, on eight steps below a row of n: 9n + 36 spheres.
+/// Nine rows of n to n + 8 spheres at the only sign change, after eight steps below a row of n: 9n + 36 spheres.
 fn ridge(n: i128) -> Pile {
     let row = Region::new(0..=n - 1, 0..=0, 0..=n - 1).unwrap();
     Pile::under(row, stacking("++++++++-")).unwrap()
 }
 
-/// A ridge fails at its ends, as a short one does.
+/// A long ridge fails at its ends, like a short one.
 fn fails_as_a_short_one(found: &Standing) {
     let bounds = Bounds {
         x: (0, 29),
@@ -185,9 +185,9 @@ fn fails_as_a_short_one(found: &Standing) {
     assert_eq!(found.first_failure, Some(8));
 }
 
-/// Three numbers a sphere at a change of sign, 10⁹ in all: 333,333,333 spheres are the most.
+/// Three values per sphere at a sign change, at most 10⁹ in total. So the limit is 333,333,333 spheres.
 #[test]
-fn the_least_of_a_pile_that_fails_is_sought_among_a_billion_numbers() {
+fn the_search_examines_at_most_a_billion_values() {
     let most = ridge(37_037_033);
     let at_the_change = most.rows(Selection::Layer(8)).unwrap().site_count();
     assert_eq!(at_the_change, 333_333_333_u32.into());
@@ -196,10 +196,10 @@ fn the_least_of_a_pile_that_fails_is_sought_among_a_billion_numbers() {
     assert_eq!((more.first_failure, more.least), (Some(8), None));
 }
 
-/// Numbers are counted limb by limb: with a load on the floor that they have just room for beside the weights, and with
-/// one that takes a second limb.
+/// The limit counts limbs. One load in the bottom layer just fits into the limb of the weights, and the next needs a second
+/// limb.
 #[test]
-fn longer_numbers_leave_fewer_spheres_to_look_at() {
+fn longer_values_reduce_the_number_of_spheres() {
     let pile = ridge(30_000_000);
     let bottom = Site { i: 0, j: 0, k: 9 };
     // 2√3·B·D ≤ √(36·K·N) + 6·W < 2⁶².
@@ -214,8 +214,8 @@ fn longer_numbers_leave_fewer_spheres_to_look_at() {
     assert_eq!((longer.first_failure, longer.least), (Some(8), None));
 }
 
-/// Changes of sign in layers of 8 and 9 rows, below a row of n spheres with a load: 14 places for each row, and 9 for each
-/// of the 8n + 28 spheres of the first change, and twice for the load.
+/// Sign changes in layers of 8 and 9 rows, below a row of n spheres with a load. This needs 14 values for each row, 9 for
+/// each of the 8n + 28 spheres at the first change, and 18 for the load.
 fn refused(n: i128, load: BigRational, loaded: fn(i128) -> Site) {
     let row = Region::new(5..=4 + n, 3..=3, 8..=7 + n).unwrap();
     let pile = Pile::under(row, stacking("+++++++-+")).unwrap();
@@ -230,16 +230,15 @@ fn refused(n: i128, load: BigRational, loaded: fn(i128) -> Site) {
     assert_eq!(pile.unwrap().standing(), Err(refused));
 }
 
-/// A sweep has room down to the last change of sign, and none one layer further down.
+/// A sweep fits down to the last sign change, but not one layer further.
 #[test]
-fn a_verdict_on_too_many_spheres_is_refused_with_their_number() {
+fn the_error_of_a_large_verdict_states_its_size() {
     refused(4_600_000, ratio(2, 1), |_| Site { i: 6, j: 3, k: 0 });
 }
 
-/// As before, but with room for one limb each there, which the load makes too few for: 3·(√(36·K·N) + 6·W) ≥ 2⁶² for all
-/// ten layers, and for none less.
+/// Here one limb each would fit, but the load needs two: 3·(√(36·K·N) + 6·W) ≥ 2⁶² for all ten layers, and for no fewer.
 #[test]
-fn a_verdict_is_refused_for_limbs_that_the_last_layer_needs() {
+fn the_limbs_of_the_last_layer_count_towards_the_limit() {
     let n = 4_400_000;
     let row = Region::new(5..=4 + n, 3..=3, 8..=7 + n).unwrap();
     let spheres = Pile::under(row, stacking("+++++++-+")).unwrap();
@@ -253,8 +252,8 @@ fn a_verdict_is_refused_for_limbs_that_the_last_layer_needs() {
     });
 }
 
-/// Two rows, of n + 1 spheres that bear two each, or one at the ends, and of n that bear one: the loaded one is among
-/// those few that are looked at.
+/// Two rows: n + 1 spheres that support two each, or one at the ends, and n that support one. The search examines few
+/// spheres, among them the loaded one.
 #[test]
 fn a_load_on_the_floor_is_found_in_long_rows() {
     let n = 100_000;
@@ -271,7 +270,7 @@ fn a_load_on_the_floor_is_found_in_long_rows() {
     assert_eq!(extremes.normal_max, ratio(155, 3));
 }
 
-/// Where all of the top is special, no other layer is searched for a line that begins: without runs there is none.
+/// All of the top is special. The search must not look for the start of a line in other layers, because there are no runs.
 #[test]
 fn a_load_on_the_top_of_a_million_layers() {
     let hcp = Stacking::hcp(1_000_000).unwrap();

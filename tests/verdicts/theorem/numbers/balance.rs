@@ -13,13 +13,13 @@ use super::{RIGHT, at_site, equilateral_piles, evaluated, int, piles, prove, rat
 
 const LAYERS: i128 = 5;
 
-/// Every sphere of every pile, with the values of i, j, k and s.
-fn every_sphere(mut ask: impl FnMut(&Pile, Site, &[(&'static str, Q)])) {
+/// Visits every sphere of every pile, with the values of i, j, k and s.
+fn every_sphere(mut visit: impl FnMut(&Pile, Site, &[(&'static str, Q)])) {
     for pile in piles(LAYERS) {
         for site in pile.shape().sites() {
             let mut values = at_site(site);
             values.push(("s", pile.sin_phi().clone()));
-            ask(&pile, site, &values);
+            visit(&pile, site, &values);
         }
     }
 }
@@ -47,7 +47,7 @@ fn increments_solve_the_papers_system() {
     }
 }
 
-/// The product of any three directions, here whole numbers.
+/// The triple product of any three directions, here with integer components.
 #[test]
 fn the_product_of_directions_is_their_determinant() {
     let skew: Formulas = Formulas {
@@ -66,9 +66,9 @@ fn the_product_of_directions_is_their_determinant() {
     assert_eq!(sides, [int(3), ratio(3, 2)]);
 }
 
-/// By the form, and by the components of a position in the basis (sinθ, 2cosφ·sinθ, cosθ).
+/// From the quadratic form, and from the components of a position in the basis (sinθ, 2cosφ·sinθ, cosθ).
 #[test]
-fn distances_are_those_between_positions() {
+fn distances_follow_from_positions() {
     let proof = prove("unit-directions");
     let sin2 = ratio(12, 25);
     for s in sines() {
@@ -93,9 +93,9 @@ fn distances_are_those_between_positions() {
     }
 }
 
-/// The supports of every sphere, contact by contact, carry the contacts above and the weight.
+/// The supports of every sphere balance the contacts above and the weight.
 #[test]
-fn supports_bear_what_lies_above() {
+fn supports_balance_the_contacts_above() {
     let proof = prove("equilibrium");
     every_sphere(|pile, site, values| {
         let forces = pile.forces::<Q>();
@@ -127,7 +127,7 @@ fn supports_bear_what_lies_above() {
 }
 
 #[test]
-fn surfaces_receive_nothing_and_others_what_is_given() {
+fn forces_from_above_equal_transmitted_forces() {
     let (surface, reaction) = (prove("surface"), prove("action-reaction"));
     every_sphere(|pile, site, values| {
         let forces = pile.forces::<Q>();
@@ -167,11 +167,11 @@ fn resultants_are_positions() {
 }
 
 #[test]
-fn half_turns_turn_forces() {
+fn half_turns_are_rotations() {
     let proof = prove("half-turn");
     let [names_g, names_h] = [["g_1", "g_2", "g_3"], ["h_1", "h_2", "h_3"]];
     let dot = |a: &[Q; 3], b: &[Q; 3]| -> Q { a.iter().zip(b).map(|(x, y)| x * y).sum() };
-    // Fractions are turned as integers over one denominator, 21 · 3.
+    // Fractions are integers over a common denominator, 21 · 3.
     let turn = |g: &[Q; 3]| {
         let numerators = g.each_ref().map(|g| (g * int(63)).to_integer());
         half_turn::<Q>(&numerators).map(|tripled| Q::new(tripled, 189.into()))
@@ -188,7 +188,7 @@ fn half_turns_turn_forces() {
         assert_eq!(value(&proof, "|Gg|²", &values), dot(&turned, &turned));
         assert_eq!(value(&proof, "h·Gg", &values), dot(&h, &turned));
         assert_eq!(turn(&turned), g);
-        // A half turn about (1, 1, 1): what is along the axis stays, the rest is reversed.
+        // A half-turn about (1, 1, 1) keeps the component along the axis and reverses the rest.
         let mean = g.iter().sum::<Q>() / int(3);
         for (x, turned) in g.iter().zip(&turned) {
             assert!((x - &mean + turned - &mean).is_zero());

@@ -14,7 +14,7 @@ const LAYERS: i128 = 12;
 
 type Values = Vec<(&'static str, Q)>;
 
-/// A bottom sphere: its force in mg/W and f₀, its horizontal position in 2R, the values of L, i, j and s.
+/// A bottom sphere: its force in mg/W and f₀, its horizontal position in 2R, and the values of L, i, j and s.
 struct Bottom {
     force: FloorForce<Q>,
     x: Q,
@@ -159,7 +159,7 @@ fn shears() {
 }
 
 #[test]
-fn shear_and_moments_in_all() {
+fn total_shear_and_moments() {
     let [shear, moment] = ["total-shear", "total-moment"].map(prove);
     for pile in piles(LAYERS) {
         let (base, values) = (base(&pile), at_layers(&pile));
@@ -171,8 +171,8 @@ fn shear_and_moments_in_all() {
             value(&shear, "ΣF_y", &values),
             over(&base, |b| b.force.shear_y.clone())
         );
-        let turning = over(&base, |b| &b.x * &b.force.shear_y - &b.y * &b.force.shear_x);
-        assert_eq!(value(&moment, "Σ(x F_y − y F_x)", &values), turning);
+        let torsion = over(&base, |b| &b.x * &b.force.shear_y - &b.y * &b.force.shear_x);
+        assert_eq!(value(&moment, "Σ(x F_y − y F_x)", &values), torsion);
         let about_y = value(&moment, "ΣF_z x", &values);
         assert_eq!(about_y, over(&base, |b| &b.force.normal * &b.x));
         assert_eq!(about_y, weighed(&pile, |_, x, _| x));
@@ -182,9 +182,9 @@ fn shear_and_moments_in_all() {
     }
 }
 
-/// Forces that are turned by a right angle have the moment that they had outwards.
+/// Forces rotated by a right angle have a moment equal to their former radial component.
 #[test]
-fn forces_that_turn_have_a_moment() {
+fn rotated_forces_have_a_moment() {
     let turned: Formulas = Formulas {
         handed_on: |above, directions, weight| {
             let Vector { x, y, z } = (RIGHT.handed_on)(above, directions, weight);

@@ -1,4 +1,4 @@
-//! Counts, one sphere and one contact after the other.
+//! Counts, by spheres and by contacts.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use super::{at_site, equilateral_piles, int, prove, value};
 
 const LAYERS: i128 = 12;
 
-/// The spheres above a site on one line, by walking up.
+/// The number of spheres above a site on one line, from a walk up.
 fn walked(pile: &Pile, site: Site, direction: Direction) -> Q {
     let up = core::iter::successors(Some(site), |site| pile.shape().above(*site, direction));
     up.skip(1).fold(Q::zero(), |n, _| n + Q::one())
@@ -23,7 +23,7 @@ fn walked(pile: &Pile, site: Site, direction: Direction) -> Q {
 const NAMES: [&str; 3] = ["N_α", "N_β", "N_γ"];
 
 #[test]
-fn counts_are_walked() {
+fn counts_equal_walks() {
     let proof = prove("counts");
     let pile = Pile::triangular(8).expect("a pile");
     for site in pile.shape().sites() {
@@ -46,7 +46,7 @@ fn counts_are_walked() {
 }
 
 #[test]
-fn the_rotation_turns_sites() {
+fn the_rotation_permutes_counts() {
     let proof = prove("rotation");
     let pile = Pile::triangular(7).expect("a pile");
     for site in pile.shape().sites() {

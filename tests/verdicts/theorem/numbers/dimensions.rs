@@ -47,7 +47,7 @@ fn discs_on_the_floor() {
     }
 }
 
-/// All (n_1 … n_D) ≥ 0 that sum to k: the spheres of layer k.
+/// All (n_1 … n_D) ≥ 0 with the sum k: the spheres of layer k.
 fn layer<const D: usize>(k: usize) -> Vec<[i128; D]> {
     let places = (0..(k + 1).pow(u32::try_from(D).expect("few"))).map(|code| {
         core::array::from_fn(|m| code / (k + 1).pow(u32::try_from(m).expect("few")) % (k + 1))
@@ -92,9 +92,10 @@ fn every_dimension() {
     in_dimension::<6>();
 }
 
-/// Spheres that passed on g² + w of g would be pushed to the side by the d-fold of (g² − g) along a line, less the sum of all.
+/// If spheres transmitted g² + w in place of g + w, the horizontal force would be d times (g² − g) along a line minus the
+/// sum of all.
 #[test]
-fn squares_of_forces_push_to_the_side() {
+fn squared_forces_have_a_horizontal_resultant() {
     let squares: Formulas = Formulas {
         passed_on: |received, own| received.clone() * &received + own,
         ..RIGHT

@@ -1,4 +1,4 @@
-//! Theorems at numbers: their polynomials take the values that are counted and summed on real piles.
+//! Theorems at numbers. The polynomials take the values of counts and sums on real piles.
 
 mod balance;
 mod base;
@@ -33,7 +33,7 @@ fn at_site(Site { i, j, k }: Site) -> Vec<(&'static str, Q)> {
     vec![("i", int(i)), ("j", int(j)), ("k", int(k))]
 }
 
-/// Values of sin φ: the equilateral base, others on both sides of it, one next to zero.
+/// Values of sin φ: that of the equilateral base, values on both sides of it, and one close to zero.
 fn sines() -> [Q; 5] {
     [(1, 2), (1, 3), (2, 5), (7, 9), (1, 1000)].map(|(n, d)| ratio(n, d))
 }

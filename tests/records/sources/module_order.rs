@@ -1,18 +1,18 @@
-//! Each module of the core uses those above it in the map of `lib.rs`, never one below; and in no crate do files use one
-//! another in a circle.
+//! In the core, a module uses only modules above it in the map of `lib.rs`. In every crate, the files have no dependency
+//! cycle.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Source, block, by_crate, code, is_of_word, sources};
 
-/// Every module may use it, and it may name what is in all of them.
-const ROOF: &str = "error";
+/// Every module may use this one, and its variants may name types of all modules.
+const ERRORS: &str = "error";
 
-/// What every type that is written down needs of a module that writes them all.
+/// These items of the serialisation module are available to every type that is written.
 const WRITERS: &[&str] = &["Number", "as_text", "number"];
 
-/// What a module may not use although it stands above: engines know no validated pile, and what is proved is proved of
-/// formulas.
+/// Modules that may not be used although they are above: the engines must not depend on a validated pile, and the theorems
+/// are about formulas only.
 const FORBIDDEN: &[(&str, &[&str])] = &[
     ("engine", &["pile", "Pile"]),
     ("theorem", &["pile"]),
@@ -23,26 +23,26 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ("theorem", &["census"]),
 ];
 
-/// A use of one module by another that the map does not allow.
+/// A use of one module by another that violates the map.
 #[derive(Debug, PartialEq)]
-struct Arrow {
+struct Violation {
     /// The file.
     path: String,
     from: String,
     to: String,
-    /// As it was found: `crate::` and so on.
+    /// The path in the source, from `crate::` on.
     uses: String,
 }
 
-/// The modules of the core in the order of the map in `lib.rs`: the names of the second column of its table.
-fn map(lib: &str, front_door: &BTreeMap<String, String>) -> Vec<String> {
+/// The modules of the core in the order of the map in `lib.rs`, from the second column of its table.
+fn map(lib: &str, exports: &BTreeMap<String, String>) -> Vec<String> {
     let (_, map) = lib.split_once("//! # Map\n").expect("a map");
     let (map, _) = map.split_once("//! # ").expect("an end of the map");
     let mut modules = Vec::new();
     for row in map.lines().filter_map(|line| line.strip_prefix("//! |")) {
         let names = row.split('|').nth(1).expect("a second column");
         for name in names.split('`').skip(1).step_by(2) {
-            let module = front_door.get(name).map_or(name, String::as_str);
+            let module = exports.get(name).map_or(name, String::as_str);
             if !modules.iter().any(|known| known == module) {
                 modules.push(module.to_owned());
             }
@@ -51,50 +51,53 @@ fn map(lib: &str, front_door: &BTreeMap<String, String>) -> Vec<String> {
     modules
 }
 
-/// The arrows that run back, and what they should not have found.
-fn arrows_back(sources: &[Source]) -> Vec<Arrow> {
+/// The uses that violate the order.
+fn violations_in(sources: &[Source]) -> Vec<Violation> {
     let lib = sources.iter().find(|source| source.path == "lib.rs");
     let lib = &lib.expect("a root").text;
-    let front_door = front_door(lib);
-    let map = map(lib, &front_door);
-    let place = |room: &str| map.iter().position(|module| module == room);
-    let mut arrows = Vec::new();
-    // `lib.rs` is the front door, and opens into all modules.
+    let exports = exports(lib);
+    let map = map(lib, &exports);
+    let place = |top_module: &str| map.iter().position(|module| module == top_module);
+    let mut violations = Vec::new();
+    // `lib.rs` re-exports names of all modules.
     for source in sources
         .iter()
-        .filter(|source| ![ROOF, "lib"].contains(&source.room()))
+        .filter(|source| ![ERRORS, "lib"].contains(&source.top_module()))
     {
         for path in paths(source) {
             let first = &path[0];
             let mut to = vec![first.as_str()];
-            if place(first).is_none() && first != ROOF {
-                to = front_door.get(first).map_or(to, |room| vec![room, first]);
+            if place(first).is_none() && first != ERRORS {
+                to = exports
+                    .get(first)
+                    .map_or(to, |top_module| vec![top_module, first]);
             }
             to.extend(path[1..].iter().map(String::as_str));
             let is_writer = to[0] == "data" && to.get(1).is_some_and(|name| WRITERS.contains(name));
-            let forbidden =
-                |(room, what): &(&str, &[&str])| *room == source.room() && to.starts_with(what);
-            let downwards = match (place(source.room()), place(to[0])) {
+            let forbidden = |(top_module, what): &(&str, &[&str])| {
+                *top_module == source.top_module() && to.starts_with(what)
+            };
+            let downwards = match (place(source.top_module()), place(to[0])) {
                 (Some(from), Some(to)) => to <= from,
-                // A module that is not in the map, or a name that nobody knows.
+                // A module outside the map, or an unknown name.
                 _ => false,
             };
             let is_allowed = is_writer || downwards && !FORBIDDEN.iter().any(forbidden);
-            if to[0] != ROOF && !is_allowed {
-                arrows.push(Arrow {
+            if to[0] != ERRORS && !is_allowed {
+                violations.push(Violation {
                     path: source.path.clone(),
-                    from: source.room().into(),
+                    from: source.top_module().into(),
                     to: to[0].into(),
                     uses: to.join("::"),
                 });
             }
         }
     }
-    arrows
+    violations
 }
 
-/// What `lib.rs` lets out, by name, with the module it comes from.
-fn front_door(lib: &str) -> BTreeMap<String, String> {
+/// The names that `lib.rs` exports, with their modules.
+fn exports(lib: &str) -> BTreeMap<String, String> {
     let code = code(lib);
     let mut names = BTreeMap::new();
     for (_, after) in code
@@ -102,15 +105,15 @@ fn front_door(lib: &str) -> BTreeMap<String, String> {
         .map(|(at, key)| code.split_at(at + key.len()))
     {
         for path in tree(after) {
-            if let [room, .., name] = &path[..] {
-                names.insert(name.clone(), room.clone());
+            if let [top_module, .., name] = &path[..] {
+                names.insert(name.clone(), top_module.clone());
             }
         }
     }
     names
 }
 
-/// Every path of the file from the root of the crate: each leaf of a group is one.
+/// All paths of the file that start at the root of the crate. Each leaf of a group is a path.
 fn paths(source: &Source) -> Vec<Vec<String>> {
     let code = code(&source.text);
     let inner = inner_modules(&code);
@@ -146,14 +149,14 @@ fn paths(source: &Source) -> Vec<Vec<String>> {
     paths
 }
 
-/// Each word, with where it starts.
+/// All words with their positions.
 fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
     code.split(|c| !is_of_word(c))
         .filter(|word| !word.is_empty())
         .map(|word| (word.as_ptr().addr() - code.as_ptr().addr(), word))
 }
 
-/// The modules written out in a file, with the bytes they reach over.
+/// The inline modules of a file with their byte ranges.
 fn inner_modules(code: &str) -> Vec<(std::ops::Range<usize>, String)> {
     let mut modules = Vec::new();
     for (at, _) in words(code).filter(|(_, word)| *word == "mod") {
@@ -174,7 +177,7 @@ fn inner_modules(code: &str) -> Vec<(std::ops::Range<usize>, String)> {
     modules
 }
 
-/// The paths that start here: `a::{b, c::d}` is `a::b` and `a::c::d`.
+/// The paths that start here: `a::{b, c::d}` contains `a::b` and `a::c::d`.
 fn tree(code: &str) -> Vec<Vec<String>> {
     let code = code.trim_start();
     if let Some(inside) = code.strip_prefix('{') {
@@ -196,7 +199,7 @@ fn tree(code: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// The parts of a group, at its commas.
+/// The elements of a group, separated by commas.
 fn branches(inside: &str) -> Vec<&str> {
     let (mut depth, mut start) = (0, 0);
     let mut parts = Vec::new();
@@ -216,10 +219,10 @@ fn branches(inside: &str) -> Vec<&str> {
     parts
 }
 
-/// The circles of files that are `depth` modules below the root of a crate and beside one another: what they take of one
-/// another, not of the file that gathers them, and not of the roof.
-fn circles(sources: &[Source], depth: usize) -> Vec<BTreeSet<String>> {
-    let here = |path: &[String]| Some(path.get(..depth)?.join("/")).filter(|file| file != ROOF);
+/// The dependency cycles of sibling files that are `depth` modules below the root of a crate. Uses of the parent file and of
+/// the error module do not count.
+fn cycles(sources: &[Source], depth: usize) -> Vec<BTreeSet<String>> {
+    let here = |path: &[String]| Some(path.get(..depth)?.join("/")).filter(|file| file != ERRORS);
     let of_source = |source: &Source| {
         let modules: Vec<_> = source.modules().into_iter().map(String::from).collect();
         here(&modules)
@@ -244,41 +247,40 @@ fn circles(sources: &[Source], depth: usize) -> Vec<BTreeSet<String>> {
         }
         reached
     };
-    let of_room = |file: &str| file.rsplit_once('/').map(|(room, _)| room.to_owned());
-    let mut circles: Vec<BTreeSet<String>> = Vec::new();
+    let parent = |file: &str| file.rsplit_once('/').map(|(parent, _)| parent.to_owned());
+    let mut cycles: Vec<BTreeSet<String>> = Vec::new();
     for file in &files {
-        let back =
-            |other: &&String| of_room(other) == of_room(file) && reached(other).contains(file);
-        let circle: BTreeSet<String> = reached(file).iter().filter(back).cloned().collect();
-        if circle.contains(file) && !circles.contains(&circle) {
-            circles.push(circle);
+        let back = |other: &&String| parent(other) == parent(file) && reached(other).contains(file);
+        let cycle: BTreeSet<String> = reached(file).iter().filter(back).cloned().collect();
+        if cycle.contains(file) && !cycles.contains(&cycle) {
+            cycles.push(cycle);
         }
     }
-    circles
+    cycles
 }
 
 #[test]
-fn each_room_uses_those_above_it() {
+fn modules_use_only_those_above() {
     let mut sources = sources();
     sources.retain(|source| source.package == "core");
-    let arrows = arrows_back(&sources);
-    assert!(arrows.is_empty(), "{arrows:#?}");
+    let violations = violations_in(&sources);
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 #[test]
-fn no_circle_of_files() {
+fn files_have_no_dependency_cycle() {
     for sources in by_crate(&sources()) {
         for depth in [1, 2] {
-            // Modules of the core stand in order anyhow, but for what writes them down.
-            let circles = circles(sources, depth);
+            // The modules of the core are already ordered, except for the serialisation module.
+            let cycles = cycles(sources, depth);
             if depth > 1 || sources[0].package != "core" {
-                assert!(circles.is_empty(), "{}: {circles:#?}", sources[0].package);
+                assert!(cycles.is_empty(), "{}: {cycles:#?}", sources[0].package);
             }
         }
     }
 }
 
-/// Where each crate begins, short enough to be read.
+/// The root file of each crate is short enough to read.
 #[test]
 fn roots_are_short() {
     for source in sources().iter().filter(|source| source.path == "lib.rs") {
@@ -287,20 +289,20 @@ fn roots_are_short() {
     }
 }
 
-/// The map has every module of the core, once.
+/// The map lists every module of the core once.
 #[test]
-fn the_map_is_whole() {
+fn the_map_is_complete() {
     let sources = sources();
     let lib = sources.iter().find(|source| source.path == "lib.rs");
     let lib = &lib.expect("a root of the core").text;
-    let mut map = map(lib, &front_door(lib));
+    let mut map = map(lib, &exports(lib));
     map.sort();
     let code = code(lib);
     let modules = words(&code).filter(|(_, word)| *word == "mod");
     let modules = modules.filter_map(|(at, word)| {
         let name = code[at + word.len()..].trim_start();
         let name: String = name.chars().take_while(|&c| is_of_word(c)).collect();
-        // Text alone.
+        // This module contains only text.
         (name != "paper").then_some(name)
     });
     let mut modules: Vec<_> = modules.collect();
@@ -308,9 +310,9 @@ fn the_map_is_whole() {
     assert_eq!(map, modules);
 }
 
-/// What one file of a room is found to use wrongly, beside a front door.
-fn planted(path: &str, text: &str) -> Vec<String> {
-    let door = Source::new(
+/// The violations in one file of a module, for a given `lib.rs`.
+fn violations_of(path: &str, text: &str) -> Vec<String> {
+    let lib = Source::new(
         "lib.rs",
         "//! # Map\n\
          //! | numbers | [`scalar`] | |\n\
@@ -325,12 +327,15 @@ fn planted(path: &str, text: &str) -> Vec<String> {
          //! # Guarantees\n\
          pub use pile::Pile;\npub use forces::{ContactForce, Forces};",
     );
-    let arrows = arrows_back(&[door, Source::new(path, text)]);
-    arrows.into_iter().map(|arrow| arrow.uses).collect()
+    let violations = violations_in(&[lib, Source::new(path, text)]);
+    violations
+        .into_iter()
+        .map(|violation| violation.uses)
+        .collect()
 }
 
 #[test]
-fn planted_arrows_back_are_found() {
+fn violations_are_found() {
     for (path, text, wrong) in [
         ("pile.rs", "use crate::forces::Forces;", "forces::Forces"),
         ("pile/load.rs", "use crate::{Error, Forces};", ""),
@@ -393,8 +398,8 @@ fn planted_arrows_back_are_found() {
             "use crate::{ContactForce, lattice::Site, pile::Pile, engine, error::bug};",
             "",
         ),
-        ("forces.rs", "use crate::cellar::Wine;", "cellar::Wine"),
-        ("cellar.rs", "use crate::lattice::Site;", "lattice::Site"),
+        ("forces.rs", "use crate::unknown::Name;", "unknown::Name"),
+        ("unknown.rs", "use crate::lattice::Site;", "lattice::Site"),
         ("error.rs", "use crate::forces::Forces;", ""),
         (
             "pile.rs",
@@ -409,41 +414,41 @@ fn planted_arrows_back_are_found() {
     ] {
         let mut wrong: Vec<_> = wrong.split_whitespace().collect();
         if text.contains("{Error") {
-            // Not let out by the planted front door: a name that nobody knows.
+            // The test's `lib.rs` does not export `Error`, so the name is unknown.
             wrong = vec!["Error", "forces::Forces"];
         }
-        assert_eq!(planted(path, text), wrong, "{path}: {text}");
+        assert_eq!(violations_of(path, text), wrong, "{path}: {text}");
     }
 }
 
 #[test]
-fn planted_circles_of_files_are_found() {
+fn cycles_are_found() {
     let file = Source::new;
-    let room = file("pile.rs", "mod a; mod b; mod c; mod d; pub use a::A;");
+    let top_module = file("pile.rs", "mod a; mod b; mod c; mod d; pub use a::A;");
     let straight = |last: &str| {
         let a = file("pile/a.rs", "use super::b::B; use super::A;");
         let b = file("pile/b.rs", "use crate::pile::{self, c::C};");
         vec![
-            file(&room.path, &room.text),
+            file(&top_module.path, &top_module.text),
             a,
             b,
             file("pile/c.rs", last),
             file("pile/d.rs", "use super::a::A;"),
         ]
     };
-    assert!(circles(&straight("use super::System;"), 2).is_empty());
-    let circle = BTreeSet::from(["pile/a", "pile/b", "pile/c"].map(String::from));
-    assert_eq!(circles(&straight("fn f() { super::a::f() }"), 2), [circle]);
-    // The same below the root, where the error may name all.
+    assert!(cycles(&straight("use super::System;"), 2).is_empty());
+    let cycle = BTreeSet::from(["pile/a", "pile/b", "pile/c"].map(String::from));
+    assert_eq!(cycles(&straight("fn f() { super::a::f() }"), 2), [cycle]);
+    // Two files in the root of a crate. The error module may name all of them.
     let below = |a: &str, error: &str| {
         let files = [
             ("a.rs", a),
             ("b.rs", "use crate::a::A;"),
             ("error.rs", error),
         ];
-        circles(&files.map(|(path, text)| Source::of("dem", path, text)), 1)
+        cycles(&files.map(|(path, text)| Source::of("dem", path, text)), 1)
     };
     assert!(below("use crate::error::Error;", "use crate::a::A;").is_empty());
-    let circle = BTreeSet::from(["a", "b"].map(String::from));
-    assert_eq!(below("use crate::b::B;", ""), [circle]);
+    let cycle = BTreeSet::from(["a", "b"].map(String::from));
+    assert_eq!(below("use crate::b::B;", ""), [cycle]);
 }

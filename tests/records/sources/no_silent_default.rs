@@ -1,11 +1,11 @@
-//! Where an invariant makes a case impossible, the crates return an error that names it; they never go on with zero, an
+//! If an invariant makes a case impossible, the crates return an error that names it. They never continue with zero, an
 //! empty value or a bound.
 //!
-//! What looks like such a default and is none has `// Not a default: ` and the reason in the line above it.
+//! A harmless default has a line above it with `// Not a default: ` and the reason.
 
 use super::{Source, code, is_of_word, sources};
 
-/// What is called with the value that is taken instead.
+/// The methods that take a default value.
 const CALLS: [&str; 5] = [
     "unwrap_or_default",
     "unwrap_or",
@@ -14,15 +14,15 @@ const CALLS: [&str; 5] = [
     "clamp",
 ];
 
-/// Words that make a value one that was only to hand.
-const TO_HAND: [&str; 15] = [
+/// Words that mark a value as an arbitrary default.
+const ARBITRARY: [&str; 15] = [
     "MAX", "MIN", "NAN", "ZERO", "ONE", "WHOLE", "EMPTY", "None", "zero", "one", "default", "new",
     "empty", "vec", "INFINITY",
 ];
 
 const REASON: &str = "// Not a default: ";
 
-/// The lines, from 1, in which a default stands in for what cannot be, without a reason.
+/// The line numbers, from 1, of defaults that hide an impossible case without a reason.
 fn silent_defaults(text: &str) -> Vec<usize> {
     let code = code(text);
     let lines: Vec<_> = text.lines().map(str::trim).collect();
@@ -48,31 +48,31 @@ fn silent_defaults(text: &str) -> Vec<usize> {
     found
 }
 
-/// Whether the call, with these arguments, takes a value that was only to hand.
+/// Tells whether a call with these arguments uses an arbitrary default.
 fn is_silent(name: &str, arguments: &str) -> bool {
     match name {
         "unwrap_or_default" | "clamp" => true,
-        // What was wrong is not even looked at.
+        // The closure ignores the error.
         "unwrap_or_else" if arguments.trim_start().starts_with("|_|") => true,
-        "map_or" => is_to_hand(first_of(arguments)),
-        _ => is_to_hand(arguments),
+        "map_or" => is_arbitrary(first_of(arguments)),
+        _ => is_arbitrary(arguments),
     }
 }
 
-/// Whether a value is a literal, the end of a range, or what every type has.
-fn is_to_hand(value: &str) -> bool {
+/// Tells whether a value is a literal, the end of a range, or a value of every type.
+fn is_arbitrary(value: &str) -> bool {
     let words = value
         .split(|c| !is_of_word(c))
         .filter(|word| !word.is_empty());
     let of_it: Vec<_> = words.collect();
-    // Texts are blank in code.
+    // Strings are blank in the code.
     let is_literal = |word: &&&str| word.starts_with(|c: char| c.is_ascii_digit());
     let is_text = of_it.is_empty();
     let starts_literal = of_it.first().iter().any(is_literal);
-    is_text || starts_literal || of_it.iter().any(|word| TO_HAND.contains(word))
+    is_text || starts_literal || of_it.iter().any(|word| ARBITRARY.contains(word))
 }
 
-/// Up to the bracket that closes.
+/// The text up to the closing bracket.
 fn in_brackets(arguments: &str) -> &str {
     let mut depth = 1;
     let close = arguments.find(|c| {
@@ -82,7 +82,7 @@ fn in_brackets(arguments: &str) -> &str {
     &arguments[..close.unwrap_or(arguments.len())]
 }
 
-/// Up to the comma after the first argument.
+/// The first argument, up to its comma.
 fn first_of(arguments: &str) -> &str {
     let mut depth = 0;
     let comma = arguments.find(|c| {
@@ -92,15 +92,15 @@ fn first_of(arguments: &str) -> &str {
     &arguments[..comma.unwrap_or(arguments.len())]
 }
 
-/// Files, options and pictures have defaults; a crate that computes has none.
-fn is_judged(source: &Source) -> bool {
+/// Files, options and pictures may have defaults. The crates that compute may not.
+fn is_checked(source: &Source) -> bool {
     !["cli", "dem", "figure", "testkit"].contains(&source.package.as_str())
 }
 
 #[test]
 fn no_crate_has_a_silent_default() {
     let mut found = Vec::new();
-    for source in sources().iter().filter(|source| is_judged(source)) {
+    for source in sources().iter().filter(|source| is_checked(source)) {
         let lines = silent_defaults(&source.text);
         if !lines.is_empty() {
             found.push(format!("{}: {}: {lines:?}", source.package, source.path));
@@ -110,7 +110,7 @@ fn no_crate_has_a_silent_default() {
 }
 
 #[test]
-fn planted_defaults_are_found() {
+fn silent_defaults_are_found() {
     for silent in [
         "a.unwrap_or_default()",
         "a.unwrap_or(0)",
@@ -162,7 +162,7 @@ fn planted_defaults_are_found() {
 }
 
 #[test]
-fn what_is_no_default_is_let_pass() {
+fn harmless_values_are_accepted() {
     for clear in [
         "a.unwrap_or(top)",
         "a.unwrap_or_else(|| self.ordinary())",

@@ -1,21 +1,21 @@
-//! What Cargo does not check, read from the sources of all crates: which module of a crate may use which, and that the
-//! impossible is an error and never a default.
+//! Rules for the sources of all crates that Cargo does not check: the dependencies between modules, and an error instead of
+//! a default for impossible cases.
 //!
-//! The checks are of text. They know enough of Rust to leave out comments, strings and unit tests; each is shown planted
-//! text that it has to refuse.
+//! The checks are textual. They recognise enough of Rust to skip comments, strings and unit tests. A test shows that each
+//! check rejects invalid text.
 
+mod module_order;
 mod no_silent_default;
-mod storeys;
-mod what_answers;
+mod proved_formulas;
 
 use std::fs;
 use std::path::Path;
 
 /// A source file of a crate.
 struct Source {
-    /// The folder of the crate in `crates`, or `core` for the crate at the root.
+    /// The folder of the crate in `crates`, or `core` for the root crate.
     package: String,
-    /// Its path from `src`, with slashes: `scalar/fixed.rs`.
+    /// The path from `src`, with slashes: `scalar/fixed.rs`.
     path: String,
     text: String,
 }
@@ -35,33 +35,33 @@ impl Source {
         }
     }
 
-    /// The modules from the root of the crate to this file: `scalar`, `fixed`; none for `lib.rs`.
+    /// The modules from the root of the crate to this file: `scalar`, `fixed`. Empty for `lib.rs`.
     fn modules(&self) -> Vec<&str> {
         let path = self.path.strip_suffix(".rs").unwrap_or(&self.path);
         let mut modules: Vec<_> = path.split('/').collect();
-        // The root of a crate, or of a module that has no file beside its folder.
+        // The root of a crate, or of a module without a file next to its folder.
         modules.pop_if(|last| ["main", "mod", "lib"].contains(last));
         modules
     }
 
-    /// The module of the crate's root that it belongs to: `scalar`; `lib` for `lib.rs`.
-    fn room(&self) -> &str {
+    /// The top-level module of this file: `scalar`; `lib` for `lib.rs`.
+    fn top_module(&self) -> &str {
         self.modules().first().copied().unwrap_or("lib")
     }
 }
 
-/// The sources of all crates, in the order of paths.
+/// The sources of all crates, ordered by path.
 fn sources() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut sources = sources_of("core", &root.join("src"));
-    assert!(sources.len() > 80, "these are not all: {}", sources.len());
+    assert!(sources.len() > 80, "sources are missing: {}", sources.len());
     let crates = fs::read_dir(root.join("crates")).expect("the folder of crates");
     let mut crates: Vec<_> = crates
         .map(|entry| entry.expect("a crate").path())
         .filter(|path| path.join("Cargo.toml").exists())
         .collect();
     crates.sort();
-    assert!(crates.len() > 7, "these are not all: {crates:?}");
+    assert!(crates.len() > 7, "crates are missing: {crates:?}");
     for path in crates {
         let name = path.file_name().expect("a name").to_string_lossy();
         sources.extend(sources_of(&name, &path.join("src")));
@@ -97,14 +97,14 @@ fn by_crate(sources: &[Source]) -> impl Iterator<Item = &[Source]> {
     sources.chunk_by(|a, b| a.package == b.package)
 }
 
-/// The text with a space for each character of comments, literals and unit tests; lines stay where they are.
+/// Replaces each character of comments, literals and unit tests by a space. Lines keep their numbers.
 ///
-/// Literals that are paths, such as `with = "crate::scalar::serde"`, stay too.
+/// Literals that are paths, such as `with = "crate::scalar::serde"`, remain.
 fn code(text: &str) -> String {
     without_tests(&without_literals(text))
 }
 
-/// Without comments and without literals that are no paths.
+/// Removes comments, and literals other than paths.
 fn without_literals(text: &str) -> String {
     let text: Vec<char> = text.chars().collect();
     let mut code = String::new();
@@ -122,7 +122,7 @@ fn without_literals(text: &str) -> String {
     code
 }
 
-/// The length of the word, comment, literal or character at the front, and whether it is code.
+/// The length of the word, comment, literal or character at the start, and whether it is code.
 fn lexeme(text: &[char]) -> (usize, bool) {
     let starts = |with: &str| {
         with.chars()
@@ -167,7 +167,7 @@ fn is_of_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The length up to and with the quote that ends the literal whose content starts there.
+/// The length from the start of a literal's content to its closing quote, inclusive.
 fn until_quote(text: &[char], content: usize) -> usize {
     let mut at = content;
     while at < text.len() && text[at] != '"' {
@@ -176,7 +176,7 @@ fn until_quote(text: &[char], content: usize) -> usize {
     (at + 1).min(text.len())
 }
 
-/// A character, or the tick of a lifetime.
+/// A character literal, or the tick of a lifetime.
 fn character(text: &[char]) -> (usize, bool) {
     let content = if text.get(1) == Some(&'\\') { 2 } else { 1 };
     let rest = text.get(content + 1..).unwrap_or_default();
@@ -187,7 +187,7 @@ fn character(text: &[char]) -> (usize, bool) {
     }
 }
 
-/// Comments stand in one another.
+/// Block comments can be nested.
 fn block_comment(text: &[char]) -> usize {
     let (mut depth, mut at) = (0, 0);
     loop {
@@ -203,7 +203,7 @@ fn block_comment(text: &[char]) -> usize {
     }
 }
 
-/// Without what is compiled for tests alone.
+/// Removes the code that is compiled only for tests.
 fn without_tests(code: &str) -> String {
     let mut code = code.to_owned();
     while let Some(start) = code.find("#[cfg(test)]") {
@@ -239,7 +239,7 @@ fn block(code: &str) -> usize {
 }
 
 #[test]
-fn code_is_told_from_what_is_about_it() {
+fn code_is_separated_from_comments_and_literals() {
     let text = r##"use a; // use b
 /* use c; /* use d; */ use e; */ use f;
 const TEXT: &str = "use g; \" // no comment";
@@ -274,8 +274,8 @@ use k;"##;
 }
 
 #[test]
-fn files_are_modules_of_rooms() {
-    for (path, modules, room) in [
+fn files_belong_to_top_modules() {
+    for (path, modules, top_module) in [
         ("lib.rs", &[][..], "lib"),
         ("census.rs", &["census"], "census"),
         ("scalar/fixed.rs", &["scalar", "fixed"], "scalar"),
@@ -283,6 +283,9 @@ fn files_are_modules_of_rooms() {
         ("args/scene.rs", &["args", "scene"], "args"),
     ] {
         let source = Source::new(path, "");
-        assert_eq!((source.modules(), source.room()), (modules.to_vec(), room));
+        assert_eq!(
+            (source.modules(), source.top_module()),
+            (modules.to_vec(), top_module)
+        );
     }
 }

@@ -1,14 +1,14 @@
-//! What is proved is what answers: every formula that theorems are about is called by an engine or an answer, and every
-//! formula of the crate is one that theorems are about.
+//! The proofs cover the code that runs. Every formula in a theorem is called by an engine or a query, and every formula of
+//! the crate occurs in a theorem.
 
 use std::collections::BTreeSet;
 
 use super::{Source, code, is_of_word, sources};
 
-/// The formulas that the theorems of a crate are about.
+/// The formulas in the theorems of a crate.
 const FORMULAS: &str = "theorem/formulas.rs";
 
-/// The places where `name` stands as a whole word: what is before it, and after.
+/// All occurrences of `name` as a whole word: the text before it, and the text after.
 fn places<'t>(text: &'t str, name: &str) -> impl Iterator<Item = (&'t str, &'t str)> {
     let ends = text
         .match_indices(name)
@@ -19,7 +19,8 @@ fn places<'t>(text: &'t str, name: &str) -> impl Iterator<Item = (&'t str, &'t s
         .filter(|(before, after)| !before.ends_with(is_of_word) && !after.starts_with(is_of_word))
 }
 
-/// `count::above` and so on, without the formulas of another crate, of the rows `field: module::function,` of `Formulas::LIBRARY`.
+/// Pairs such as (`count`, `above`) from the rows `field: module::function,` of `Formulas::LIBRARY`, without the formulas of
+/// other crates.
 fn proved(formulas: &str) -> BTreeSet<(String, String)> {
     let code = code(formulas);
     let library = code
@@ -36,7 +37,7 @@ fn proved(formulas: &str) -> BTreeSet<(String, String)> {
         .collect()
 }
 
-/// Whether a file calls a function: by `module::name`, as a method, after an import, or in the module itself.
+/// Tells whether a file calls a function: as `module::name`, as a method, after an import, or in the module itself.
 fn calls(file: &str, code: &str, (module, is_home): (&str, bool), name: &str) -> bool {
     let home = format!("/{module}.rs");
     let own = format!("/{file}").ends_with(&home) || file.starts_with(&format!("{module}/"));
@@ -57,7 +58,7 @@ fn calls(file: &str, code: &str, (module, is_home): (&str, bool), name: &str) ->
     imported || places(code, name).any(is_call)
 }
 
-/// What is proved in a crate and called by no engine or answer of any, and what is a formula of the crate and not proved.
+/// The proved formulas of a crate without a call in any crate, and the formulas of the crate without a proof.
 fn missing(sources: &[Source], package: &str) -> Vec<String> {
     let is_here = |source: &Source| source.package == package;
     let formulas = sources
@@ -65,8 +66,10 @@ fn missing(sources: &[Source], package: &str) -> Vec<String> {
         .find(|source| is_here(source) && source.path == FORMULAS);
     let proved = proved(&formulas.expect("the formulas").text);
     assert!(!proved.is_empty(), "no formulas");
-    let outside = sources.iter().filter(|source| source.room() != "theorem");
-    // These look at formulas, and answer nothing with them.
+    let outside = sources
+        .iter()
+        .filter(|source| source.top_module() != "theorem");
+    // These crates handle formulas but do not compute answers with them.
     let outside = outside.filter(|source| !["proof", "testkit"].contains(&source.package.as_str()));
     let outside: Vec<_> = outside
         .map(|source| {
@@ -74,13 +77,13 @@ fn missing(sources: &[Source], package: &str) -> Vec<String> {
             (file, is_here(source), code(&source.text))
         })
         .collect();
-    let idle = proved.iter().filter(|(module, name)| {
+    let not_called = proved.iter().filter(|(module, name)| {
         let called = |(file, is_here, code): &(&str, bool, String)| {
             calls(file, code, (module, *is_here), name)
         };
         !outside.iter().any(called)
     });
-    let mut missing: Vec<_> = idle
+    let mut missing: Vec<_> = not_called
         .map(|(module, name)| format!("{module}::{name} is proved and never called"))
         .collect();
     for (file, _, code) in outside.iter().filter(|(_, is_here, _)| *is_here) {
@@ -100,7 +103,7 @@ fn missing(sources: &[Source], package: &str) -> Vec<String> {
 }
 
 #[test]
-fn what_is_proved_is_what_answers() {
+fn proved_formulas_are_called() {
     let sources = sources();
     let mut crates = sources.iter().filter(|source| source.path == FORMULAS);
     for package in ["core", "disorder", "horizontal"] {
@@ -111,7 +114,7 @@ fn what_is_proved_is_what_answers() {
     assert!(crates.next().is_none());
 }
 
-/// A small library: what it proves, its formulas, and an engine.
+/// A small library: its proved formulas, their definitions, and an engine.
 fn small(library: &str, formula: &str, engine: &str) -> Vec<Source> {
     let formulas = format!("const LIBRARY: Self = Self {{\n{library}\n}};");
     [
@@ -128,23 +131,26 @@ fn small(library: &str, formula: &str, engine: &str) -> Vec<Source> {
 }
 
 #[test]
-fn what_is_amiss_is_found() {
+fn missing_calls_and_proofs_are_found() {
     let both = "force: formula::force,\nturn: formula::turn::<P>,";
     let formula = "pub fn force(n: T) {}\npub fn turn<T>(g: T) {}";
-    let idle = vec!["formula::turn is proved and never called"];
+    let not_called = vec!["formula::turn is proved and never called"];
     for (engine, expected) in [
         ("formula::force(n); formula::turn::<T>(g)", vec![]),
         ("use crate::formula::{force,\n turn};", vec![]),
-        ("formula::force(n)", idle.clone()),
-        ("formula::force(n) // formula::turn(g)", idle.clone()),
-        ("/// [`formula::turn`]\nformula::force(n)", idle.clone()),
+        ("formula::force(n)", not_called.clone()),
+        ("formula::force(n) // formula::turn(g)", not_called.clone()),
+        (
+            "/// [`formula::turn`]\nformula::force(n)",
+            not_called.clone(),
+        ),
         (
             "formula::force(n)\n#[cfg(test)]\nmod tests { formula::turn(g) }",
-            idle.clone(),
+            not_called.clone(),
         ),
         (
             "formula::force(n); formula::turned(g); return_turn(g); turn(g)",
-            idle.clone(),
+            not_called.clone(),
         ),
     ] {
         assert_eq!(
@@ -153,7 +159,7 @@ fn what_is_amiss_is_found() {
             "{engine}"
         );
     }
-    // A formula that another one calls is called; one that is defined only is not.
+    // A call by another formula counts as a call. A mere definition does not.
     let chained = "pub fn force(n: T) { turn(n) }\npub fn turn<T>(g: T) {}";
     assert!(missing(&small(both, chained, "formula::force(n)"), "core").is_empty());
     let unproved = missing(
@@ -161,7 +167,7 @@ fn what_is_amiss_is_found() {
         "core",
     );
     assert_eq!(unproved, ["formula::turn is a formula and not proved"]);
-    // Without one of the functions that the library itself calls.
+    // The sources without one of the functions that the library calls.
     let mut sources = sources();
     for source in &mut sources {
         let called = match source.path.as_str() {
