@@ -76,7 +76,7 @@ fn all_ways_agree_on_tall_mixed_piles() {
                 (Site::APEX, number::power(10, 40)),
             ],
         };
-        if let Err(failure) = claims::engine::throughout(&described, 11, 40) {
+        if let Err(failure) = claims::engine::all_ways_agree(&described, 11, 40) {
             panic!("{failure}");
         }
     }

@@ -183,7 +183,7 @@ pub fn certificates(bytes: &[u8]) -> Corpus {
 /// The checker in Python and that of the library give the same verdict.
 #[must_use]
 pub fn python_checker(bytes: &[u8]) -> Corpus {
-    holds(bytes, &[claims::certificates::judged_twice])
+    holds(bytes, &[claims::certificates::checkers_agree])
 }
 
 /// The mean over random stackings agrees with the enumeration of all stackings.
@@ -205,10 +205,10 @@ pub fn measured(bytes: &[u8]) -> Corpus {
             claims::measured::any_file,
             claims::ladder::any_record,
             claims::ladder::any_rungs,
-            claims::ladder::planted,
+            claims::ladder::given_order,
             claims::measured::any_table,
             claims::measured::a_file,
-            claims::measured::planted,
+            claims::measured::injected_fault,
         ],
     )
 }

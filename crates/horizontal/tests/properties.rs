@@ -13,7 +13,7 @@ properties! {
     results_match_exact_linear_program: claims::horizontal::any_pile, 192;
     accepted_certificates_are_true: claims::certificates::changed, 384;
     damaged_certificates_are_refused_or_true: claims::certificates::damaged, 512;
-    both_checkers_agree: claims::certificates::judged_twice, 384;
+    both_checkers_come_to_one_verdict: claims::certificates::checkers_agree, 384;
 }
 
 #[test]

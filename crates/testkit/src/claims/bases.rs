@@ -101,7 +101,7 @@ fn agrees(pile: &Pile, answers: &Answers) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::ratio;
 

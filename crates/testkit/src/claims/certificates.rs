@@ -30,7 +30,7 @@ pub fn changed(u: &mut Unstructured<'_>) -> Checked {
 }
 
 /// Both checkers accept the certificate, or both reject it. The certificate also survives a round trip through its file.
-pub fn judged_twice(u: &mut Unstructured<'_>) -> Checked {
+pub fn checkers_agree(u: &mut Unstructured<'_>) -> Checked {
     use cannonpile_horizontal::certificate::{read_certificate, write_certificate};
 
     use super::same;
@@ -283,7 +283,7 @@ fn is_bound(drawn: &Drawn, extreme: &Extreme, above: bool) -> bool {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::super::horizontal::horizontal;
     use super::*;
 

@@ -7,7 +7,7 @@ use cannonpile_disorder::{Error, FirstSign, Mean, RandomPiles, RandomStackings, 
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
-use super::parsers::comes_back;
+use super::parsers::round_trips;
 use super::{Checked, Failure, demand, one_line, same};
 use crate::disorder::{Piles, agrees_at};
 use crate::generators::{disorder, number, rarely, region, text};
@@ -140,12 +140,12 @@ fn base_supports_everything(
 /// A parser reads a word. Its value is printed in a form that the parser reads as the same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
-    comes_back::<FirstSign>(&text)?;
-    comes_back::<Shard>(&text)
+    round_trips::<FirstSign>(&text)?;
+    round_trips::<Shard>(&text)
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::disorder::Anchor;
 

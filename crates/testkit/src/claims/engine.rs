@@ -12,7 +12,7 @@ use cannonpile::{ContactForce, Error, FloorForce, Forces};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::handed_on::{Contacts, Floor, Solved, contacts_of, floor_of, site_of};
+use super::reference::{Contacts, Floor, Solved, contacts_of, floor_of, site_of};
 use super::{Checked, demand, in_lowest_terms, same};
 use crate::generators::number::ratio;
 use crate::generators::region::{self, Described};
@@ -24,11 +24,11 @@ pub fn every_way(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let steps = i128::try_from(described.signs.len()).unwrap_or_default();
     let k = u.int_in_range(0..=steps)?;
-    throughout(&described, k, u.int_in_range(0..=20)?)
+    all_ways_agree(&described, k, u.int_in_range(0..=20)?)
 }
 
 /// Checks the whole pile, layer k alone, and the layers from `from` on.
-pub fn throughout(described: &Described, k: i128, from: usize) -> Checked {
+pub fn all_ways_agree(described: &Described, k: i128, from: usize) -> Checked {
     let solved = Solved::of(described);
     let pile = described.pile()?;
     let spheres = solved.received.keys();
@@ -206,7 +206,7 @@ fn base_supports_everything(floor: &[FloorForce<BigRational>], solved: &Solved) 
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::power;
     use cannonpile::Pile;

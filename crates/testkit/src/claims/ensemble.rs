@@ -107,7 +107,7 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number;
 

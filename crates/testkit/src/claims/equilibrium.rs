@@ -162,7 +162,7 @@ fn equilateral_shear(pile: &Pile, site: Site) -> [BigRational; 2] {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::power;
 

@@ -130,7 +130,7 @@ fn right_or_overflow<I: FixedInteger, const N: usize>(
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::ratio;
 

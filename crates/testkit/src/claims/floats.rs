@@ -192,7 +192,7 @@ impl Bound {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     #[test]

@@ -108,7 +108,7 @@ fn lines_end_at_the_surface(
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     #[test]

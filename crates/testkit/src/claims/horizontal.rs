@@ -13,7 +13,7 @@ use cannonpile_horizontal::{Error, NormalBound};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::handed_on::balance_of;
+use super::reference::balance_of;
 use super::{Checked, demand, same};
 use crate::generators::number::ratio;
 use crate::generators::rarely;
@@ -308,7 +308,7 @@ fn has_least_energy(
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use cannonpile::lattice::Region;
 

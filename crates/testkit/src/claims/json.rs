@@ -76,7 +76,7 @@ pub fn reads_damaged<T: Serialize + DeserializeOwned + PartialEq + Debug>(
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     /// A number that loses its sign in a round trip.

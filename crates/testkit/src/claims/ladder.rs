@@ -24,7 +24,7 @@ fn refinement(u: &mut Unstructured<'_>) -> arbitrary::Result<Refinement> {
 }
 
 /// Errors C hᵖ at irregular steps.
-pub fn planted(u: &mut Unstructured<'_>) -> Checked {
+pub fn given_order(u: &mut Unstructured<'_>) -> Checked {
     let refinement = refinement(u)?;
     let order = 0.6 + 3.4 * part(u)?;
     let constant = 10_f64.powf(20.0 * part(u)? - 10.0);
@@ -97,12 +97,12 @@ pub fn any_rungs(u: &mut Unstructured<'_>) -> Checked {
         rungs.push(rung);
     }
     match Ladder::new(refinement, rungs) {
-        Ok(ladder) => comes_back(&ladder),
+        Ok(ladder) => round_trips(&ladder),
         Err(error) => one_line(&error.to_string()),
     }
 }
 
-fn comes_back(ladder: &Ladder) -> Checked {
+fn round_trips(ladder: &Ladder) -> Checked {
     for norm in Norm::ALL {
         for order in ladder.orders(norm).into_iter().flatten() {
             demand(order.is_finite(), || format!("{order} of {ladder:?}"))?;
@@ -159,7 +159,7 @@ pub fn any_record(u: &mut Unstructured<'_>) -> Checked {
         text::any(u)?
     };
     match Ladder::read(record.as_bytes()) {
-        Ok(ladder) => comes_back(&ladder)?,
+        Ok(ladder) => round_trips(&ladder)?,
         Err(error) => one_line(&error.to_string())?,
     }
     let list = text::damaged(u, "1e5=soft.csv,1e6=stiff.csv")?;
@@ -176,7 +176,7 @@ pub fn any_record(u: &mut Unstructured<'_>) -> Checked {
 }
 
 #[cfg(test)]
-mod planted_faults {
+mod injected_faults {
     use super::*;
 
     #[test]

@@ -310,7 +310,7 @@ pub fn a_file(u: &mut Unstructured<'_>) -> Checked {
 }
 
 /// The exact forces of a small pile are accepted in any order. One fault among them is found.
-pub fn planted(u: &mut Unstructured<'_>) -> Checked {
+pub fn injected_fault(u: &mut Unstructured<'_>) -> Checked {
     let pile = region::described(u)?.pile()?;
     let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
     let Some(exact) = perfect(&packing) else {
@@ -516,7 +516,7 @@ fn csv(entries: &[Measured]) -> String {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     fn compare(measured: &[Measured]) -> Comparison {

@@ -40,7 +40,7 @@
 //! | `horizontal` | answers about piles with horizontal contacts agree with exact programs and have proofs (feature
 //! `horizontal`) |
 //!
-//! `handed_on` contains the oracle's forces of a described pile.
+//! `reference` contains the oracle's forces of a described pile.
 
 pub mod bases;
 #[cfg(feature = "horizontal")]
@@ -54,7 +54,6 @@ pub mod equilibrium;
 pub mod fixed;
 pub mod floats;
 pub mod growth;
-pub mod handed_on;
 #[cfg(feature = "horizontal")]
 pub mod horizontal;
 #[cfg(feature = "serde")]
@@ -74,6 +73,7 @@ pub mod packing;
 pub mod parsers;
 #[cfg(feature = "proof")]
 pub mod recorded;
+pub mod reference;
 pub mod regions;
 pub mod scalars;
 #[cfg(feature = "dem")]
@@ -186,7 +186,7 @@ pub fn one_line(refusal: &impl Display) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::ratio;
 

@@ -47,7 +47,7 @@ fn is_nearest<F: Float>(got: Option<F>, value: &Value) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::{exactly, power};
 

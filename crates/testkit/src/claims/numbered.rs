@@ -119,7 +119,7 @@ pub fn first_of(layer: &Region, k: i128, j: i128) -> Result<Row, Error> {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     #[test]

@@ -8,7 +8,7 @@ use cannonpile_dem::scene::parse;
 use cannonpile_dem::scene::parse::At;
 use cannonpile_dem::verify::{Columns, Preset};
 
-use super::parsers::{comes_back, reads_back};
+use super::parsers::{reads_back, round_trips};
 use super::{Checked, one_line};
 use crate::generators::{pile, text};
 
@@ -49,9 +49,9 @@ pub fn layers(u: &mut Unstructured<'_>) -> Checked {
 /// Runs every parser of an option on any word. A parsed value is printed in a form that is read as the same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
-    comes_back::<State>(&text)?;
-    comes_back::<Columns>(&text)?;
-    comes_back::<Preset>(&text)?;
+    round_trips::<State>(&text)?;
+    round_trips::<Columns>(&text)?;
+    round_trips::<Preset>(&text)?;
     load(&text, Dimension::Two)?;
     load(&text, Dimension::Three)
 }
@@ -76,7 +76,7 @@ fn written(at: &At, dimension: Dimension) -> String {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     #[test]

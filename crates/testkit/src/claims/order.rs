@@ -78,7 +78,7 @@ fn is_ordered(got: Ordering, v: &SignedSquare, w: &SignedSquare) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::power;
 

@@ -166,7 +166,7 @@ fn sin2(pile: &Pile, spacing: &Spacing) -> BigRational {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::power;
 

@@ -265,7 +265,7 @@ fn integer(n: i128) -> BigRational {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::power;
 

@@ -67,16 +67,16 @@ pub fn a_value(u: &mut Unstructured<'_>) -> Checked {
 /// Runs every parser of an option on any word. A parsed value is printed in a form that is read as the same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
-    comes_back::<Region>(&text)?;
-    comes_back::<Surd>(&text)?;
-    comes_back::<Spacing>(&text)?;
-    comes_back::<Pattern>(&text)?;
-    comes_back::<Sign>(&text)?;
-    comes_back::<Axis>(&text)
+    round_trips::<Region>(&text)?;
+    round_trips::<Surd>(&text)?;
+    round_trips::<Spacing>(&text)?;
+    round_trips::<Pattern>(&text)?;
+    round_trips::<Sign>(&text)?;
+    round_trips::<Axis>(&text)
 }
 
 /// If `text` is valid, its value is printed in a form that is read as the same value.
-pub fn comes_back<T>(text: &str) -> Checked
+pub fn round_trips<T>(text: &str) -> Checked
 where
     T: FromStr<Err: Display> + PartialEq + Debug + Display,
 {
@@ -114,7 +114,7 @@ fn as_the_standard_library(text: &str, value: &BigRational) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::ratio;
 
@@ -154,9 +154,9 @@ mod planted {
 
     #[test]
     fn a_wrong_printed_value_is_caught() {
-        assert!(comes_back::<Careless>("5").is_ok());
-        assert!(comes_back::<Careless>("-5").is_err());
-        assert!(comes_back::<Careless>("five").is_ok());
+        assert!(round_trips::<Careless>("5").is_ok());
+        assert!(round_trips::<Careless>("-5").is_err());
+        assert!(round_trips::<Careless>("five").is_ok());
     }
 
     #[test]

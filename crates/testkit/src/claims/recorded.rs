@@ -308,7 +308,7 @@ impl<'a> Reader<'a> {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::ratio;
 

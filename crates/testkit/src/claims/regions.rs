@@ -103,7 +103,7 @@ fn walks(region: &Region, sites: &Sites) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     const TRIANGLE: [i128; 6] = [0, 3, 0, 3, 0, 3];

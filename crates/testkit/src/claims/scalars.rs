@@ -7,7 +7,7 @@ use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces};
 use num_rational::BigRational;
 
-use super::handed_on::{Contacts, Floor, Solved, contacts_of, floor_of};
+use super::reference::{Contacts, Floor, Solved, contacts_of, floor_of};
 use super::{Checked, demand, same};
 use crate::generators::region;
 
@@ -77,7 +77,7 @@ fn hold<'w, T: RealEmbeddable + core::fmt::Debug>(
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::ratio;
 

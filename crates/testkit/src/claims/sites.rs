@@ -96,7 +96,7 @@ fn successor(pile: &Pile, Site { i, j, k }: Site) -> Option<Site> {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     #[test]

@@ -11,7 +11,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::handed_on::{Contacts, Solved, contacts_of, floor_of};
+use super::reference::{Contacts, Solved, contacts_of, floor_of};
 use super::{Checked, demand, same};
 use crate::generators::region;
 
@@ -207,7 +207,7 @@ where
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::ratio;
 

@@ -182,7 +182,7 @@ fn printed_again(stacking: &Stacking, parse: impl Fn(&str) -> Result<Stacking, E
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
 
     fn parsed(text: &str) -> Stacking {

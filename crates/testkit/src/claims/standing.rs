@@ -7,7 +7,7 @@ use cannonpile::{BaseExtremes, Error, Forces, Standing};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::handed_on::{Contacts, Floor, Solved, contacts_of, floor_of, site_of};
+use super::reference::{Contacts, Floor, Solved, contacts_of, floor_of, site_of};
 use super::{Checked, same};
 use crate::generators::number::ratio;
 use crate::generators::region;
@@ -54,7 +54,7 @@ pub fn of_all_forces(u: &mut Unstructured<'_>) -> Checked {
 fn to_below(
     forces: &Forces<'_, BigRational>,
     solved: &Solved,
-    sphere: super::handed_on::Sphere,
+    sphere: super::reference::Sphere,
 ) -> Checked {
     let site = site_of(sphere);
     let one = Selection::One(site);
@@ -124,7 +124,7 @@ fn are_extremes(extremes: &BaseExtremes, floor: &Floor) -> Checked {
 }
 
 #[cfg(test)]
-mod planted {
+mod injected_faults {
     use super::*;
     use crate::generators::number::power;
     use crate::generators::region::Described;
