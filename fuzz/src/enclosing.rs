@@ -254,7 +254,7 @@ fn computation(u: &mut Unstructured<'_>) -> Result<()> {
             };
             next
         };
-        assert!(next.parting().is_none(), "{:?}", next.parting());
+        assert!(next.divergence().is_none(), "{:?}", next.divergence());
         assert!(next.second().contains(next.first()), "{next:?}");
         // Long fractions slow down all further steps, and test nothing more.
         if next.first().denom().bits() + next.first().numer().bits() < 20_000 {

@@ -206,7 +206,7 @@ fn pairs_obey<B: Field + RealEmbeddable>() {
     obeys_integers::<Pair<Q, B>>();
     let image = Pair::<Q, B>::from_rational;
     obeys_algebra(&rationals.iter().step_by(6).map(image).collect::<Vec<_>>());
-    rationals.retain(|r| image(r).parting().is_none());
+    rationals.retain(|r| image(r).divergence().is_none());
     obeys_embedding::<Pair<Q, B>>(&rationals);
 }
 

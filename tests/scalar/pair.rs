@@ -141,7 +141,7 @@ where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
 {
-    pair.parting().map(|parting| parting.operation)
+    pair.divergence().map(|divergence| divergence.operation)
 }
 
 /// Every kind of operation in one computation.
@@ -195,7 +195,7 @@ fn the_first_difference_is_kept() {
     type Checked = Pair<Q, f64>;
     let big = Checked::from_i128(10_i128.pow(20));
     let lost = big.clone() + &Checked::one() - &big;
-    let first = lost.parting().expect("1 is rounded away").clone();
+    let first = lost.divergence().expect("1 is rounded away").clone();
     assert_eq!(first.operation, "a - b");
     assert_eq!(
         first.to_string(),
@@ -218,21 +218,21 @@ fn the_first_difference_is_kept() {
         clean.clone() + lost.clone() * lost.clone(),
     ];
     for result in later {
-        assert_eq!(result.parting(), Some(&first));
+        assert_eq!(result.divergence(), Some(&first));
     }
     // If both operands have a record, the result keeps one and adds none.
     let both = lost.clone() + &overflow;
-    assert_eq!(both.parting(), Some(&first));
+    assert_eq!(both.divergence(), Some(&first));
     assert_eq!(
         (overflow - &lost)
-            .parting()
-            .map(|parting| parting.operation),
+            .divergence()
+            .map(|divergence| divergence.operation),
         Some("a * b")
     );
     // The record remains even if the values agree again.
     let equal_again = lost * &Checked::zero();
     assert_eq!(
-        (equal_again.first(), equal_again.parting()),
+        (equal_again.first(), equal_again.divergence()),
         (&Q::zero(), Some(&first))
     );
 }
@@ -281,7 +281,7 @@ fn an_overflow_is_a_difference() {
     assert_eq!(first_difference(&fault), Some("a + b"));
     assert!(
         fault
-            .parting()
+            .divergence()
             .expect("first_difference")
             .values
             .ends_with("overflow")
@@ -354,12 +354,12 @@ fn piles() -> Vec<Pile> {
 fn statics_agree() {
     for pile in piles() {
         for (pair, exact) in answers::<Interval>(&pile) {
-            assert_eq!((pair.parting(), pair.first()), (None, &exact));
+            assert_eq!((pair.divergence(), pair.first()), (None, &exact));
             assert!(pair.second().contains(&exact));
         }
         for (pair, exact) in answers::<FixedRational<i64>>(&pile) {
             assert_eq!(
-                (pair.parting(), pair.second().to_rational()),
+                (pair.divergence(), pair.second().to_rational()),
                 (None, Some(exact))
             );
         }

@@ -13,14 +13,14 @@ use num_traits::{One, Signed, Zero};
 
 /// The first operation after which two scalars represented different numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Parting {
+pub struct Divergence {
     /// The operation, such as `a * b`.
     pub operation: &'static str,
     /// The value in each scalar.
     pub values: String,
 }
 
-impl fmt::Display for Parting {
+impl fmt::Display for Divergence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} gave {}", self.operation, self.values)
     }
@@ -35,7 +35,7 @@ impl fmt::Display for Parting {
 pub struct Pair<A, B> {
     first: A,
     second: B,
-    parting: Option<Box<Parting>>,
+    divergence: Option<Box<Divergence>>,
 }
 
 impl<A, B> Pair<A, B>
@@ -48,9 +48,9 @@ where
         Self {
             first,
             second,
-            parting: None,
+            divergence: None,
         }
-        .watched("a value")
+        .checked("a value")
     }
 
     /// The value in the first scalar.
@@ -64,15 +64,15 @@ where
     }
 
     /// The first operation at which the two scalars differed.
-    pub fn parting(&self) -> Option<&Parting> {
-        self.parting.as_deref()
+    pub fn divergence(&self) -> Option<&Divergence> {
+        self.divergence.as_deref()
     }
 
     /// Records a difference unless there already is one.
-    fn watched(mut self, operation: &'static str) -> Self {
-        if self.parting.is_none() && !meet(&self.first, &self.second) {
+    fn checked(mut self, operation: &'static str) -> Self {
+        if self.divergence.is_none() && !may_be_equal(&self.first, &self.second) {
             let values = format!("{:?} and {:?}", self.first, self.second);
-            self.parting = Some(Box::new(Parting { operation, values }));
+            self.divergence = Some(Box::new(Divergence { operation, values }));
         }
         self
     }
@@ -87,14 +87,14 @@ where
         let result = Self {
             first: first(self.first, &rhs.first),
             second: second(self.second, &rhs.second),
-            parting: self.parting.or_else(|| rhs.parting.clone()),
+            divergence: self.divergence.or_else(|| rhs.divergence.clone()),
         };
-        result.watched(operation)
+        result.checked(operation)
     }
 }
 
 /// Tells whether two values may be the same number, as far as their scalars can decide.
-fn meet<A, B>(a: &A, b: &B) -> bool
+fn may_be_equal<A, B>(a: &A, b: &B) -> bool
 where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
@@ -124,7 +124,7 @@ impl<A: PartialEq, B: PartialEq> PartialEq for Pair<A, B> {
     }
 }
 
-macro_rules! in_step {
+macro_rules! operators {
     ($($operation:ident $method:ident $text:literal),*) => {$(
         impl<A, B> $operation<&Self> for Pair<A, B>
         where
@@ -140,7 +140,7 @@ macro_rules! in_step {
     )*};
 }
 
-in_step!(Add add "a + b", Sub sub "a - b", Mul mul "a * b");
+operators!(Add add "a + b", Sub sub "a - b", Mul mul "a * b");
 
 impl<A, B> Add for Pair<A, B>
 where
@@ -177,9 +177,9 @@ where
         let negated = Self {
             first: -self.first,
             second: -self.second,
-            parting: self.parting,
+            divergence: self.divergence,
         };
-        negated.watched("-a")
+        negated.checked("-a")
     }
 }
 
@@ -234,9 +234,9 @@ where
         let quotient = Self {
             first: self.first.div_int(n),
             second: self.second.div_int(n),
-            parting: self.parting,
+            divergence: self.divergence,
         };
-        quotient.watched("a / n")
+        quotient.checked("a / n")
     }
 
     fn is_defined(&self) -> bool {
@@ -268,9 +268,12 @@ where
         let quotient = Self {
             first: self.first.checked_div(&divisor.first)?,
             second: self.second.checked_div(&divisor.second)?,
-            parting: self.parting.clone().or_else(|| divisor.parting.clone()),
+            divergence: self
+                .divergence
+                .clone()
+                .or_else(|| divisor.divergence.clone()),
         };
-        Some(quotient.watched("a / b"))
+        Some(quotient.checked("a / b"))
     }
 }
 
