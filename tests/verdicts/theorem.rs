@@ -24,7 +24,7 @@ fn every_theorem_holds() {
 
 #[test]
 fn names_are_unique_and_found() {
-    proofs::have_names(&theorems());
+    proofs::have_unique_names(&theorems());
     for name in theorems().iter().map(|theorem| theorem.name) {
         assert_eq!(theorem::find(name).map(|found| found.name), Some(name));
         assert!(theorem::find(&name.to_uppercase()).is_none());
@@ -73,12 +73,12 @@ fn statements_name_their_subject_and_method() {
 /// Each fault refutes exactly the theorems that it lists.
 #[test]
 fn faults_refute_the_listed_theorems() {
-    ATTEMPTS.are_refused_as_said();
+    ATTEMPTS.fail_as_listed();
 }
 
 #[test]
 fn every_theorem_has_a_fault() {
-    ATTEMPTS.every_theorem_refuses_one();
+    ATTEMPTS.every_theorem_has_a_fault();
 }
 
 /// The names of fields. A missing field does not compile.
@@ -96,19 +96,19 @@ fn every_formula_has_a_fault() {
         disc_directions turned_about_z position squared_distance increments weight force passed_on
         resultant handed_on unbalanced half_turn tripled_half_turn tripled_apart pushed beside
     };
-    ATTEMPTS.are_of(&fields);
+    ATTEMPTS.are_faults_of(&fields);
 }
 
 /// Some fault breaks each step, so no step is redundant.
 #[test]
 fn every_step_has_a_fault() {
-    ATTEMPTS.every_step_refuses_one();
+    ATTEMPTS.every_step_has_a_fault();
 }
 
 /// The printed proof reports its failure.
 #[test]
 fn a_printed_proof_reports_its_failure() {
-    ATTEMPTS.are_listed_as_refuted();
+    ATTEMPTS.report_failures();
 }
 
 /// The number of steps of each proof, counted by cases. The theorem `dimensions` has 2d + 4 for each d from 2 to 6.

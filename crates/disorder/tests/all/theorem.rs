@@ -25,7 +25,7 @@ fn every_theorem_holds() {
 
 #[test]
 fn names_are_unique_and_found() {
-    proofs::have_names(&theorems());
+    proofs::have_unique_names(&theorems());
     for name in theorems().iter().map(|theorem| theorem.name) {
         assert_eq!(theorem::find(name).map(|found| found.name), Some(name));
         assert!(theorem::find(&name.to_uppercase()).is_none());
@@ -55,12 +55,12 @@ fn statements_name_their_subject_and_method() {
 /// A fault is refused by the theorems it is said to break, and by no others.
 #[test]
 fn faults_are_refused() {
-    ATTEMPTS.are_refused_as_said();
+    ATTEMPTS.fail_as_listed();
 }
 
 #[test]
 fn every_theorem_refuses_a_fault() {
-    ATTEMPTS.every_theorem_refuses_one();
+    ATTEMPTS.every_theorem_has_a_fault();
 }
 
 /// Fields by name; one that is missing does not compile.
@@ -84,13 +84,13 @@ fn every_formula_is_put_wrong() {
 /// No step is idle: each is broken by some fault.
 #[test]
 fn every_step_refuses_a_fault() {
-    ATTEMPTS.every_step_refuses_one();
+    ATTEMPTS.every_step_has_a_fault();
 }
 
 /// The printed proof says that it fails, where it does.
 #[test]
 fn a_refuted_proof_is_listed_as_such() {
-    ATTEMPTS.are_listed_as_refuted();
+    ATTEMPTS.report_failures();
 }
 
 /// How many steps each proof has, counted by cases.

@@ -26,7 +26,7 @@ fn every_theorem_holds() {
 
 #[test]
 fn names_are_unique() {
-    proofs::have_names(&theorems());
+    proofs::have_unique_names(&theorems());
 }
 
 /// A phrase that each statement must contain.
@@ -66,12 +66,12 @@ fn statements_name_their_subject_and_method() {
 /// Each mutant is rejected by the theorems that it is listed for, and by no others.
 #[test]
 fn faults_are_refused() {
-    ATTEMPTS.are_refused_as_said();
+    ATTEMPTS.fail_as_listed();
 }
 
 #[test]
 fn every_theorem_refuses_a_fault() {
-    ATTEMPTS.every_theorem_refuses_one();
+    ATTEMPTS.every_theorem_has_a_fault();
 }
 
 /// The names of the fields. A missing field is a compile error.
@@ -95,13 +95,13 @@ fn every_formula_has_a_mutant() {
 /// Every step of a proof is needed: some mutant breaks it.
 #[test]
 fn every_step_refuses_a_fault() {
-    ATTEMPTS.every_step_refuses_one();
+    ATTEMPTS.every_step_has_a_fault();
 }
 
 /// A refuted proof is printed as refuted.
 #[test]
-fn refuted_proof_is_printed_as_refuted() {
-    ATTEMPTS.are_listed_as_refuted();
+fn a_refuted_proof_is_listed_as_such() {
+    ATTEMPTS.report_failures();
 }
 
 /// The number of steps of each proof.

@@ -37,7 +37,7 @@ impl<F: Library> Attempts<F> {
     }
 
     /// Panics unless each fault refutes exactly the theorems that it lists.
-    pub fn are_refused_as_said(&self) {
+    pub fn fail_as_listed(&self) {
         let mut otherwise = Vec::new();
         for (fault, proofs) in &self.attempts {
             let tried = self.theorems.iter().zip(proofs);
@@ -53,7 +53,7 @@ impl<F: Library> Attempts<F> {
     }
 
     /// Panics unless some fault refutes each theorem. The first one in the list must fail in a step.
-    pub fn every_theorem_refuses_one(&self) {
+    pub fn every_theorem_has_a_fault(&self) {
         for theorem in &self.theorems {
             let refuses = |fault: &&Fault<F>| fault.refused_by.contains(&theorem.name);
             let fault = self.attempts.iter().map(|(fault, _)| fault).find(refuses);
@@ -66,7 +66,7 @@ impl<F: Library> Attempts<F> {
     }
 
     /// Panics unless some fault refutes each step. A step that no fault refutes is redundant.
-    pub fn every_step_refuses_one(&self) {
+    pub fn every_step_has_a_fault(&self) {
         let mut refused = BTreeSet::new();
         for (theorem, proof) in self.tried() {
             let steps = proof.steps.iter().enumerate();
@@ -85,7 +85,7 @@ impl<F: Library> Attempts<F> {
     }
 
     /// Panics unless a printed proof reports its failures.
-    pub fn are_listed_as_refuted(&self) {
+    pub fn report_failures(&self) {
         for (theorem, proof) in self.tried() {
             for whole in [false, true] {
                 let listing = Listing {
@@ -103,7 +103,7 @@ impl<F: Library> Attempts<F> {
     }
 
     /// Panics unless exactly these formulas have faults.
-    pub fn are_of(&self, fields: &[&'static str]) {
+    pub fn are_faults_of(&self, fields: &[&'static str]) {
         let wrong: BTreeSet<_> = self.attempts.iter().map(|(fault, _)| fault.field).collect();
         assert_eq!(wrong, fields.iter().copied().collect());
     }

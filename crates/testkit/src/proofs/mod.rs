@@ -30,7 +30,7 @@ pub fn hold<F: Library>(theorems: &[&Theorem<F>]) {
 }
 
 /// Panics unless all names of these theorems are different.
-pub fn have_names<F>(theorems: &[&Theorem<F>]) {
+pub fn have_unique_names<F>(theorems: &[&Theorem<F>]) {
     let names: BTreeSet<_> = theorems.iter().map(|theorem| theorem.name).collect();
     assert_eq!(names.len(), theorems.len());
 }
