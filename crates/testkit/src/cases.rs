@@ -138,7 +138,7 @@ impl Case {
             let contact = HorizontalContact { site, axis };
             let pile = self.pile.with_horizontal_force(contact, force.clone());
             self.pile = pile.expect("two spheres off the floor");
-            self.balance.push(place, step, &force);
+            self.balance.add_horizontal_force(place, step, &force);
         }
         self
     }

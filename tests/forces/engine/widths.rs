@@ -13,7 +13,7 @@ use num_traits::pow;
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
 use cannonpile_testkit::compare::agrees;
 use cannonpile_testkit::oracles::balance::{direction, ratio};
-use cannonpile_testkit::oracles::brute::{self, Passed};
+use cannonpile_testkit::oracles::brute::{self, LayerForces};
 
 /// The bits of a limb below the top one.
 const LIMB: u32 = 55;
@@ -132,7 +132,7 @@ fn agrees_with_brute_force(case: &Case, selection: Selection) {
     for (n, contact) in contacts.enumerate() {
         let contact = contact.unwrap();
         let Site { i, j, k } = contact.site;
-        let Passed {
+        let LayerForces {
             forces: numerators,
             below,
             ..
@@ -157,7 +157,7 @@ fn agrees_with_brute_force(case: &Case, selection: Selection) {
     for force in base {
         let force = force.unwrap();
         let Site { i, j, k } = force.site;
-        let above: BigInt = front.received[&(j, i)].iter().sum();
+        let above: BigInt = front.from_above[&(j, i)].iter().sum();
         let normal = above + weight((k, j, i)) * &unit * 3;
         let is_brute = is_quotient(&force.normal, &normal, &(&d * &unit * 3));
         assert!(is_brute, "{} {}", force.site, force.normal);

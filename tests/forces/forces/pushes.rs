@@ -89,7 +89,7 @@ fn one_horizontal_force_breaks_every_symmetry() {
                 .clone()
                 .with_horizontal_force(contact, force.clone());
             case.pile = pile.unwrap();
-            case.balance.push((2, 0, 0), [1, 0], &force);
+            case.balance.add_horizontal_force((2, 0, 0), [1, 0], &force);
             agrees(&case).unwrap();
         }
     }
@@ -116,7 +116,8 @@ fn long_horizontal_forces_are_exact() {
             .pile
             .with_horizontal_force(contact, force.clone())
             .unwrap();
-        case.balance.push((site.k, 0, 0), [0, 1], &force);
+        case.balance
+            .add_horizontal_force((site.k, 0, 0), [0, 1], &force);
     }
     agrees(&case).unwrap();
     let exact = case.pile.forces::<BigRational>();

@@ -55,7 +55,7 @@ fn every_verdict_agrees_with_all_pairs() {
             let differences = overlap::differences(&shape, layers);
             let clearance = shape.pile(layers).clearance();
             for q in &test_values {
-                let room = overlap::room(&shape, &differences, q);
+                let room = overlap::allowed_gaps(&shape, &differences, q);
                 let answer = clearance.check(&spacing(q));
                 let agree = overlap::agree(room.as_ref(), &answer);
                 assert!(
@@ -76,7 +76,7 @@ fn every_error_is_true() {
         for layers in 1..=9 {
             let differences = overlap::differences(&shape, layers);
             let clearance = shape.pile(layers).clearance();
-            let fits = |q: &BigRational| overlap::room(&shape, &differences, q).is_some();
+            let fits = |q: &BigRational| overlap::allowed_gaps(&shape, &differences, q).is_some();
             let some_fit = test_values.iter().any(fits);
             for q in &test_values {
                 let case = format!("{shape:?}, {layers} layers, q = {q}");
@@ -260,7 +260,7 @@ fn wrong_verdicts_are_caught() {
     const LAYERS: i128 = 5;
     let shape = Shape::equilateral();
     let differences = overlap::differences(&shape, LAYERS);
-    let room = |q: &BigRational| overlap::room(&shape, &differences, q);
+    let room = |q: &BigRational| overlap::allowed_gaps(&shape, &differences, q);
     let check = |clearance: &Clearance, q: &BigRational| {
         clearance.check(&Spacing::from_square(q.clone()).unwrap())
     };

@@ -53,7 +53,8 @@ fn horizontal_forces_can_cause_tension() {
     };
     let pushed = case.pile.with_horizontal_force(contact, ratio(5, 1));
     case.pile = pushed.unwrap();
-    case.balance.push((2, 0, 0), [1, 0], &ratio(5, 1));
+    case.balance
+        .add_horizontal_force((2, 0, 0), [1, 0], &ratio(5, 1));
     agrees(&case).unwrap();
     let standing = case.pile.standing().unwrap();
     assert_eq!(standing.first_failure, Some(2));

@@ -253,7 +253,7 @@ fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
 /// decrease towards any of them. That test is linear.
 fn has_least_energy(drawn: &Drawn, stiffness_ratio: &BigRational, x: &[BigRational]) -> bool {
     let Drawn { states, corner, .. } = drawn;
-    let Some(corner) = corner.clone().filter(|_| states.push(x)) else {
+    let Some(corner) = corner.clone().filter(|_| states.is_compressive(x)) else {
         return false;
     };
     let slope = states.slope(x, stiffness_ratio);

@@ -31,7 +31,7 @@ pub fn every_way(u: &mut Unstructured<'_>) -> Checked {
 pub fn all_ways_agree(described: &Described, k: i128, from: usize) -> Checked {
     let solved = Solved::of(described);
     let pile = described.pile()?;
-    let spheres = solved.received.keys();
+    let spheres = solved.from_above.keys();
     let sites: Vec<Site> = spheres.map(|sphere| site_of(*sphere)).collect();
     demand(pile.shape().sites().eq(sites.iter().copied()), || {
         format!("{described:?}")
@@ -147,9 +147,9 @@ fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
     same(
         "the forces from above",
         &forces.from_above(site)?,
-        &solved.received[&sphere],
+        &solved.from_above[&sphere],
     )?;
-    let Some(passed_on) = solved.passed_on.get(&sphere) else {
+    let Some(passed_on) = solved.to_below.get(&sphere) else {
         let floor = floor_of(solved);
         let want = floor.iter().find(|force| force.site == site).cloned();
         return same(

@@ -118,7 +118,7 @@ pub fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
     let bottoms: Vec<Site> = states.normals.keys().map(|place| site(*place)).collect();
     Ok(Drawn {
         bottom: *u.choose(&bottoms)?,
-        corner: states.pushing(),
+        corner: states.compressive_corner(),
         pile,
         balance,
         solve,
@@ -138,7 +138,7 @@ impl Drawn {
             pile: self.pile.clone().with_load(site, load)?,
             balance,
             solve: self.solve,
-            corner: states.pushing(),
+            corner: states.compressive_corner(),
             states,
             bottom: self.bottom,
             stiffness_ratio: self.stiffness_ratio.clone(),
@@ -156,7 +156,7 @@ fn discs(u: &mut Unstructured<'_>) -> Result<(Pile, Balance), super::Failure> {
         layers: (0..layers).map(row).collect(),
         ordinary: ratio(1, 1),
         weights: [].into(),
-        pushes: [].into(),
+        horizontal: [].into(),
     };
     for _ in 0..u.int_in_range(0..=3)? {
         let k = u.int_in_range(0..=layers - 1)?;
@@ -224,7 +224,7 @@ fn push_somewhere(
     let before = x[number].clone();
     for part in [1, 2, 4, 16] {
         x[number] = &before + &more / ratio(part, 1);
-        if states.push(x) {
+        if states.is_compressive(x) {
             return Ok(());
         }
     }
@@ -276,7 +276,9 @@ fn is_between(
         bottom,
         ..
     } = drawn;
-    demand(states.push(x), || format!("{x:?} is tensile in {pile:?}"))?;
+    demand(states.is_compressive(x), || {
+        format!("{x:?} is tensile in {pile:?}")
+    })?;
     let mut state = pile.clone();
     for (pair, force) in states.contacts.iter().zip(x) {
         state = state.with_horizontal_force(contact(*pair), force.clone())?;
@@ -323,7 +325,7 @@ mod injected_faults {
             pile: pile.with_load(site, load).unwrap(),
             balance,
             solve: Balance::forces,
-            corner: states.pushing(),
+            corner: states.compressive_corner(),
             states,
             bottom: Site { i: 0, j: 0, k: 3 },
             stiffness_ratio: ratio(1, 1),
@@ -346,12 +348,12 @@ mod injected_faults {
         let balance = Balance::under(&[(0, 0)].into(), "+-+-+");
         let states = States::of(&balance, Balance::forces);
         let pile = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
-        assert!(!states.push(&vec![ratio(0, 1); states.contacts.len()]));
+        assert!(!states.is_compressive(&vec![ratio(0, 1); states.contacts.len()]));
         let drawn = Drawn {
             pile,
             balance,
             solve: Balance::forces,
-            corner: states.pushing(),
+            corner: states.compressive_corner(),
             states,
             bottom: Site { i: 1, j: 0, k: 5 },
             stiffness_ratio: ratio(2, 3),

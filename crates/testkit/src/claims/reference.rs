@@ -29,9 +29,9 @@ pub struct Solved {
     pile: Balance,
     forces: Forces,
     /// The forces from above on each sphere along α, β, γ, in f₀.
-    pub received: BTreeMap<Sphere, [BigRational; 3]>,
+    pub from_above: BTreeMap<Sphere, [BigRational; 3]>,
     /// The forces on each support of a sphere above the bottom layer, in f₀.
-    pub passed_on: BTreeMap<Sphere, [BigRational; 3]>,
+    pub to_below: BTreeMap<Sphere, [BigRational; 3]>,
     /// Weights and loads, in mg.
     pub acting: BTreeMap<Sphere, BigRational>,
 }
@@ -49,8 +49,8 @@ impl Solved {
                 .collect()
         };
         Self {
-            received: by_sphere(&forces.above),
-            passed_on: by_sphere(&forces.below),
+            from_above: by_sphere(&forces.above),
+            to_below: by_sphere(&forces.below),
             acting: pile
                 .places()
                 .map(|place| (sphere(place), pile.weight(place).clone()))
@@ -109,7 +109,7 @@ pub fn site_of((k, (j, i)): Sphere) -> Site {
 
 /// The contacts of every sphere in row order, as the library lists them.
 pub fn contacts_of(solved: &Solved) -> Contacts {
-    let spheres = solved.passed_on.iter();
+    let spheres = solved.to_below.iter();
     let contacts = spheres.flat_map(|(sphere, forces)| {
         let site = site_of(*sphere);
         Direction::ALL

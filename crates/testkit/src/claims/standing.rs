@@ -46,7 +46,7 @@ pub fn of_all_forces(u: &mut Unstructured<'_>) -> Checked {
         &forces.sum_on_floor(Selection::Base)?,
         &sums,
     )?;
-    let spheres: Vec<_> = solved.received.keys().copied().collect();
+    let spheres: Vec<_> = solved.from_above.keys().copied().collect();
     to_below(&forces, &solved, *u.choose(&spheres)?)
 }
 
@@ -58,7 +58,7 @@ fn to_below(
 ) -> Checked {
     let site = site_of(sphere);
     let one = Selection::One(site);
-    let Some(passed_on) = solved.passed_on.get(&sphere) else {
+    let Some(passed_on) = solved.to_below.get(&sphere) else {
         let is_refused = matches!(forces.to_below(site), Err(Error::OnFloor { .. }));
         same("the error below the floor", &is_refused, &true)?;
         let floor = floor_of(solved)

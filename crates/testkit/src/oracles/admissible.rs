@@ -44,7 +44,7 @@ impl States {
         bare.weights.clear();
         let pushed = contacts.iter().map(|(place, step)| {
             let mut pushed = bare.clone();
-            pushed.push(*place, *step, &ratio(1, 1));
+            pushed.add_horizontal_force(*place, *step, &ratio(1, 1));
             forces(&pushed)
         });
         let all: Vec<Forces> = once(forces(pile)).chain(pushed).collect();
@@ -64,12 +64,12 @@ impl States {
     }
 
     /// A state without tension. `None` if all states have a tensile contact.
-    pub fn pushing(&self) -> Option<Corner> {
+    pub fn compressive_corner(&self) -> Option<Corner> {
         Corner::first(self.contacts.len(), &self.sloping)
     }
 
     /// Tells whether no contact is tensile.
-    pub fn push(&self, x: &[BigRational]) -> bool {
+    pub fn is_compressive(&self, x: &[BigRational]) -> bool {
         let pulls = self.sloping.iter().any(|force| at(force, x).is_negative());
         !pulls && !x.iter().any(Signed::is_negative)
     }
@@ -114,7 +114,7 @@ pub fn of_discs(pile: &Balance) -> Forces {
         });
         let [alpha, beta] = &above;
         let down = (alpha + beta) / &two + pile.weight(place);
-        let pushed = pile.pushes.get(&place).map(|[along_i, _]| along_i);
+        let pushed = pile.horizontal.get(&place).map(|[along_i, _]| along_i);
         let across = (beta - alpha) / &two + pushed.unwrap_or(&BigRational::zero());
         if pile.sign(place.0).is_some() {
             let below = [&down - &across, &down + &across, BigRational::zero()];

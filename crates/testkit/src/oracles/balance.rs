@@ -40,7 +40,7 @@ pub struct Balance {
     /// Weight plus load of the other spheres, in mg.
     pub weights: BTreeMap<Place, BigRational>,
     /// The horizontal force on a sphere from neighbours in its layer, along i and j, in f₀.
-    pub pushes: BTreeMap<Place, [BigRational; 2]>,
+    pub horizontal: BTreeMap<Place, [BigRational; 2]>,
 }
 
 /// The forces of a pile.
@@ -113,7 +113,7 @@ impl Balance {
             layers,
             ordinary: BigRational::one(),
             weights: BTreeMap::new(),
-            pushes: BTreeMap::new(),
+            horizontal: BTreeMap::new(),
         }
     }
 
@@ -124,12 +124,12 @@ impl Balance {
     }
 
     /// Adds a horizontal force between a sphere at `place` and its neighbour at the offset (Δi, Δj).
-    pub fn push(&mut self, place: Place, [di, dj]: [i128; 2], force: &BigRational) {
+    pub fn add_horizontal_force(&mut self, place: Place, [di, dj]: [i128; 2], force: &BigRational) {
         let (k, j, i) = place;
         for (place, side) in [(place, -1), ((k, j + dj, i + di), 1)] {
-            let pushes = self.pushes.entry(place).or_default();
-            pushes[0] += force * ratio(side, 1) * BigRational::from_integer(di.into());
-            pushes[1] += force * ratio(side, 1) * BigRational::from_integer(dj.into());
+            let horizontal = self.horizontal.entry(place).or_default();
+            horizontal[0] += force * ratio(side, 1) * BigRational::from_integer(di.into());
+            horizontal[1] += force * ratio(side, 1) * BigRational::from_integer(dj.into());
         }
     }
 
@@ -197,7 +197,7 @@ impl Balance {
                 }
                 None => [0, 0].map(|_| BigRational::zero()),
             };
-            let pushed = self.pushes.get(&place).cloned().unwrap_or_default();
+            let pushed = self.horizontal.get(&place).cloned().unwrap_or_default();
             let [along_i, along_j] = across;
             let across = [along_i + &pushed[0], along_j + &pushed[1]];
             if let Some(sign) = self.sign(place.0) {

@@ -37,11 +37,11 @@ pub struct Front<I> {
     /// The number of sign changes above the layer.
     pub changes: usize,
     /// The forces from above on its spheres.
-    pub received: Triples<I>,
+    pub from_above: Triples<I>,
 }
 
 /// The forces that a layer transmits, and the greatest intermediate value.
-pub struct Passed<I> {
+pub struct LayerForces<I> {
     /// Numerators over 3^changes of the layer below.
     pub forces: Triples<I>,
     /// The greatest intermediate value.
@@ -61,25 +61,25 @@ where
             k: 0,
             sign: None,
             changes: 0,
-            received: top.iter().map(|site| (*site, nothing())).collect(),
+            from_above: top.iter().map(|site| (*site, nothing())).collect(),
         }
     }
 
     /// Goes one layer down. `weight` returns the weight of a sphere times D.
-    pub fn step(&self, sign: char, weight: impl Fn(Place) -> I) -> Passed<I> {
+    pub fn step(&self, sign: char, weight: impl Fn(Place) -> I) -> LayerForces<I> {
         let turns = self.sign.is_some_and(|above| above != sign);
         let changes = self.changes + usize::from(turns);
         let unit = pow(I::from(3), changes);
         let (one, three) = (I::one(), I::from(3));
         let mut greatest = I::zero();
         let mut forces = Triples::new();
-        let mut received = Triples::new();
+        let mut from_above = Triples::new();
         let supports = if sign == '+' {
             [(0, 0), (0, 1), (1, 0)]
         } else {
             [(0, 0), (0, -1), (-1, 0)]
         };
-        for (&(j, i), above) in &self.received {
+        for (&(j, i), above) in &self.from_above {
             let own = weight((self.k, j, i)) * &unit;
             let [a, b, c] = above;
             let twice_sum = (a.clone() + b + c) * &I::from(2);
@@ -95,7 +95,7 @@ where
                 turned + &own
             });
             for ((dj, di), force) in supports.into_iter().zip(&passed) {
-                let below = received.entry((j + dj, i + di));
+                let below = from_above.entry((j + dj, i + di));
                 let m = supports.iter().position(|step| *step == (dj, di));
                 let lines: &mut [I; 3] = below.or_insert_with(|| [0, 0, 0].map(I::from));
                 lines[m.expect("one of three")] = force.clone();
@@ -107,9 +107,9 @@ where
             k: self.k + 1,
             sign: Some(sign),
             changes,
-            received,
+            from_above,
         };
-        Passed {
+        LayerForces {
             forces,
             greatest,
             below,
@@ -117,7 +117,7 @@ where
     }
 }
 
-impl<I: Wide> Passed<I>
+impl<I: Wide> LayerForces<I>
 where
     for<'a> I: Add<&'a I, Output = I> + Sub<&'a I, Output = I> + Mul<&'a I, Output = I>,
 {
@@ -142,7 +142,7 @@ pub fn numerator<'n>(balance: &'n Balance, d: &'n BigInt) -> impl Fn(Place) -> B
 }
 
 /// All layers of a pile that was grown from its top.
-pub fn all(balance: &Balance) -> Vec<Passed<BigInt>> {
+pub fn all(balance: &Balance) -> Vec<LayerForces<BigInt>> {
     let d = denominator(balance);
     let weight = numerator(balance, &d);
     let mut front = Front::top(&balance.layers[0]);

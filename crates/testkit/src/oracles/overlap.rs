@@ -76,7 +76,7 @@ pub fn touching_at(shape: &Shape, n: Difference) -> Option<BigRational> {
 
 /// Tells whether spacing √q is allowed. If it is, returns the layer gaps of pairs that touch in addition to the contacts.
 /// `None` if some spheres overlap or a sphere would fall through.
-pub fn room(
+pub fn allowed_gaps(
     shape: &Shape,
     differences: &BTreeSet<Difference>,
     q: &BigRational,
@@ -100,8 +100,8 @@ pub fn room(
 }
 
 /// Tells whether the library gives the same answer.
-pub fn agree(room: Option<&BTreeSet<i128>>, answer: &Result<Vec<LayerGap>, Error>) -> bool {
-    match (room, answer) {
+pub fn agree(allowed_gaps: Option<&BTreeSet<i128>>, answer: &Result<Vec<LayerGap>, Error>) -> bool {
+    match (allowed_gaps, answer) {
         (None, Err(_)) => true,
         (Some(touching), Ok(apart)) => {
             let told = apart.iter().map(|apart| i128::from(apart.layers));
