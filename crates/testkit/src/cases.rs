@@ -117,7 +117,7 @@ impl Case {
 
     /// Adds random forces in at most `n` random horizontal contacts above the bottom layer.
     #[must_use]
-    pub fn pushed(mut self, n: usize, random: &mut Random) -> Self {
+    pub fn with_random_horizontal_forces(mut self, n: usize, random: &mut Random) -> Self {
         let steps = [
             (Axis::AlphaBeta, [1, 0]),
             (Axis::AlphaGamma, [0, 1]),
@@ -145,7 +145,7 @@ impl Case {
 
     /// Adds random weights and loads on `n` random spheres.
     #[must_use]
-    pub fn loaded(mut self, n: usize, random: &mut Random) -> Self {
+    pub fn with_random_loads(mut self, n: usize, random: &mut Random) -> Self {
         let places: Vec<Place> = self.balance.places().collect();
         for _ in 0..n {
             let place = places[random.below(places.len())];

@@ -32,7 +32,7 @@ pub struct Counted {
 
 impl Counted {
     /// Adds a pile. Its stacking must come after all earlier ones.
-    pub fn meet(&mut self, pile: &Pile, signs: &str, width: &BigRational) -> Result<(), Error> {
+    pub fn add(&mut self, pile: &Pile, signs: &str, width: &BigRational) -> Result<(), Error> {
         let forces = pile.forces::<BigRational>();
         let bin = |x: &BigRational| (x / width).floor().to_integer().to_i64().unwrap();
         self.stackings += 1;
@@ -192,10 +192,10 @@ impl Scene {
             let pile = self.pile(&signs)?;
             let signs = text(signs.into_iter());
             let [all, standing] = &mut counted[faults];
-            all.meet(&pile, &signs, &self.width)?;
+            all.add(&pile, &signs, &self.width)?;
             let mut contacts = pile.forces::<BigRational>().contacts(Selection::All)?;
             if contacts.all(|contact| !contact.unwrap().force.is_negative()) {
-                standing.meet(&pile, &signs, &self.width)?;
+                standing.add(&pile, &signs, &self.width)?;
             }
         }
         Ok(counted)

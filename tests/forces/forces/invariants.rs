@@ -100,9 +100,9 @@ fn of_random_piles_with_weights_and_loads() {
         if round % 3 == 0 {
             case = case.weightless();
         }
-        holds(&case.loaded(loads, &mut random));
+        holds(&case.with_random_loads(loads, &mut random));
         if let Some(case) = Case::on(&random.bounds(12), &signs) {
-            holds(&case.loaded(loads, &mut random));
+            holds(&case.with_random_loads(loads, &mut random));
         }
     }
 }

@@ -39,7 +39,7 @@ fn random_weights_and_loads_on_random_tops() {
         let top = random.bounds(3);
         let (steps, loads) = (random.below(8), 1 + random.below(12));
         let signs = random.signs(steps);
-        let case = Case::under(&top, &signs).loaded(loads, &mut random);
+        let case = Case::under(&top, &signs).with_random_loads(loads, &mut random);
         assert_eq!(case.pile.weight(), case.balance.whole_weight());
         agrees(&case).unwrap();
     }
@@ -52,7 +52,7 @@ fn random_weights_and_loads_on_random_bases() {
     while compared < 150 {
         let (base, steps, loads) = (random.bounds(9), random.below(6), 1 + random.below(12));
         if let Some(case) = Case::on(&base, &random.signs(steps)) {
-            let case = case.loaded(loads, &mut random);
+            let case = case.with_random_loads(loads, &mut random);
             assert_eq!(case.pile.weight(), case.balance.whole_weight());
             agrees(&case).unwrap();
             compared += 1;
@@ -68,7 +68,7 @@ fn loads_on_weightless_spheres() {
         let (steps, loads) = (random.below(8), random.below(6));
         let signs = random.signs(steps);
         let case = Case::under(&top, &signs).weightless();
-        let case = case.loaded(loads, &mut random);
+        let case = case.with_random_loads(loads, &mut random);
         assert_eq!(case.pile.weight(), case.balance.whole_weight());
         agrees(&case).unwrap();
     }
@@ -125,7 +125,7 @@ fn extremes_over_the_base_equal_the_oracle() {
     let mut random = Random(9);
     for _ in 0..60 {
         let signs = random.signs(5);
-        let case = Case::under(&random.bounds(3), &signs).loaded(2, &mut random);
+        let case = Case::under(&random.bounds(3), &signs).with_random_loads(2, &mut random);
         let floor = case.balance.forces().floor;
         let normals = || floor.values().map(|[normal, ..]| normal);
         let extremes = case.pile.base_extremes().unwrap();

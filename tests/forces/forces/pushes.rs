@@ -24,7 +24,10 @@ fn cases(number: usize, random: &mut Random) -> Vec<Case> {
             let base = random.bounds(9);
             Case::on(&base, &random.signs(steps))
         };
-        cases.extend(case.map(|case| case.loaded(loads, random).pushed(pushes, random)));
+        cases.extend(case.map(|case| {
+            case.with_random_loads(loads, random)
+                .with_random_horizontal_forces(pushes, random)
+        }));
     }
     cases
 }

@@ -45,7 +45,7 @@ fn piles() -> Vec<Case> {
     for round in 0..40 {
         let signs = random.signs(round % 9);
         let loads = random.below(3);
-        piles.push(Case::under(&random.bounds(3), &signs).loaded(loads, &mut random));
+        piles.push(Case::under(&random.bounds(3), &signs).with_random_loads(loads, &mut random));
     }
     for signs in [repeated("+-", 14), repeated("++--", 14), random.signs(14)] {
         piles.push(Case::under(&Bounds::SITE, &signs));

@@ -108,9 +108,9 @@ fn units_in_the_last_place() {
 fn errors_are_printed_to_a_hundredth_or_as_a_power() {
     let printed = |x: f64| {
         let mut worst = Worst::none();
-        worst.meet(Some(exact(0.0)));
-        worst.meet(Some(exact(x)));
-        worst.meet(Some(exact(x / 2.0)));
+        worst.add(Some(exact(0.0)));
+        worst.add(Some(exact(x)));
+        worst.add(Some(exact(x / 2.0)));
         (worst.to_string(), worst.as_power())
     };
     assert_eq!(printed(0.0), ("0.00".into(), "0".into()));
@@ -118,7 +118,7 @@ fn errors_are_printed_to_a_hundredth_or_as_a_power() {
     assert_eq!(printed(8.0), ("8.00".into(), "2^3".into()));
     assert_eq!(printed(70_000.0), ("2^17".into(), "2^17".into()));
     let mut worst = Worst::none();
-    worst.meet(None);
-    worst.meet(Some(exact(1.0)));
+    worst.add(None);
+    worst.add(Some(exact(1.0)));
     assert_eq!(worst.to_string(), "unbounded");
 }

@@ -85,11 +85,11 @@ fn near_ties(bits: u32) -> impl Iterator<Item = Surd> {
 fn near_ties_and_roots_of_integers_are_rounded_correctly() {
     let mut tally = Tally::default();
     for surd in near_ties(53).chain(near_ties(24)) {
-        tally.meet(&surd);
+        tally.check(&surd);
     }
     assert_eq!((tally.cases, tally.wrong), (64, 0));
     for n in (2..5000).filter(|n: &i64| n.isqrt().pow(2) != *n) {
-        tally.meet(&Surd::sqrt(ratio(n, 1)).expect("not negative"));
+        tally.check(&Surd::sqrt(ratio(n, 1)).expect("not negative"));
     }
     assert_eq!(tally.wrong, 0);
 }
@@ -99,10 +99,10 @@ fn a_wrong_float_is_counted() {
     let root = Surd::sqrt(ratio(2, 1)).expect("not negative");
     let mut tally = Tally::default();
     for float in [2_f64.sqrt(), 2_f64.sqrt().next_up()] {
-        tally.meet_float(Some(float), &root);
+        tally.check_float(Some(float), &root);
     }
-    tally.meet_float(None::<f32>, &root);
-    tally.meet(&root);
+    tally.check_float(None::<f32>, &root);
+    tally.check(&root);
     assert_eq!((tally.cases, tally.wrong), (4, 2));
     assert!(
         tally

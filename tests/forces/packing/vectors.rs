@@ -67,9 +67,9 @@ fn of_random_piles_with_loads() {
     let mut random = Random(101);
     for _ in 0..40 {
         let signs = random.signs(6);
-        agrees(&Case::under(&random.bounds(3), &signs).loaded(3, &mut random));
+        agrees(&Case::under(&random.bounds(3), &signs).with_random_loads(3, &mut random));
         if let Some(case) = Case::on(&random.bounds(10), &signs) {
-            agrees(&case.loaded(3, &mut random));
+            agrees(&case.with_random_loads(3, &mut random));
         }
     }
 }

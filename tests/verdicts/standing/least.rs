@@ -65,7 +65,8 @@ fn horizontal_forces_can_cause_tension() {
 fn a_pile_with_horizontal_forces_agrees_with_the_oracle() {
     let mut random = Random(12);
     for signs in ["+-+", "++-", "-+"] {
-        let case = Case::under(&Bounds::hexagon(2, 2), signs).pushed(3, &mut random);
+        let case = Case::under(&Bounds::hexagon(2, 2), signs)
+            .with_random_horizontal_forces(3, &mut random);
         assert!(case.pile.horizontal_forces().len() > 0);
         agrees(&case).unwrap();
     }

@@ -198,7 +198,7 @@ fn damage(u: &mut Unstructured<'_>, file: &mut Vec<u8>) -> arbitrary::Result<()>
 /// A reader that matches by position accepts the exact forces of a small pile, for any order, frame and size.
 pub fn by_place(u: &mut Unstructured<'_>) -> Checked {
     let pile = any_pile(u)?;
-    let spacing = pile::roomy_spacing(u, &pile)?;
+    let spacing = pile::allowed_spacing(u, &pile)?;
     let mut size = || Ok::<_, Failure>(number::power(10, u.int_in_range(-12..=12)?));
     let packing = Packing::new(&pile, &spacing)?
         .with_radius(size()?)?

@@ -46,8 +46,8 @@ pub fn of_a_spacing(u: &mut Unstructured<'_>) -> Checked {
 
 /// The distance of two spheres of a packing follows the quadratic form of their difference.
 pub fn of_two_spheres(u: &mut Unstructured<'_>) -> Checked {
-    let pile = pile::roomy_pile(u)?;
-    let spacing = pile::roomy_spacing(u, &pile)?;
+    let pile = pile::packable_pile(u)?;
+    let spacing = pile::allowed_spacing(u, &pile)?;
     let packing = pile::sizes(u)?.packing(&pile, &spacing)?;
     let sites = [pile::site(u, &pile)?, pile::site(u, &pile)?];
     let [from, to] = sites.map(|site| [site.k - site.i - site.j, site.i, site.j]);

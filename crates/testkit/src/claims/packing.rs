@@ -20,8 +20,8 @@ use crate::judge::Value;
 
 /// Checks the position and the forces of one sphere of any packing.
 pub fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
-    let pile = pile::roomy_pile(u)?;
-    let spacing = pile::roomy_spacing(u, &pile)?;
+    let pile = pile::packable_pile(u)?;
+    let spacing = pile::allowed_spacing(u, &pile)?;
     let packing = pile::sizes(u)?.packing(&pile, &spacing)?;
     let site = pile::site(u, &pile)?;
     let direction = pile::direction(u, &pile)?;
@@ -42,8 +42,8 @@ pub fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
 
 /// Whole rows of positions and contact points are rounded correctly. Rows outside the pile are rejected.
 pub fn one_row(u: &mut Unstructured<'_>) -> Checked {
-    let pile = pile::roomy_pile(u)?;
-    let spacing = pile::roomy_spacing(u, &pile)?;
+    let pile = pile::packable_pile(u)?;
+    let spacing = pile::allowed_spacing(u, &pile)?;
     let packing = pile::sizes(u)?.packing(&pile, &spacing)?;
     let Site { i, j, k } = pile::site(u, &pile)?;
     let direction = pile::direction(u, &pile)?;

@@ -108,7 +108,7 @@ pub fn spacing(u: &mut Unstructured<'_>, clearance: &Clearance) -> Result<Spacin
 
 /// A pile that allows some spacing: s ≤ 5/6 from three layers on (`paper`, "Overlap"). For two layers s² < 3/4, which keeps
 /// θ below 90°.
-pub fn roomy_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
+pub fn packable_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let pile = pile(u)?;
     let s = pile.sin_phi();
     let has_room = match pile.layers() {
@@ -120,8 +120,8 @@ pub fn roomy_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     Ok(if has_room { pile } else { equilateral })
 }
 
-/// A spacing for a [`roomy_pile`]: at a bound, next to it, or between.
-pub fn roomy_spacing(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Spacing> {
+/// A spacing for a [`packable_pile`]: at a bound, next to it, or between.
+pub fn allowed_spacing(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Spacing> {
     let clearance = pile.clearance();
     let flat = match pile.dimension() {
         Dimension::Two => number::ratio(4, 1),

@@ -182,7 +182,7 @@ mod tests {
         let mut random = Random(61);
         for _ in 0..40 {
             let signs = random.signs(7);
-            let case = Case::under(&random.bounds(3), &signs).loaded(4, &mut random);
+            let case = Case::under(&random.bounds(3), &signs).with_random_loads(4, &mut random);
             agrees_with_balance(&case.balance);
         }
     }

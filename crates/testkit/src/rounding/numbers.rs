@@ -15,7 +15,7 @@ pub fn random_roots(random: &mut Random, cases: u64) -> Tally {
         let root = surd(&BigRational::one(), random.ratio(64));
         for _ in 0..16 {
             let c = random.ratio(96) * random.scale() * sign(random);
-            tally.meet(&root.scaled(&c));
+            tally.check(&root.scaled(&c));
         }
     }
     tally
@@ -40,7 +40,7 @@ pub fn critical_roots(random: &mut Random, cases: u64) -> Tally {
 /// subnormals.
 fn beside_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
     let place = random.critical::<F>();
-    let off = random.hair() * sign(random);
+    let off = random.tiny() * sign(random);
     let square = &place * &place;
     let nearly = if random.once_in(3) {
         let middle = power(i64::from(F::PRECISION)) + BigRational::one();
@@ -50,10 +50,10 @@ fn beside_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
         &square * (BigRational::one() + off)
     };
     let root = surd(&sign(random), nearly);
-    tally.meet(&root);
+    tally.check(&root);
     for _ in 0..4 {
-        tally.meet(&root.scaled(&power(random.within(-40..40))));
-        tally.meet(&root.scaled(&random.scale()));
+        tally.check(&root.scaled(&power(random.within(-40..40))));
+        tally.check(&root.scaled(&random.scale()));
     }
 }
 
@@ -64,7 +64,7 @@ fn beside_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally
     let radicand = BigRational::new(random.of(&plain).into(), random.of(&[1, 4, 25]).into());
     let root = surd(&sign(random), radicand);
     for _ in 0..8 {
-        tally.meet(&root.scaled(&towards(&root, &random.critical::<F>(), random)));
+        tally.check(&root.scaled(&towards(&root, &random.critical::<F>(), random)));
     }
 }
 
@@ -73,11 +73,11 @@ fn beside_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally
 pub fn rationals(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
-        tally.meet_rational(&(random.ratio(96) * random.scale() * sign(random)));
+        tally.check_rational(&(random.ratio(96) * random.scale() * sign(random)));
         for place in [random.critical::<f64>(), random.critical::<f32>()] {
-            tally.meet_rational(&(&place * sign(random)));
-            let off = random.hair() * sign(random);
-            tally.meet_rational(&(place * (BigRational::one() + off)));
+            tally.check_rational(&(&place * sign(random)));
+            let off = random.tiny() * sign(random);
+            tally.check_rational(&(place * (BigRational::one() + off)));
         }
     }
     tally

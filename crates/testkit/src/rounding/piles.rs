@@ -168,7 +168,7 @@ pub fn spacing(pile: &Pile, random: &mut Random) -> Spacing {
             let cos2 = BigRational::one() - &between / &flat;
             let cos = surd(cos2).nearest::<f64>().unwrap_or(0.5);
             let middle = midpoint(&exact(cos), &exact(cos.next_up()));
-            let nearly = &middle * &middle + random.hair() * ratio((random.of(&[1, -1]), 1));
+            let nearly = &middle * &middle + random.tiny() * ratio((random.of(&[1, -1]), 1));
             (BigRational::one() - nearly) * flat
         }
         _ => between.clone(),

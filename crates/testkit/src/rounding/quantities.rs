@@ -128,7 +128,7 @@ impl Quantity {
         let lasting = packing.inclination();
         if self == Self::UnitForce {
             for root in [lasting.sin(), lasting.cos(), lasting.tan(), spacing.ratio()] {
-                tally.meet(&root);
+                tally.check(&root);
             }
         }
         let nonzero: Vec<&Surd> = targets
@@ -144,7 +144,7 @@ impl Quantity {
                 _ => {
                     for place in places {
                         for exact in self.surds(&packing, place)? {
-                            tally.meet(&exact);
+                            tally.check(&exact);
                         }
                     }
                 }
@@ -186,7 +186,7 @@ fn weights(packing: &Packing<'_>, site: Site, tally: &mut Tally) -> Result<(), E
         packing.radius().clone(),
         packing.gravity().clone(),
     ] {
-        tally.meet_rational(&exact);
+        tally.check_rational(&exact);
     }
     Ok(())
 }
@@ -255,12 +255,12 @@ fn filled_as<F: Float>(
             let all = all.map(|contact| Ok(contact?.force));
             let all = all.collect::<Result<Vec<_>, Error>>()?;
             let greatest = all.iter().max_by_key(|force| force.square());
-            tally.meet_float(None::<F>, greatest.expect("a contact"));
+            tally.check_float(None::<F>, greatest.expect("a contact"));
         }
         forces => {
             let forces = forces?;
             for (place, direction, exact) in exact {
-                tally.meet_float(Some(forces[direction.index()][*place]), exact);
+                tally.check_float(Some(forces[direction.index()][*place]), exact);
             }
         }
     }

@@ -108,7 +108,7 @@ impl Random {
 
     /// A power of two that hides a difference to a tie in low precision: in `f64`, in double-double, or in every format
     /// shorter than the exact value.
-    pub fn hair(&mut self) -> BigRational {
+    pub fn tiny(&mut self) -> BigRational {
         let bits = self.of(&[(52, 70), (52, 70), (100, 130), (100, 130), (190, 210)]);
         power(-self.within(bits.0..bits.1))
     }

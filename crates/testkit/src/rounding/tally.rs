@@ -18,24 +18,24 @@ pub struct Tally {
 
 impl Tally {
     /// Rounds a value and checks it.
-    pub fn meet(&mut self, exact: &Surd) {
+    pub fn check(&mut self, exact: &Surd) {
         let value = Value::of(exact);
         let (double, single) = (exact.nearest::<f64>(), exact.nearest::<f32>());
         self.count(is_nearest(double, &value).and_then(|()| is_nearest(single, &value)));
     }
 
     /// Rounds a rational directly and as a surd, and checks both.
-    pub fn meet_rational(&mut self, exact: &BigRational) {
+    pub fn check_rational(&mut self, exact: &BigRational) {
         let value = Value::of(&exact.clone().into());
         self.count(
             is_nearest(f64::nearest_to_rational(exact), &value)
                 .and_then(|()| is_nearest(f32::nearest_to_rational(exact), &value)),
         );
-        self.meet(&exact.clone().into());
+        self.check(&exact.clone().into());
     }
 
     /// Checks an already rounded float. `None` stands for infinity.
-    pub fn meet_float<F: Float>(&mut self, got: Option<F>, exact: &Surd) {
+    pub fn check_float<F: Float>(&mut self, got: Option<F>, exact: &Surd) {
         self.count(is_nearest(got, &Value::of(exact)));
     }
 

@@ -86,7 +86,7 @@ impl Deep {
                     let holds = bounds.is_none_or(|bounds| bounds.contains(exact));
                     assert!(holds, "{exact}");
                 }
-                worst.meet(distance(force, exact).map(|error| error / ulp));
+                worst.add(distance(force, exact).map(|error| error / ulp));
             }
         }
         worst

@@ -55,7 +55,7 @@ pub struct Worst(Option<BigRational>);
 
 impl Worst {
     /// Adds an error. `None` stands for an unbounded one.
-    pub fn meet(&mut self, error: Option<BigRational>) {
+    pub fn add(&mut self, error: Option<BigRational>) {
         // An unbounded error remains unbounded.
         let worst = self.0.take().zip(error);
         self.0 = worst.map(|(worst, error)| worst.max(error));

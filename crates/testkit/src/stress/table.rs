@@ -259,7 +259,7 @@ fn round_to<F: Float>(surd: &Surd, worst: &mut Worst) -> Result<(), String> {
     let got = surd.nearest::<F>();
     is_nearest(got, &Value::of(surd))?;
     if let Some(got) = got {
-        worst.meet(Some(rounding(got, surd)));
+        worst.add(Some(rounding(got, surd)));
     }
     Ok(())
 }
@@ -276,7 +276,7 @@ fn compare<T: Algebra + RealEmbeddable, F: Float>(
     let mut worst = Worst::none();
     for (got, wanted) in quantity.of(forces).iter().zip(wanted) {
         let error = distance(got, &wanted.value);
-        worst.meet(error.map(|error| error / unit::<F>(&wanted.about)));
+        worst.add(error.map(|error| error / unit::<F>(&wanted.about)));
     }
     Outcome::Errs(worst)
 }
@@ -297,7 +297,7 @@ fn widths(
         }
         let bounds = got.enclosure();
         let width = bounds.map(|bounds| bounds.upper - bounds.lower);
-        worst.meet(width.map(|width| width / unit::<f64>(&wanted.about)));
+        worst.add(width.map(|width| width / unit::<f64>(&wanted.about)));
     }
     Ok(Outcome::Errs(worst))
 }

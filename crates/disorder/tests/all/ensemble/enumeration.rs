@@ -88,9 +88,9 @@ fn of_parts() -> Result<(), Error> {
             let faults = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
             let pile = case.pile(signs)?;
             let signs = text(signs.iter().copied());
-            expected[faults][0].meet(&pile, &signs, &case.width)?;
+            expected[faults][0].add(&pile, &signs, &case.width)?;
             if pile.standing()?.first_failure.is_none() {
-                expected[faults][1].meet(&pile, &signs, &case.width)?;
+                expected[faults][1].add(&pile, &signs, &case.width)?;
             }
         }
         assert_eq!(counted(&tally), expected, "{index}");
