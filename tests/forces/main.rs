@@ -31,6 +31,10 @@ mod forces {
     #[cfg(feature = "std")]
     mod extremes;
     #[cfg(feature = "std")]
+    mod faulty_answers;
+    #[cfg(feature = "std")]
+    mod faulty_forces;
+    #[cfg(feature = "std")]
     pub(crate) mod invariants;
     mod layers;
     #[cfg(feature = "std")]
@@ -39,10 +43,6 @@ mod forces {
     mod mirrors;
     #[cfg(feature = "std")]
     mod parts;
-    #[cfg(feature = "std")]
-    mod planted;
-    #[cfg(feature = "std")]
-    mod planted_faults;
     #[cfg(feature = "std")]
     mod pushes;
     #[cfg(feature = "std")]

@@ -15,6 +15,7 @@ use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};
 
 use cannonpile_testkit::pair::Pair;
+use cannonpile_testkit::rational::ratio;
 
 /// The operation of [`Faulty`] that is wrong.
 const SUM: u8 = 0;
@@ -129,10 +130,6 @@ impl<const WRONG: u8> RealEmbeddable for Faulty<WRONG> {
     fn enclosure(&self) -> Option<Enclosure> {
         self.0.enclosure()
     }
-}
-
-fn ratio(n: i64, d: i64) -> Q {
-    Q::new(n.into(), d.into())
 }
 
 /// The operation at which a pair first differed.

@@ -3,6 +3,7 @@
 use core::num::NonZeroI64;
 
 use cannonpile::scalar::{Algebra, Numerators, Polynomial, Symbol, laws};
+use cannonpile_testkit::rational::ratio;
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};
@@ -13,10 +14,6 @@ const NAMES: [&str; 4] = ["x", "y", "z", "w"];
 
 fn symbols() -> [P; 4] {
     NAMES.map(|name| Symbol(name).into())
-}
-
-fn ratio(n: i64, d: i64) -> Q {
-    Q::new(n.into(), d.into())
 }
 
 fn constant(n: i64, d: i64) -> P {

@@ -10,10 +10,7 @@ use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-/// Returns n/d as a rational.
-pub fn ratio(numer: i64, denom: i64) -> BigRational {
-    BigRational::new(numer.into(), denom.into())
-}
+pub use crate::rational::ratio;
 
 /// The form of a straight pile, without its number of layers.
 #[derive(Clone, Debug, PartialEq)]

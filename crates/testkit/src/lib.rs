@@ -20,6 +20,7 @@
 //! | [`proofs`] | checks of the theorems of a crate, and wrong formulas that they must reject | |
 //! | [mod@properties] | runs a claim on random bytes | |
 //! | [`python_checker`] | the second certificate checker, as a Python process | |
+//! | [`rational`] | rationals from machine integers | |
 //! | [`rounding`] | inputs that are critical for correct rounding | some |
 //! | `scenes` | scenes of every kind, and the files of their piles | `dem` |
 //! | [`stress`] | piles at the limits of floats, and the errors of each scalar there | |
@@ -54,6 +55,7 @@ pub mod pair;
 pub mod proofs;
 pub mod properties;
 pub mod python_checker;
+pub mod rational;
 pub mod rounding;
 #[cfg(feature = "dem")]
 pub mod scenes;

@@ -11,6 +11,7 @@ use num_rational::BigRational;
 use num_traits::Signed;
 
 use cannonpile_testkit::pair::Pair;
+use cannonpile_testkit::rational::ratio;
 
 const METHODS: [Method; 3] = [Method::Closed, Method::Tree, Method::Sweep];
 
@@ -22,10 +23,6 @@ const QUANTITIES: [Quantity; 6] = [
     Quantity::FloorForces,
     Quantity::Positions,
 ];
-
-fn ratio(n: i64, d: i64) -> BigRational {
-    BigRational::new(n.into(), d.into())
-}
 
 fn under(top: Region, signs: &str) -> Pile {
     Pile::under(top, signs.parse().unwrap()).unwrap()

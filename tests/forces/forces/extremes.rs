@@ -4,14 +4,11 @@ use cannonpile::lattice::{Axis, HorizontalContact, Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{BaseExtremes, ContactForce, FloorForce, Pile};
+use cannonpile_testkit::rational::ratio;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::Zero;
-
-fn ratio(n: i64, d: i64) -> BigRational {
-    BigRational::new(n.into(), d.into())
-}
 
 /// Piles with long runs, so that a layer has hundreds of times more spheres than rows.
 fn piles() -> Vec<Pile> {

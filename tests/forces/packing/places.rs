@@ -92,7 +92,7 @@ fn of_many_digits() {
     rows_agree(&pile, pile.rows(Selection::All).unwrap());
 }
 
-/// All layers have the same distance, for any signs of the steps.
+/// Neighbouring layers have the same distance, for any signs of the steps.
 #[test]
 fn layers_are_equally_spaced() {
     for signs in ["----", "+-+-", "-++-"] {

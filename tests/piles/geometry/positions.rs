@@ -121,7 +121,7 @@ fn the_frame() {
         let packing = packing(&pile, &q);
         let [x, y, top] = packing.position(Site::APEX).unwrap();
         assert!(x == Surd::zero() && y == Surd::zero());
-        // Two layers have the distance 2R cosθ.
+        // Neighbouring layers have the distance 2R cosθ.
         let cos2 =
             BigRational::one() - &q / BigRational::from_integer(overlap::flat(&shape).into());
         let height = ratio(2, 1) * radius() * BigRational::from_integer((LAYERS - 1).into());

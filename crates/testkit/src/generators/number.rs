@@ -9,10 +9,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, Zero};
 
-/// n/d.
-pub fn ratio(n: i64, d: i64) -> BigRational {
-    BigRational::new(n.into(), d.into())
-}
+pub use crate::rational::ratio;
 
 /// base^exponent.
 pub fn power(base: u32, exponent: i32) -> BigRational {

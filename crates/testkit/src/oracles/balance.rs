@@ -20,13 +20,10 @@ use num_traits::{One, Signed, Zero};
 pub use super::sets::Sites;
 use super::sets::{dilated, eroded, supports};
 
+pub use crate::rational::ratio;
+
 /// (k, j, i): layer, row, position in the row. This is the order of sites in tables.
 pub type Place = (i128, i128, i128);
-
-/// n/d.
-pub fn ratio(n: i64, d: i64) -> BigRational {
-    BigRational::new(n.into(), d.into())
-}
 
 /// A pile as plain data: its sites, steps and weights.
 #[derive(Clone, Debug)]

@@ -10,6 +10,8 @@ use num_traits::{One, Pow};
 
 use crate::judge::exact;
 
+pub use crate::rational::ratio;
+
 /// A pile and the sizes of its packing.
 #[derive(Debug)]
 pub struct Case {
@@ -199,9 +201,4 @@ fn angles() -> Vec<Case> {
             None,
         ),
     ]
-}
-
-/// n/d.
-pub fn ratio(n: i64, d: i64) -> BigRational {
-    BigRational::new(n.into(), d.into())
 }

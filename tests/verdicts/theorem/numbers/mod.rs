@@ -12,13 +12,10 @@ use cannonpile::theorem;
 use cannonpile::theorem::{Formulas, Proof};
 use cannonpile_testkit::proofs;
 use cannonpile_testkit::proofs::{evaluated, value};
+use cannonpile_testkit::rational::ratio;
 use num_rational::BigRational as Q;
 
 const RIGHT: Formulas = Formulas::LIBRARY;
-
-fn ratio(n: i64, d: i64) -> Q {
-    Q::new(n.into(), d.into())
-}
 
 fn int(n: i128) -> Q {
     Q::from_i128(n)
