@@ -35,6 +35,8 @@ mod forces {
     #[cfg(feature = "std")]
     mod faulty_forces;
     #[cfg(feature = "std")]
+    mod horizontal_forces;
+    #[cfg(feature = "std")]
     pub(crate) mod invariants;
     mod layers;
     #[cfg(feature = "std")]
@@ -43,8 +45,6 @@ mod forces {
     mod mirrors;
     #[cfg(feature = "std")]
     mod parts;
-    #[cfg(feature = "std")]
-    mod pushes;
     #[cfg(feature = "std")]
     mod response;
     mod rows;

@@ -168,7 +168,7 @@ fn numbers() {
     let fixed = |n, d| FixedRational::<i8>::new(n, d);
     assert_eq!(back(&fixed(6, -4)), "\"-3/2\"");
     assert!(serde_json::to_string(&FixedRational::<i8>::FAULT).is_err());
-    for (text, said) in [
+    for (text, part) in [
         ("\"1/0\"", "other than zero"),
         ("\"one\"", "6/5, 1.2 or 1e-3"),
         ("\"\"", "such as"),
@@ -176,7 +176,7 @@ fn numbers() {
         ("null", "a string"),
     ] {
         let message = refusal::<Field<BigRational>>(&format!("{{\"x\":{text}}}"));
-        assert!(message.contains(said), "{text}: {message}");
+        assert!(message.contains(part), "{text}: {message}");
     }
     assert!(refusal::<Field<num_bigint::BigUint>>(r#"{"x":"-1"}"#).contains("not negative"));
     assert!(refusal::<Field<num_bigint::BigInt>>(r#"{"x":"1/2"}"#).contains("integer"));

@@ -184,7 +184,7 @@ breaks_laws! {
 
 breaks_laws! {
     of Enclosed:
-    bounds_beside_the_sum breaks "a + b": {
+    bounds_that_miss_the_sum breaks "a + b": {
         add: |a, b| a + b + ratio(1, 100),
         enclosure: |a| {
             let hair = ratio(1, 1_000_000);

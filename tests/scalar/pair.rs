@@ -279,7 +279,7 @@ fn an_overflow_is_a_difference() {
     assert!(
         fault
             .divergence()
-            .expect("first_difference")
+            .expect("a difference")
             .values
             .ends_with("overflow")
     );

@@ -246,24 +246,28 @@ pub fn agrees_at(
     expected: &Sums,
     probabilities: &[BigRational],
 ) -> Result<(), String> {
-    let said = |error: Error| format!("{described:?}: {error}");
-    let piles = described.piles().map_err(said)?;
+    let witness = |error: Error| format!("{described:?}: {error}");
+    let piles = described.piles().map_err(witness)?;
     let by_faults = match piles.by_faults() {
         // No stacking is that high.
         Err(Error::NoStacking { .. }) if expected.is_empty() => return Ok(()),
-        by_faults => by_faults.map_err(said)?,
+        by_faults => by_faults.map_err(witness)?,
     };
     alike(
         "by faults",
         expected,
-        &self::by_faults(&piles).map_err(said)?,
+        &self::by_faults(&piles).map_err(witness)?,
     )?;
-    let polynomials = by_faults.polynomial().map_err(said)?;
+    let polynomials = by_faults.polynomial().map_err(witness)?;
     for q in probabilities {
         let expected = described.means(expected, q);
-        let exact = piles.exact(q).map_err(said)?;
+        let exact = piles.exact(q).map_err(witness)?;
         alike("exact", &expected, &by_place(exact.clone()))?;
-        alike("at", &expected, &by_place(by_faults.at(q).map_err(said)?))?;
+        alike(
+            "at",
+            &expected,
+            &by_place(by_faults.at(q).map_err(witness)?),
+        )?;
         let put_in = polynomials.rows().iter().map(|row| {
             let values =
                 numbers(row.clone()).map(|p: Polynomial| p.evaluate(&[(Symbol("q"), q.clone())]));
@@ -273,7 +277,7 @@ pub fn agrees_at(
             )
         });
         alike("polynomials", &expected, &put_in.collect())?;
-        let float = piles.mean(&q.to_f64().expect("a float")).map_err(said)?;
+        let float = piles.mean(&q.to_f64().expect("a float")).map_err(witness)?;
         let weight = described
             .loads
             .iter()

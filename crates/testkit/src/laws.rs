@@ -98,8 +98,8 @@ pub fn wide() -> Vec<Q> {
     let about = powers.into_iter().flat_map(|exponent| {
         let power = power_of_two(exponent);
         let next = &power * (ratio(1, 1) + power_of_two(-53));
-        let beside = &power * (ratio(1, 1) - power_of_two(-107) / BigInt::from(3));
-        [-&power, power, next, beside]
+        let nearby = &power * (ratio(1, 1) - power_of_two(-107) / BigInt::from(3));
+        [-&power, power, next, nearby]
     });
     ratios(small).chain(about).collect()
 }

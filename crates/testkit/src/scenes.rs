@@ -94,14 +94,16 @@ pub fn for_each_pile(mut judge: impl FnMut(&Scene, &PileExport<'_>)) {
     for scene in scenes() {
         let pile = scene.pile().and_then(|pile| scene.in_state(pile));
         let pile = pile.expect("a pile");
-        let packing = scene.packing(&pile).expect("room");
+        let packing = scene.packing(&pile).expect("a sweep within its limit");
         judge(&scene, &PileExport::new(&packing).expect("files"));
     }
 }
 
 /// Returns the pile with the default radius, mass, gravity and spacing of a scene.
 pub fn packing(pile: &Pile) -> Packing<'_> {
-    Scene::default().packing(pile).expect("room")
+    Scene::default()
+        .packing(pile)
+        .expect("a sweep within its limit")
 }
 
 /// Writes a file into memory and checks that the export reports all rows.

@@ -141,8 +141,8 @@ fn work_stays_within_the_plan() {
                 };
                 let counters = run(&pile, question).unwrap();
                 for (name, most, counted) in planned_and_counted(&plan, &counters) {
-                    let said = format!("{question:?}: {counted} {name}, planned {most}");
-                    assert!(BigUint::from(counted) <= most, "{said}");
+                    let witness = format!("{question:?}: {counted} {name}, planned {most}");
+                    assert!(BigUint::from(counted) <= most, "{witness}");
                 }
                 if quantity != Quantity::Positions {
                     assert_eq!(BigUint::from(counters.rows()), plan.rows, "{question:?}");

@@ -11,7 +11,7 @@ fn theorems_hold(shape: &Shape, layers: i128) -> Verdict {
     balance::every_sphere_is_balanced(&pile)?;
     balance::neighbours_agree(&pile)?;
     balance::forces_lie_along_contacts(&pile)?;
-    base::base_carries_the_weight(&pile)?;
+    base::base_supports_the_weight(&pile)?;
     base::base_has_the_moment_of_the_weights(&pile)?;
     base::base_is_as_published(&pile)?;
     let extremes = shape.pile(layers).base_extremes();

@@ -186,14 +186,14 @@ fn of_contacts() {
 #[test]
 fn next_to_the_ends_of_pieces() {
     let top = Region::new(-3..=3, -4..=4, -2..=5).unwrap();
-    let beside_a_change = Pile::under(top, "(1,647)".parse().unwrap()).unwrap();
+    let next_to_a_change = Pile::under(top, "(1,647)".parse().unwrap()).unwrap();
     let on_top = [
         ([3, -2], 1074),
         ([3, -4], 1),
         ([0, -1], 3840),
         ([-1, 2], 61639),
     ];
-    let beside_a_load = Pile::triangular(480).unwrap();
+    let next_to_a_load = Pile::triangular(480).unwrap();
     let at_the_corners = [
         [0, 0],
         [479, 0],
@@ -205,13 +205,13 @@ fn next_to_the_ends_of_pieces() {
     ];
     for (pile, k, loads, ratio2) in [
         (
-            beside_a_change,
+            next_to_a_change,
             0,
             on_top.to_vec(),
             ratio(4 * 101_443, 619 * 619),
         ),
         (
-            beside_a_load,
+            next_to_a_load,
             479,
             at_the_corners.map(|at| (at, 100)).to_vec(),
             ratio(228_007, 482 * 482),

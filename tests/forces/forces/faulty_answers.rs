@@ -155,7 +155,7 @@ fn central_resultants() {
 #[test]
 fn weight_on_the_base() {
     for fault in [base_without_its_own_weight, one_shear_reversed] {
-        catches(base::base_carries_the_weight, fault);
+        catches(base::base_supports_the_weight, fault);
     }
 }
 

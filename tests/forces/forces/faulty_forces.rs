@@ -57,17 +57,17 @@ fn one_force_from_above_or_on_the_floor_is_wrong() {
 #[test]
 fn two_forces_are_swapped() {
     let (case, right) = (case(), case().balance.forces());
-    let mut told_apart = 0;
+    let mut detected = 0;
     for (place, [a, b, _]) in &right.below {
         if a != b {
             let mut wrong = right.clone();
             wrong.below.get_mut(place).unwrap().swap(0, 1);
             assert!(one_by_one(&case.pile, &wrong).is_err(), "{place:?}");
             assert!(in_rows(&case.pile, &wrong).is_err(), "{place:?}");
-            told_apart += 1;
+            detected += 1;
         }
     }
-    assert!(told_apart > 10);
+    assert!(detected > 10);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use cannonpile_testkit::answers::ratio;
 
 pub(super) fn packing_of(pile: &Pile) -> Packing<'_> {
     let spacing = Spacing::new(ratio(6, 5)).expect("a spacing");
-    let packing = Packing::new(pile, &spacing).expect("room");
+    let packing = Packing::new(pile, &spacing).expect("a sweep within its limit");
     packing.with_mass(ratio(1, 7)).expect("a mass")
 }
 
@@ -93,7 +93,7 @@ fn transposed<V: Clone>([a, b, c]: &[Vec<V>; 3]) -> Vec<[V; 3]> {
 fn nearest_floats_equal_the_packing<F: NearestFloat + PartialEq + core::fmt::Debug>(zero: F) {
     for pile in piles() {
         let packing = packing_of(&pile);
-        let asked = one_by_one(
+        let single = one_by_one(
             &pile,
             |site, direction| {
                 let exact = packing.contact(site, direction).expect("a contact");
@@ -106,11 +106,11 @@ fn nearest_floats_equal_the_packing<F: NearestFloat + PartialEq + core::fmt::Deb
         layers
             .fill(whole.each_mut().map(Vec::as_mut_slice))
             .expect("lengths");
-        assert_eq!(transposed(&whole), asked, "{pile:?}");
+        assert_eq!(transposed(&whole), single, "{pile:?}");
 
         let mut layers = packing.layers::<F>(Selection::All).expect("layers");
         let mut by_layer = Vec::new();
-        while let Some(layer) = layers.next_layer().expect("room") {
+        while let Some(layer) = layers.next_layer().expect("a sweep within its limit") {
             let mut forces = slices(&zero, layer.sphere_count());
             let filled = forces.each_mut().map(Vec::as_mut_slice);
             if !layer.is_floor() {
@@ -127,7 +127,7 @@ fn nearest_floats_equal_the_packing<F: NearestFloat + PartialEq + core::fmt::Deb
                 assert_eq!(nearest, [normal, x, y], "{pile:?}");
             }
         }
-        assert_eq!(by_layer, asked, "{pile:?}");
+        assert_eq!(by_layer, single, "{pile:?}");
     }
 }
 
@@ -143,11 +143,11 @@ fn nearest_singles_equal_the_packing() {
 
 #[test]
 fn numerators_are_exact() {
-    let mut met = 0;
+    let mut compared = 0;
     for pile in piles() {
         let forces = pile.forces::<BigRational>();
         let contact = |site, direction| forces.contact(site, direction).expect("a contact");
-        let asked = one_by_one(&pile, contact, || ratio(0, 1));
+        let single = one_by_one(&pile, contact, || ratio(0, 1));
         let over = |numerators: &[Vec<i64>; 3], denominator: &BigInt| -> Vec<[BigRational; 3]> {
             let of = |n: i64| BigRational::new(n.into(), denominator.clone());
             let forces = transposed(numerators).into_iter();
@@ -162,11 +162,11 @@ fn numerators_are_exact() {
         let whole = layers().expect("integers");
         let mut integers = slices(&0, whole.slice_len().expect("few"));
         let filled = whole.fill(integers.each_mut().map(Vec::as_mut_slice));
-        assert_eq!(over(&integers, &filled.expect("lengths")), asked);
+        assert_eq!(over(&integers, &filled.expect("lengths")), single);
 
         let mut layers = layers().expect("integers");
         let mut by_layer = Vec::new();
-        while let Some(layer) = layers.next_layer().expect("room") {
+        while let Some(layer) = layers.next_layer().expect("a sweep within its limit") {
             if layer.is_floor() {
                 break;
             }
@@ -176,10 +176,10 @@ fn numerators_are_exact() {
                 .expect("lengths");
             by_layer.extend(over(&integers, &layer.denominator()));
         }
-        assert_eq!(by_layer, asked);
-        met += asked.len();
+        assert_eq!(by_layer, single);
+        compared += single.len();
     }
-    assert!(met > 600, "{met}");
+    assert!(compared > 600, "{compared}");
 }
 
 #[test]
@@ -195,7 +195,10 @@ fn slices_of_a_wrong_length_are_rejected() {
     let pile = Pile::triangular(5).expect("a pile");
     let forces = pile.forces::<f64>();
     let mut layers = forces.layers(Selection::Layer(1)).expect("a layer");
-    let layer = layers.next_layer().expect("room").expect("a layer");
+    let layer = layers
+        .next_layer()
+        .expect("a sweep within its limit")
+        .expect("a layer");
     let [mut a, mut b, mut c] = [[0.0; 3]; 3];
     assert_eq!(layer.fill([&mut a, &mut b, &mut c]), Ok(()));
     let wrong = layer.fill([&mut a, &mut b, &mut [0.0; 2]]);
@@ -217,7 +220,7 @@ fn small_forces_with_long_denominators_are_rejected() {
     let (fractions, exact) = (pile.forces::<Fraction>(), pile.forces::<BigRational>());
     let mut layers = fractions.layers(Selection::All).expect("layers");
     let (mut filled, mut refused) = (0, 0);
-    while let Some(layer) = layers.next_layer().expect("room") {
+    while let Some(layer) = layers.next_layer().expect("a sweep within its limit") {
         if layer.is_floor() {
             break;
         }
@@ -247,17 +250,20 @@ fn the_bottom_layer_fills_the_forces_on_the_floor() {
     for pile in piles() {
         let forces = pile.forces::<BigRational>();
         let mut layers = forces.layers(Selection::Base).expect("a base");
-        let layer = layers.next_layer().expect("room").expect("a floor");
+        let layer = layers
+            .next_layer()
+            .expect("a sweep within its limit")
+            .expect("a floor");
         let zero = ratio(0, 1);
         let mut filled = slices(&zero, layer.sphere_count());
         let done = layer.fill_base(filled.each_mut().map(Vec::as_mut_slice));
         assert_eq!(done, Ok(()));
         let base = forces.base(Selection::Base).expect("a base");
-        let asked: Vec<_> = base
+        let single: Vec<_> = base
             .map(|force| force.expect("a force"))
             .map(|force| [force.normal, force.shear_x, force.shear_y])
             .collect();
-        assert_eq!(transposed(&filled), asked, "{pile:?}");
+        assert_eq!(transposed(&filled), single, "{pile:?}");
     }
 }
 
@@ -268,7 +274,10 @@ fn layers_reject_sites_of_other_layers() {
     let forces = pile.forces::<BigRational>();
     let refused = Err(Error::not_on_floor(site, floor));
     let mut layers = forces.layers(Selection::Layer(2)).expect("a layer");
-    let layer = layers.next_layer().expect("room").expect("a layer");
+    let layer = layers
+        .next_layer()
+        .expect("a sweep within its limit")
+        .expect("a layer");
     assert_eq!(layer.on_floor(site).map(drop), refused);
     let bottom = Site { i: 1, j: 0, k: 4 };
     assert!(matches!(
@@ -284,7 +293,10 @@ fn layers_reject_sites_of_other_layers() {
     let refused = Err(Error::not_on_floor(first, floor));
     let layers = forces.layers(Selection::Layer(2)).expect("a layer");
     let mut layers = layers.nearest::<f64>().expect("floats");
-    let layer = layers.next_layer().expect("room").expect("a layer");
+    let layer = layers
+        .next_layer()
+        .expect("a sweep within its limit")
+        .expect("a layer");
     let [mut a, mut b, mut c] = [[0.0; 6]; 3];
     assert_eq!(layer.fill_base([&mut a, &mut b, &mut c]), refused);
 }
@@ -321,15 +333,15 @@ fn debug_output_states_the_position() {
     let layers = || forces.layers(Selection::All).expect("layers");
     let mut of_all = layers();
     assert_eq!(format!("{of_all:?}"), "Layers { ahead: 0..5, .. }");
-    let layer = of_all.next_layer().expect("room");
+    let layer = of_all.next_layer().expect("a sweep within its limit");
     assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
     assert_eq!(format!("{of_all:?}"), "Layers { ahead: 1..5, .. }");
     let mut nearest = layers().nearest::<f32>().expect("floats");
     assert_eq!(format!("{nearest:?}"), "Layers { ahead: 0..5, .. }");
-    let layer = nearest.next_layer().expect("room");
+    let layer = nearest.next_layer().expect("a sweep within its limit");
     assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
     let mut integers = layers().numerators::<i64>().expect("integers");
     assert_eq!(format!("{integers:?}"), "Layers { ahead: 0..5, .. }");
-    let layer = integers.next_layer().expect("room");
+    let layer = integers.next_layer().expect("a sweep within its limit");
     assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
 }

@@ -113,16 +113,16 @@ fn rows_have_the_nearest_floats() {
 
 #[test]
 fn rows_have_the_nearest_floats_by_any_method() {
-    let mut met = 0;
+    let mut compared = 0;
     for pile in piles() {
         for method in [Method::Closed, Method::Tree, Method::Sweep] {
             if let Ok(packing) = packing_of(&pile).with_method(method) {
                 rows_are_correctly_rounded::<f64>(&packing, 3);
-                met += 1;
+                compared += 1;
             }
         }
     }
-    assert!(met > 40, "{met}");
+    assert!(compared > 40, "{compared}");
 }
 
 #[test]
@@ -130,14 +130,14 @@ fn invalid_rows_are_rejected() {
     let pile = Pile::triangular(5).expect("a pile");
     let packing = packing_of(&pile);
     let mut layers = packing.layers::<f64>(Selection::All).expect("layers");
-    let mut asked = |k, j, i, n: usize| {
+    let mut fill = |k, j, i, n: usize| {
         let mut columns = [(); 3].map(|()| vec![0.0; n]);
         layers.fill_row(&Row { k, j, i }, columns.each_mut().map(Vec::as_mut_slice))
     };
-    assert_eq!(asked(2, 0, 0..3, 3), Ok(()));
-    assert_eq!(asked(2, 1, 0..2, 2), Ok(()));
+    assert_eq!(fill(2, 0, 0..3, 3), Ok(()));
+    assert_eq!(fill(2, 1, 0..2, 2), Ok(()));
     assert!(matches!(
-        asked(1, 0, 0..2, 2),
+        fill(1, 0, 0..2, 2),
         Err(Error::OtherLayer {
             layer: 1,
             at: 2,
@@ -145,7 +145,7 @@ fn invalid_rows_are_rejected() {
         })
     ));
     assert!(matches!(
-        asked(2, 0, 0..3, 2),
+        fill(2, 0, 0..3, 2),
         Err(Error::Length {
             needed: 3,
             given: 2,
@@ -153,24 +153,24 @@ fn invalid_rows_are_rejected() {
         })
     ));
     assert!(matches!(
-        asked(2, 0, 0..4, 4),
+        fill(2, 0, 0..4, 4),
         Err(Error::SiteOutside { .. })
     ));
     assert!(matches!(
-        asked(3, -1, 0..1, 1),
+        fill(3, -1, 0..1, 1),
         Err(Error::SiteOutside { .. })
     ));
-    assert!(matches!(asked(4, 0, 0..1, 1), Err(Error::OnFloor { .. })));
-    assert_eq!(asked(2, 0, 3..3, 0), Ok(()));
+    assert!(matches!(fill(4, 0, 0..1, 1), Err(Error::OnFloor { .. })));
+    assert_eq!(fill(2, 0, 3..3, 0), Ok(()));
     let reversed = Range { start: 3, end: 1 };
-    assert_eq!(asked(2, 0, reversed, 0), Ok(()));
+    assert_eq!(fill(2, 0, reversed, 0), Ok(()));
     let endless = Row {
         k: 2,
         j: 0,
         i: i128::MIN..i128::MAX,
     };
     assert!(matches!(
-        asked(2, 0, endless.i.clone(), 1),
+        fill(2, 0, endless.i.clone(), 1),
         Err(Error::TooLarge { .. })
     ));
     let mut place = [[0.0]; 3];
@@ -238,7 +238,7 @@ fn weightless_spheres_do_not_overflow_with_their_neighbours() {
             let packing = packing.with_mass(mass).expect("a mass");
             let packing = packing.with_method(Method::Sweep).expect("a sweep");
             let mut layers = packing.layers::<f64>(part).expect("layers");
-            let mut met = 0;
+            let mut compared = 0;
             let mut refused = false;
             for row in pile.rows(part).expect("rows") {
                 let mut floats = columns::<f64>(&row);
@@ -263,10 +263,10 @@ fn weightless_spheres_do_not_overflow_with_their_neighbours() {
                     let floats = floats.each_ref().map(|x| x[n].to_bits());
                     let exact = exact.each_ref().map(nearest::<f64>);
                     assert_eq!(floats, exact.map(f64::to_bits), "{site}");
-                    met += 1;
+                    compared += 1;
                 }
             }
-            assert_eq!(refused, !fits, "{part:?} {met}");
+            assert_eq!(refused, !fits, "{part:?} {compared}");
         }
     }
 }
@@ -281,7 +281,7 @@ fn layers_without_a_float_are_rejected() {
     let packing = packing.with_method(Method::Sweep).expect("a sweep");
     let mut layers = packing.layers::<f32>(Selection::All).expect("layers");
     let mut refused = 0;
-    while let Some(layer) = layers.next_layer().expect("room") {
+    while let Some(layer) = layers.next_layer().expect("a sweep within its limit") {
         let mut floats = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
         let slices = floats.each_mut().map(Vec::as_mut_slice);
         let filled = if layer.is_floor() {

@@ -30,17 +30,17 @@ fn rows_agree(pile: &Pile, rows: impl Iterator<Item = Row>) {
     let packing = packing(pile);
     let places = packing.places::<f64>();
     for row in rows {
-        let asked = row.clone().into_iter().map(|site| {
+        let single = row.clone().into_iter().map(|site| {
             let exact = packing.position(site).unwrap();
             exact.each_ref().map(nearest)
         });
         let centres = filled(&row, |slices| places.fill_row(&row, slices).unwrap());
-        assert_eq!(centres, asked.collect::<Vec<_>>(), "{row:?}");
+        assert_eq!(centres, single.collect::<Vec<_>>(), "{row:?}");
         if row.k == pile.layers() - 1 {
             continue;
         }
         for direction in pile.dimension().directions() {
-            let asked = row.clone().into_iter().map(|site| {
+            let single = row.clone().into_iter().map(|site| {
                 let exact = packing.contact_point(site, *direction).unwrap();
                 exact.each_ref().map(nearest)
             });
@@ -49,7 +49,7 @@ fn rows_agree(pile: &Pile, rows: impl Iterator<Item = Row>) {
                     .fill_row_of_contacts(&row, *direction, slices)
                     .unwrap();
             });
-            assert_eq!(points, asked.collect::<Vec<_>>(), "{row:?} {direction}");
+            assert_eq!(points, single.collect::<Vec<_>>(), "{row:?} {direction}");
         }
     }
 }

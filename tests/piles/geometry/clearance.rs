@@ -55,12 +55,12 @@ fn every_verdict_agrees_with_all_pairs() {
             let differences = overlap::differences(&shape, layers);
             let clearance = shape.pile(layers).clearance();
             for q in &test_values {
-                let room = overlap::allowed_gaps(&shape, &differences, q);
+                let gaps = overlap::allowed_gaps(&shape, &differences, q);
                 let answer = clearance.check(&spacing(q));
-                let agree = overlap::agree(room.as_ref(), &answer);
+                let agree = overlap::agree(gaps.as_ref(), &answer);
                 assert!(
                     agree,
-                    "{shape:?}, {layers} layers, q = {q}: {answer:?}, not {room:?}"
+                    "{shape:?}, {layers} layers, q = {q}: {answer:?}, not {gaps:?}"
                 );
             }
         }
@@ -260,38 +260,38 @@ fn wrong_verdicts_are_caught() {
     const LAYERS: i128 = 5;
     let shape = Shape::equilateral();
     let differences = overlap::differences(&shape, LAYERS);
-    let room = |q: &BigRational| overlap::allowed_gaps(&shape, &differences, q);
+    let gaps = |q: &BigRational| overlap::allowed_gaps(&shape, &differences, q);
     let check = |clearance: &Clearance, q: &BigRational| {
         clearance.check(&Spacing::from_square(q.clone()).unwrap())
     };
     let right = shape.pile(LAYERS).clearance();
     let (tight, wide, open) = (ratio(1, 1), ratio(8, 3), ratio(3, 2));
     for q in [&tight, &wide, &open] {
-        assert!(overlap::agree(room(q).as_ref(), &check(&right, q)));
+        assert!(overlap::agree(gaps(q).as_ref(), &check(&right, q)));
     }
     // A missing pair that touches, a surplus one, and one of other layers.
-    assert!(!overlap::agree(room(&tight).as_ref(), &Ok(vec![])));
+    assert!(!overlap::agree(gaps(&tight).as_ref(), &Ok(vec![])));
     assert!(!overlap::agree(
-        room(&open).as_ref(),
+        gaps(&open).as_ref(),
         &check(&right, &tight)
     ));
     assert!(!overlap::agree(
-        room(&wide).as_ref(),
+        gaps(&wide).as_ref(),
         &check(&right, &tight)
     ));
     // An allowed spacing taken as rejected, and the converse.
-    assert!(!overlap::agree(room(&ratio(14, 5)).as_ref(), &Ok(vec![])));
+    assert!(!overlap::agree(gaps(&ratio(14, 5)).as_ref(), &Ok(vec![])));
     let refused = Err(Error::Interrupted);
-    assert!(!overlap::agree(room(&open).as_ref(), &refused));
+    assert!(!overlap::agree(gaps(&open).as_ref(), &refused));
     // The bounds of a lower pile, and of another sin φ.
     let low = shape.pile(3).clearance();
     assert!(!overlap::agree(
-        room(&ratio(14, 5)).as_ref(),
+        gaps(&ratio(14, 5)).as_ref(),
         &check(&low, &ratio(14, 5))
     ));
     let other = Shape::Spheres(ratio(2, 5)).pile(LAYERS).clearance();
     assert!(!overlap::agree(
-        room(&tight).as_ref(),
+        gaps(&tight).as_ref(),
         &check(&other, &tight)
     ));
 }

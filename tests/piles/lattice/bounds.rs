@@ -104,8 +104,8 @@ fn is_enclosed(bounds: [i128; 6]) {
     if sites.is_empty() {
         let refusal = made.expect_err("no site is enclosed").to_string();
         let [x0, x1, y0, y1, s0, s1] = bounds;
-        let asked = format!("{x0}..{x1},{y0}..{y1},{s0}..{s1} has no site");
-        assert!(refusal.contains(&asked), "{refusal}");
+        let expected = format!("{x0}..{x1},{y0}..{y1},{s0}..{s1} has no site");
+        assert!(refusal.contains(&expected), "{refusal}");
     } else {
         agrees(&made.expect("some site is enclosed"), &sites);
     }

@@ -155,8 +155,8 @@ fn a_neighbour_beyond_the_integers_is_none() {
         let Site { i: di, j: dj, .. } = neighbour(0, 0, 0).expect("near");
         for k in [i128::MIN, i128::MAX] {
             for end in [i128::MIN, i128::MAX] {
-                let beside = |n: i128, d: i128| n.checked_add(d);
-                let there = beside(end, di).zip(beside(end, dj));
+                let sum = |n: i128, d: i128| n.checked_add(d);
+                let there = sum(end, di).zip(sum(end, dj));
                 let there = there.map(|(i, j)| Site { i, j, k });
                 assert_eq!(neighbour(end, end, k), there, "{axis} {end} {k}");
             }

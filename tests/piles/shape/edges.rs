@@ -60,8 +60,8 @@ fn dilation_never_returns_an_empty_region() {
 fn any_site_is_a_valid_query() {
     for [i, j] in [[i128::MIN; 2], [i128::MAX; 2], [i128::MIN, i128::MAX]] {
         for sign in [Sign::Plus, Sign::Minus] {
-            let asked = catch_unwind(|| Region::SITE.spheres_above(i, j, sign, 5));
-            assert!(asked.is_ok(), "spheres_above({i}, {j}, {sign:?}, 5)");
+            let result = catch_unwind(|| Region::SITE.spheres_above(i, j, sign, 5));
+            assert!(result.is_ok(), "spheres_above({i}, {j}, {sign:?}, 5)");
         }
     }
 }

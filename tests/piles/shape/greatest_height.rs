@@ -16,11 +16,11 @@ use cannonpile_testkit::oracles::sets::{Sites, on};
 fn fits_exactly(base: Region, signs: &[Sign]) {
     let layers = on(sites_of(&base), signs);
     let carried = layers.iter().rev().take_while(|layer| !layer.is_empty());
-    let (most, asked) = (carried.count(), layers.len());
+    let (most, wanted) = (carried.count(), layers.len());
     let stacking = Stacking::from_signs(signs.iter().copied()).expect("short");
     let made = Shape::on(base, stacking.clone());
-    if most < asked {
-        let [layers, greatest] = [asked, most].map(|n| i128::try_from(n).expect("few"));
+    if most < wanted {
+        let [layers, greatest] = [wanted, most].map(|n| i128::try_from(n).expect("few"));
         let refused = made.expect_err("a pile that is too high");
         let Error::TooHigh {
             layers: named,

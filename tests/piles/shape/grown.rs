@@ -82,9 +82,9 @@ fn every_site_is_correct(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
                 "{site} {direction} {shape:?}"
             );
             let above = k.checked_sub(1).and_then(|k| {
-                let stands =
+                let is_supported =
                     |from: &&(i128, i128)| supports(**from, signs[k])[m] == (site.j, site.i);
-                layers[k].iter().find(stands)
+                layers[k].iter().find(is_supported)
             });
             let above = above.map(|(j, i)| Site {
                 i: *i,
@@ -99,10 +99,10 @@ fn every_site_is_correct(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
         }
     }
     for (k, layer) in (0..).zip(layers) {
-        let beside = layer
+        let nearby = layer
             .iter()
             .flat_map(|(j, i)| [(j - 1, *i), (*j, i - 1), (j + 1, *i), (*j, i + 1)]);
-        for (j, i) in beside.filter(|site| !layer.contains(site)) {
+        for (j, i) in nearby.filter(|site| !layer.contains(site)) {
             let site = Site { i, j, k };
             let refused = [shape.check(site).err(), shape.before(site).err()];
             for refusal in refused {

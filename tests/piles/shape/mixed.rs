@@ -173,7 +173,7 @@ fn the_error_of_a_pile_too_high_names_the_greatest_height() {
         let greatest = i128::try_from(fits.expect("the base itself") + 1).unwrap();
         let given = Pile::on(base.region(), cannonpile_testkit::cases::stacking(&signs));
         let Err(Error::TooHigh {
-            greatest: said,
+            greatest: named,
             layers,
             ..
         }) = given
@@ -181,7 +181,7 @@ fn the_error_of_a_pile_too_high_names_the_greatest_height() {
             panic!("{base:?} {signs}: {given:?}");
         };
         assert_eq!(
-            (said, layers),
+            (named, layers),
             (greatest, i128::try_from(steps + 1).unwrap())
         );
     }

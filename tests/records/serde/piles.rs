@@ -65,7 +65,7 @@ fn invalid_piles_are_rejected() {
     };
     let read = |text: &str| serde_json::from_str::<Pile>(text);
     read(&text(3, "1/2", "++", base, &load(2, "1"))).expect("a pile");
-    for (text, said) in [
+    for (text, part) in [
         (text(3, "1/2", "+++", base, "[]"), "at most 3"),
         (text(3, "1/3", "+-", site, "[]"), "sin-phi"),
         (text(3, "1/3", "++", base, "[]"), "sin-phi"),
@@ -87,7 +87,7 @@ fn invalid_piles_are_rejected() {
         ),
     ] {
         let error = read(&text).expect_err(&text).to_string();
-        assert!(error.contains(said), "{text}: no '{said}' in {error}");
+        assert!(error.contains(part), "{text}: no '{part}' in {error}");
     }
     let weight = r#"{"site":{"i":"0","j":"0","k":"1"},"weight":"2"}"#;
     let weights = |list: &str| {

@@ -30,8 +30,8 @@ fn brute_force() -> Found {
     };
     found.standing[0].insert(String::new());
     let top = Front::<i128>::top(&Bounds::SITE.sites());
-    let mut waiting = vec![(String::new(), top)];
-    while let Some((signs, front)) = waiting.pop() {
+    let mut pending = vec![(String::new(), top)];
+    while let Some((signs, front)) = pending.pop() {
         for sign in ['+', '-'] {
             if signs.is_empty() && sign == '-' {
                 continue;
@@ -44,7 +44,7 @@ fn brute_force() -> Found {
             }
             found.standing[signs.len()].insert(signs.clone());
             if signs.len() < MOST_STEPS {
-                waiting.push((signs, passed.below));
+                pending.push((signs, passed.below));
             }
         }
     }

@@ -1,5 +1,4 @@
-//! The least contact and the first failure: at surfaces with other weights, of piles that end a search, and at the limits of
-//! a search.
+//! The least contact and the first failure: piles with special weights, early ends of a search, and the limits of a search.
 
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
 use cannonpile::shape::Selection;

@@ -125,11 +125,11 @@ fn base_supports_everything(
     acting: Option<BigRational>,
 ) -> Checked {
     let rows = mean.rows();
-    let borne: BigRational = rows.iter().map(|row| &row.normal).sum();
+    let total: BigRational = rows.iter().map(|row| &row.normal).sum();
     let bottom: BigRational = rows.iter().map(|row| &row.probability).sum();
     demand(
-        acting.map_or(borne >= bottom, |acting| borne == acting),
-        || format!("{borne} of {piles:?}"),
+        acting.map_or(total >= bottom, |acting| total == acting),
+        || format!("{total} of {piles:?}"),
     )?;
     let is_share = |p: &BigRational| !p.is_negative() && *p <= BigRational::one();
     demand(rows.iter().all(|row| is_share(&row.probability)), || {

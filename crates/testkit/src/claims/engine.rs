@@ -1,7 +1,7 @@
 //! Every way to compute the forces of a mixed pile solves the equations of equilibrium.
 //!
 //! A single sphere uses a tree that follows contact lines. A whole layer uses a sweep: in limbs for exact values, in the
-//! scalar itself for floats. An equal pile reuses rows. All ways must agree with [`Solved`] exactly. The forces on the floor
+//! scalar itself for floats. An equal pile gives the same rows. All ways must agree with [`Solved`] exactly. The forces on the floor
 //! must also agree with the weights and loads.
 
 use arbitrary::Unstructured;
@@ -176,20 +176,20 @@ fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
 /// The base supports all weights and loads with the right moments, and without a total horizontal force.
 fn base_supports_everything(floor: &[FloorForce<BigRational>], solved: &Solved) -> Checked {
     let normals = || solved.base().zip(floor.iter().map(|force| &force.normal));
-    let borne: BigRational = normals().map(|(_, normal)| normal).sum();
+    let total: BigRational = normals().map(|(_, normal)| normal).sum();
     same(
         "the total force on the floor",
-        &borne,
+        &total,
         &solved.acting.values().sum(),
     )?;
     for (axis, name) in [(0, "the moment along i"), (1, "the moment along j")] {
         let moment = |sphere, force: &BigRational| &solved.place(sphere)[axis] * force;
-        let borne: BigRational = normals()
+        let total: BigRational = normals()
             .map(|(sphere, normal)| moment(sphere, normal))
             .sum();
         let acting = solved.acting.iter();
         let acting: BigRational = acting.map(|(sphere, weight)| moment(*sphere, weight)).sum();
-        same(name, &borne, &acting)?;
+        same(name, &total, &acting)?;
     }
     let sideways = |part: fn(&FloorForce<BigRational>) -> &BigRational| -> BigRational {
         floor.iter().map(part).sum()
@@ -229,14 +229,14 @@ mod injected_faults {
     fn a_tiny_error_of_a_contact_is_caught() {
         let right = contacts_of(&Solved::of(&described()));
         assert!(agree(&right, &right).is_ok());
-        for spoil in [
+        for fault in [
             (|contacts: &mut Contacts| contacts[20].force += power(10, -60)) as fn(&mut Contacts),
             |contacts| contacts.swap(20, 21),
             |contacts| contacts.truncate(20),
             |contacts| contacts[20].direction = Direction::Alpha,
         ] {
             let mut wrong = right.clone();
-            spoil(&mut wrong);
+            fault(&mut wrong);
             assert!(agree(&wrong, &right).is_err());
         }
     }
@@ -249,15 +249,15 @@ mod injected_faults {
         let floor = pile.forces::<f64>().base(Selection::Base).unwrap();
         let right: Vec<_> = floor.collect::<Result<_, _>>().unwrap();
         assert!(floor_near(&right, &want, &trace).is_ok());
-        let spoils: [fn(&mut Vec<FloorForce<f64>>); 4] = [
+        let faults: [fn(&mut Vec<FloorForce<f64>>); 4] = [
             |floor| floor[0].normal = f64::NAN,
             |floor| floor[1].shear_x = f64::INFINITY,
             |floor| floor[2].shear_y += 1e-9,
             |floor| floor.truncate(2),
         ];
-        for spoil in spoils {
+        for fault in faults {
             let mut wrong = right.clone();
-            spoil(&mut wrong);
+            fault(&mut wrong);
             assert!(floor_near(&wrong, &want, &trace).is_err());
         }
     }
@@ -274,17 +274,17 @@ mod injected_faults {
                 && of_one_layer(&forces, 3, &contacts_of(&solved)).is_ok()
         };
         assert!(judge(&described()));
-        let spoils: [fn(&mut Described); 5] = [
+        let faults: [fn(&mut Described); 5] = [
             |pile| pile.signs[2] = Plus,
             |pile| pile.signs.swap(1, 2),
             |pile| pile.weightless = true,
             |pile| pile.weights.clear(),
             |pile| pile.loads[0].0.i += 1,
         ];
-        for (n, spoil) in spoils.into_iter().enumerate() {
+        for (n, fault) in faults.into_iter().enumerate() {
             let mut wrong = described();
-            spoil(&mut wrong);
-            assert!(!judge(&wrong), "spoil {n}");
+            fault(&mut wrong);
+            assert!(!judge(&wrong), "fault {n}");
         }
     }
 
@@ -293,7 +293,7 @@ mod injected_faults {
         let solved = Solved::of(&described());
         let right = floor_of(&solved);
         assert!(base_supports_everything(&right, &solved).is_ok());
-        let spoils: [fn(&mut Floor); 4] = [
+        let faults: [fn(&mut Floor); 4] = [
             |floor| floor[0].normal += power(10, -60),
             |floor| {
                 floor[0].normal += ratio(1, 1);
@@ -302,9 +302,9 @@ mod injected_faults {
             |floor| floor[3].shear_x += power(10, -60),
             |floor| floor[3].shear_y += power(10, -60),
         ];
-        for spoil in spoils {
+        for fault in faults {
             let mut wrong = right.clone();
-            spoil(&mut wrong);
+            fault(&mut wrong);
             assert!(base_supports_everything(&wrong, &solved).is_err());
         }
     }

@@ -24,9 +24,9 @@ fn is_as_enumerated(scene: &Scene, steps: u32, choice: &Choice, tally: &Tally) -
         Choice::Drawn(samples) => drawn(samples, scene.first, steps),
     };
     let expected = scene.counted_of(steps, &stackings)?;
-    let said = |of: &Tally| (counted(of), of.stackings());
+    let contents = |of: &Tally| (counted(of), of.stackings());
     let all = stackings.len().into();
-    same("a tally", &said(tally), &(expected, all))
+    same("a tally", &contents(tally), &(expected, all))
 }
 
 /// The signs of each sample, by the definition.
@@ -72,7 +72,7 @@ fn merge_into(parts: &[Tally], whole: &Tally) -> Checked {
 pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     use cannonpile_disorder::TallyRecord;
 
-    let said = |what: &str| Failure::Refuted(what.to_owned());
+    let refuted = |what: &str| Failure::Refuted(what.to_owned());
     let (scene, steps) = ensemble::scene(u)?;
     let choice = ensemble::choice(u)?;
     let ensemble = scene.ensemble(steps)?;
@@ -86,7 +86,7 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
         Ok::<_, Failure>(text)
     };
     let mut text = written(&one)?;
-    let read = TallyRecord::read(&*text).map_err(|error| said(&error.to_string()))?;
+    let read = TallyRecord::read(&*text).map_err(|error| refuted(&error.to_string()))?;
     same("the value read back", &read, &one)?;
     for _ in 0..u.int_in_range(1..=3)? {
         let place = u.choose_index(text.len())?;
@@ -96,7 +96,7 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     }
     if let Ok(read) = TallyRecord::read(&*text) {
         let again = written(&read)?;
-        let again = TallyRecord::read(&*again).map_err(|error| said(&error.to_string()))?;
+        let again = TallyRecord::read(&*again).map_err(|error| refuted(&error.to_string()))?;
         same("the value read back from a damaged file", &again, &read)?;
         let _ = TallyRecord::merge(&[other.clone(), read.clone()]);
         if let Ok(merged) = TallyRecord::merge(&[read, other]) {

@@ -50,11 +50,11 @@ fn dilation_has_the_supports(
     sign: Sign,
     [i, j]: [i128; 2],
 ) -> Checked {
-    let carries = Direction::ALL.iter().any(|direction| {
+    let is_support = Direction::ALL.iter().any(|direction| {
         let [di, dj] = sign.descent(*direction);
         above.contains(i - di, j - dj)
     });
-    demand(below.contains(i, j) == carries, || {
+    demand(below.contains(i, j) == is_support, || {
         format!("({i}, {j}) below {above}, {sign:?}: {below}")
     })
 }
@@ -66,12 +66,12 @@ fn erosion_has_the_supported(
     sign: Sign,
     [i, j]: [i128; 2],
 ) -> Checked {
-    let stands = Direction::ALL.iter().all(|direction| {
+    let is_supported = Direction::ALL.iter().all(|direction| {
         let [di, dj] = sign.descent(*direction);
         below.contains(i + di, j + dj)
     });
     let kept = above.is_some_and(|above| above.contains(i, j));
-    demand(kept == stands, || {
+    demand(kept == is_supported, || {
         format!("({i}, {j}) above {below}, {sign:?}: {above:?}")
     })
 }

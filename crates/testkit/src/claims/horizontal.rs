@@ -61,8 +61,8 @@ fn agrees_with_the_programs(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked 
     let verdict = cannonpile_horizontal::equilibrium(pile);
     let verdict = verdict.map_err(|error| refused("a verdict", error))?;
     is_proved(&verdict)?;
-    let stands = verdict.claim == Claim::Stands;
-    same("the verdict", &stands, &corner.is_some())?;
+    let is_stable = verdict.claim == Claim::Stands;
+    same("the verdict", &is_stable, &corner.is_some())?;
     let (bounds, elastic) = (
         cannonpile_horizontal::bounds(pile, *bottom),
         cannonpile_horizontal::elastic(pile, stiffness_ratio),

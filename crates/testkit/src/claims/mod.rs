@@ -37,8 +37,7 @@
 //! | `disorder` | the mean over random stackings equals a plain average over all stackings (feature `disorder`) |
 //! | `ensemble` | tallies equal a plain enumeration, and parts merge into the whole (feature `disorder`) |
 //! | `certificates` | an accepted certificate is true, and the Python checker agrees (feature `horizontal`) |
-//! | `horizontal` | answers about piles with horizontal contacts agree with exact programs and have proofs (feature
-//! `horizontal`) |
+//! | `horizontal` | exact programs and proofs confirm the answers about horizontal contacts (feature `horizontal`) |
 //!
 //! `reference` contains the oracle's forces of a described pile.
 

@@ -173,9 +173,9 @@ mod injected_faults {
     /// Checks the verdict on one spacing as if it belonged to another.
     fn judged(verdict_at: &BigRational, spacing_at: &BigRational) -> bool {
         let pile = Pile::triangular(1 << 60).unwrap();
-        let [asked, judged] =
+        let [checked, judged] =
             [verdict_at, spacing_at].map(|square| Spacing::from_square(square.clone()).unwrap());
-        agrees(&pile.clearance().check(&asked), &pile, &judged).is_ok()
+        agrees(&pile.clearance().check(&checked), &pile, &judged).is_ok()
     }
 
     #[test]
@@ -183,12 +183,12 @@ mod injected_faults {
         let trace = power(10, -50);
         for bound in [ratio(1, 1), ratio(8, 3)] {
             let (below, above) = (&bound - &trace, &bound + &trace);
-            for asked in [&below, &bound, &above] {
+            for checked in [&below, &bound, &above] {
                 for spacing in [&below, &bound, &above] {
                     assert_eq!(
-                        judged(asked, spacing),
-                        asked == spacing,
-                        "{asked} {spacing}"
+                        judged(checked, spacing),
+                        checked == spacing,
+                        "{checked} {spacing}"
                     );
                 }
             }

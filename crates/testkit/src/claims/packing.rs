@@ -289,7 +289,7 @@ mod injected_faults {
         let right = || Oracle::new(&packing, &spacing);
         assert!(judge(&right()));
         let trace = power(10, -40);
-        let spoils: [fn(&mut Oracle<'_>, &BigRational); 6] = [
+        let faults: [fn(&mut Oracle<'_>, &BigRational); 6] = [
             |oracle, trace| oracle.lengths[0] += trace,
             |oracle, trace| oracle.forces[0] += trace,
             |oracle, trace| oracle.directions[2][0] += trace,
@@ -297,9 +297,9 @@ mod injected_faults {
             |oracle, trace| oracle.diameter += trace,
             |oracle, trace| oracle.weight += trace,
         ];
-        for spoil in spoils {
+        for fault in faults {
             let mut wrong = right();
-            spoil(&mut wrong, &trace);
+            fault(&mut wrong, &trace);
             assert!(!judge(&wrong));
         }
     }

@@ -84,7 +84,7 @@ pub fn balance_of(described: &Described) -> Balance {
     let sites = within([x0, x1, y0, y1, s0, s1], REACH);
     let signs: String = described.signs.iter().map(ToString::to_string).collect();
     let mut pile = if described.from_base {
-        Balance::on(&sites, &signs).expect("a base that carries its steps")
+        Balance::on(&sites, &signs).expect("a base that supports its steps")
     } else {
         Balance::under(&sites, &signs)
     };

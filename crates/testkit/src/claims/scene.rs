@@ -34,10 +34,10 @@ fn is_as_described(scene: &Scene, pile: &Pile) -> Checked {
         format!("a pile of {layers} layers")
     })?;
     let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
-    let told = scene.layers.or(spelled);
+    let given_layers = scene.layers.or(spelled);
     // A base without a number of layers supports as many layers as possible.
-    if told.is_some() || !matches!(scene.anchor, Some(Anchor::Base(_))) {
-        same("layers", &layers, &told.unwrap_or(Scene::LAYERS))?;
+    if given_layers.is_some() || !matches!(scene.anchor, Some(Anchor::Base(_))) {
+        same("layers", &layers, &given_layers.unwrap_or(Scene::LAYERS))?;
     }
     match scene.anchor {
         Some(Anchor::Top(top)) => same("the top", &pile.shape().layer(0)?, &top)?,

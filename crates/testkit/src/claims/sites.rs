@@ -15,7 +15,7 @@ use crate::generators::{number, pile};
 pub fn anywhere(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = if u.arbitrary()? {
-        beside(u, &pile)?
+        nearby(u, &pile)?
     } else {
         Site {
             i: number::machine_integer(u)?,
@@ -41,8 +41,8 @@ pub fn anywhere(u: &mut Unstructured<'_>) -> Checked {
 pub fn numbered(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
-    let (number, told) = (before(&pile, site), pile.shape().before(site)?);
-    same("the spheres before", &BigInt::from(told), &number)?;
+    let (number, reported) = (before(&pile, site), pile.shape().before(site)?);
+    same("the spheres before", &BigInt::from(reported), &number)?;
     let after = number + BigInt::one();
     match successor(&pile, site) {
         Some(next) => same("the next number", &before(&pile, next), &after),
@@ -62,7 +62,7 @@ fn has_or_refuses(pile: &Pile, site: Site, refusals: &[bool]) -> Checked {
 }
 
 /// A site of the pile, or one up to two steps outside.
-fn beside(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
+fn nearby(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
     let Site { i, j, k } = pile::site(u, pile)?;
     Ok(Site {
         i: i + u.int_in_range(-2..=2)?,
@@ -103,11 +103,11 @@ mod injected_faults {
     fn an_answer_outside_the_pile_is_caught() {
         let pile = Pile::triangular(5).unwrap();
         let inside = Site { i: 1, j: 2, k: 3 };
-        let beside = Site { i: 2, ..inside };
+        let nearby = Site { i: 2, ..inside };
         assert!(has_or_refuses(&pile, inside, &[false, false]).is_ok());
         assert!(has_or_refuses(&pile, inside, &[false, true]).is_err());
-        assert!(has_or_refuses(&pile, beside, &[true, true]).is_ok());
-        assert!(has_or_refuses(&pile, beside, &[true, false]).is_err());
+        assert!(has_or_refuses(&pile, nearby, &[true, true]).is_ok());
+        assert!(has_or_refuses(&pile, nearby, &[true, false]).is_err());
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub fn of_all_forces(u: &mut Unstructured<'_>) -> Checked {
     let solved = Solved::of(&described);
     let pile = described.pile()?;
     let (contacts, floor) = (contacts_of(&solved), floor_of(&solved));
-    stands(&pile.standing()?, &contacts)?;
+    standing_agrees(&pile.standing()?, &contacts)?;
     same(
         "the first failure",
         &pile.first_failure()?,
@@ -76,7 +76,7 @@ fn to_below(
 }
 
 /// The least force is the first of the minima. The first failure is the first layer with a tensile contact.
-fn stands(standing: &Standing, contacts: &Contacts) -> Checked {
+fn standing_agrees(standing: &Standing, contacts: &Contacts) -> Checked {
     let least = contacts.iter().reduce(|least, contact| {
         if contact.force < least.force {
             contact
@@ -145,10 +145,10 @@ mod injected_faults {
         let pile = described.pile().unwrap();
         let (standing, base) = (pile.standing().unwrap(), pile.base_extremes().unwrap());
         let (mut contacts, mut floor) = (contacts_of(&solved), floor_of(&solved));
-        assert!(stands(&standing, &contacts).is_ok());
+        assert!(standing_agrees(&standing, &contacts).is_ok());
         assert!(are_extremes(&base, &floor).is_ok());
         contacts[0].force = ratio(-1, 1);
-        assert!(stands(&standing, &contacts).is_err());
+        assert!(standing_agrees(&standing, &contacts).is_err());
         floor[0].normal += power(10, -60);
         floor[1].shear_y += ratio(9, 1);
         assert!(are_extremes(&base, &floor).is_err());

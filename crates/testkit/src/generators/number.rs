@@ -30,7 +30,7 @@ pub fn quantity(u: &mut Unstructured<'_>) -> Result<BigRational> {
 /// A value to round, c·√r, as c and r ≥ 0.
 ///
 /// It is any two rationals, the midpoint of two floats (a tie), the close neighbourhood of a midpoint (where a lost bit
-/// matters), or the limit to infinity.
+/// matters), or the overflow threshold.
 pub fn root(u: &mut Unstructured<'_>) -> Result<(BigRational, BigRational)> {
     if u.arbitrary()? {
         return Ok((rational(u)?, rational(u)?.abs()));

@@ -2,11 +2,11 @@
 //! other.
 //!
 //! A sphere receives a force from each sphere that it supports, along the line of centres, and its weight and load. It
-//! transmits the sum to its three supports. In lattice coordinates, support m has the horizontal offset σ·o_m, with o_α =
-//! (−1/3, −1/3), o_β = (2/3, −1/3), o_γ = (−1/3, 2/3), and σ = ±1 is the sign of the step. All supports are equally far
-//! down. So three forces f_m with Σ f_m = 3V and Σ σ f_m o_m = H balance a vertical force V and a horizontal one H: f_β = V
-//! + σH_i, f_γ = V + σH_j, and f_α is the rest of 3V. The oracle uses no half-turn, no line and no run. It takes only the
-//! names of sites, signs and directions from the library.
+//! transmits the sum to its three supports. All supports are equally far down. In lattice coordinates, support m has the
+//! horizontal offset σ·o_m, where σ = ±1 is the sign of the step. The offsets are o_α = (−1/3, −1/3), o_β = (2/3, −1/3)
+//! and o_γ = (−1/3, 2/3). Three forces f_m balance a vertical force V and a horizontal force H if Σ f_m = 3V and Σ σ f_m
+//! o_m = H. The solution is f_β = V + σH_i, f_γ = V + σH_j, with the rest of 3V for f_α. The oracle uses no half-turn, no
+//! line and no run. It takes only the names of sites, signs and directions from the library.
 //!
 //! Units: forces in f₀, whose vertical part is mg/3; weights and V in mg.
 

@@ -1,7 +1,7 @@
 //! All stackings, enumerated one by one. Each pile is built sphere by sphere, with the forces on each sphere in balance.
 //!
-//! The oracle uses nothing of the library. A position in the plane counts the horizontal parts of the contacts β and γ of a
-//! + step. A contact α moves by the negative of their sum. A − step reverses all three.
+//! The oracle uses nothing of the library. A position in the plane counts the horizontal parts of the contacts β and γ of
+//! a step with sign +. A contact α moves by the negative of their sum. The sign − reverses all three.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -68,8 +68,9 @@ fn layers(from: &Grown, signs: &[i64]) -> Option<Vec<BTreeSet<Place>>> {
                 let below = layers.last().unwrap();
                 // The contact α of a sphere above lies in the layer below.
                 let above = below.iter().map(|[a, b]| [a + sign, b + sign]);
-                let stands = |at: &Place| contacts(*at, *sign).iter().all(|c| below.contains(c));
-                let above: BTreeSet<_> = above.filter(stands).collect();
+                let is_supported =
+                    |at: &Place| contacts(*at, *sign).iter().all(|c| below.contains(c));
+                let above: BTreeSet<_> = above.filter(is_supported).collect();
                 if above.is_empty() {
                     return None;
                 }

@@ -104,8 +104,8 @@ pub fn agree(allowed_gaps: Option<&BTreeSet<i128>>, answer: &Result<Vec<LayerGap
     match (allowed_gaps, answer) {
         (None, Err(_)) => true,
         (Some(touching), Ok(apart)) => {
-            let told = apart.iter().map(|apart| i128::from(apart.layers));
-            told.eq(touching.iter().copied())
+            let gaps = apart.iter().map(|apart| i128::from(apart.layers));
+            gaps.eq(touching.iter().copied())
         }
         _ => false,
     }

@@ -44,8 +44,8 @@ impl<F: Library> Attempts<F> {
             let failing = tried.filter(|(_, proof)| !proof.holds());
             let failing: Vec<_> = failing.map(|(theorem, _)| theorem.name).collect();
             let is_here = |name: &&str| self.theorems.iter().any(|theorem| theorem.name == *name);
-            let said: Vec<_> = fault.refused_by.iter().copied().filter(is_here).collect();
-            if failing != said || fault.refused_by.is_empty() {
+            let expected: Vec<_> = fault.refused_by.iter().copied().filter(is_here).collect();
+            if failing != expected || fault.refused_by.is_empty() {
                 otherwise.push(format!("{} ({}): {failing:?}", fault.what, fault.field));
             }
         }
@@ -73,15 +73,15 @@ impl<F: Library> Attempts<F> {
             let failing = steps.filter(|(_, step)| !step.holds());
             refused.extend(failing.map(|(n, _)| (theorem.name, n)));
         }
-        let mut idle = Vec::new();
+        let mut redundant = Vec::new();
         for theorem in &self.theorems {
             for (n, step) in theorem.prove().steps.iter().enumerate() {
                 if !refused.contains(&(theorem.name, n)) {
-                    idle.push(format!("{}: {}", theorem.name, step.claim));
+                    redundant.push(format!("{}: {}", theorem.name, step.claim));
                 }
             }
         }
-        assert!(idle.is_empty(), "{}", idle.join("\n"));
+        assert!(redundant.is_empty(), "{}", redundant.join("\n"));
     }
 
     /// Panics unless a printed proof reports its failures.

@@ -26,11 +26,11 @@ pub fn critical_roots(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
         if random.once_in(2) {
-            beside_by_radicand::<f64>(random, &mut tally);
-            beside_by_coefficient::<f64>(random, &mut tally);
+            near_ties_by_radicand::<f64>(random, &mut tally);
+            near_ties_by_coefficient::<f64>(random, &mut tally);
         } else {
-            beside_by_radicand::<f32>(random, &mut tally);
-            beside_by_coefficient::<f32>(random, &mut tally);
+            near_ties_by_radicand::<f32>(random, &mut tally);
+            near_ties_by_coefficient::<f32>(random, &mut tally);
         }
     }
     tally
@@ -38,7 +38,7 @@ pub fn critical_roots(random: &mut Random, cases: u64) -> Tally {
 
 /// Uses √(M²(1 ± δ)) and integers next to the square of 2^p + 1, at several scales. A power of two changes ties only among
 /// subnormals.
-fn beside_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
+fn near_ties_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
     let place = random.critical::<F>();
     let off = random.tiny() * sign(random);
     let square = &place * &place;
@@ -58,7 +58,7 @@ fn beside_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
 }
 
 /// Uses c·√r for a simple r. The value lies close to a critical value, or on it if the root is rational.
-fn beside_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
+fn near_ties_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
     let squares = random.of(&[1, 4, 9, 49]);
     let plain = [random.within(1..1000), squares, squares];
     let radicand = BigRational::new(random.of(&plain).into(), random.of(&[1, 4, 25]).into());

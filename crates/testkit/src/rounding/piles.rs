@@ -181,7 +181,7 @@ pub fn spacing(pile: &Pile, random: &mut Random) -> Spacing {
     let between = spacing(between);
     spacing(q)
         .or(between)
-        .expect("between the bounds there is room")
+        .expect("a spacing between the bounds")
 }
 
 /// The base unit of a quantity.

@@ -35,8 +35,11 @@ impl Deep {
             .pile
             .forces::<BigRational>()
             .layers(Selection::Layer(k))
-            .expect("room");
-        let layer = layers.next_layer().expect("room").expect("a layer");
+            .expect("a sweep within its limit");
+        let layer = layers
+            .next_layer()
+            .expect("a sweep within its limit")
+            .expect("a layer");
         let sites = case.pile.rows(Selection::Layer(k)).expect("a layer");
         let sample: Sample = sites
             .flatten()
@@ -99,7 +102,7 @@ fn lowest_contacts<T: Algebra>(pile: &Pile) -> [Vec<T>; 3] {
     let layers = pile
         .forces::<T>()
         .layers(Selection::Layer(k))
-        .expect("room");
+        .expect("a sweep within its limit");
     let nothing = T::from_rational(&BigRational::default());
     let mut forces = [(); 3].map(|()| vec![nothing.clone(); layers.slice_len().expect("few")]);
     layers

@@ -8,7 +8,7 @@ use super::{Verdict, same};
 use crate::answers::{Answers, Shape, ratio};
 
 /// The base supports the weight of the pile and no horizontal force.
-pub fn base_carries_the_weight(pile: &Answers) -> Verdict {
+pub fn base_supports_the_weight(pile: &Answers) -> Verdict {
     let sum = pile.floor.values().fold(Vector::zero(), |sum, f| sum + f);
     let weight = whole(pile.spheres.len());
     let total = Vector {

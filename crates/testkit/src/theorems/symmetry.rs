@@ -42,7 +42,7 @@ impl Symmetry {
     }
 
     /// Returns the counts of spheres above the image of a site, from the counts above the site, in any scalar.
-    pub fn permute<T: Clone>(self, above: &[T; 3]) -> [T; 3] {
+    fn permute<T: Clone>(self, above: &[T; 3]) -> [T; 3] {
         self.0.map(|direction| above[direction.index()].clone())
     }
 

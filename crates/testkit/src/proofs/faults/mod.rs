@@ -3,8 +3,8 @@
 mod counts;
 mod floor;
 mod forces;
+mod horizontal;
 mod places;
-mod pushes;
 
 use core::num::NonZeroI64;
 
@@ -53,7 +53,7 @@ pub fn of_the_core() -> Vec<Fault> {
         places::faults(),
         forces::faults(),
         floor::faults(),
-        pushes::faults(),
+        horizontal::faults(),
     ]
     .into_iter()
     .flatten()
