@@ -31,12 +31,12 @@ fn agree_on(sides: RangeInclusive<i128>, step: usize) {
 }
 
 #[test]
-fn every_stacking_on_triangles_and_hexagons_with_sides_up_to_5() {
+fn every_stacking_on_bases_with_sides_up_to_5() {
     agree_on(1..=5, 1);
 }
 
 #[test]
-fn every_stacking_on_triangles_and_hexagons_with_a_side_of_6() {
+fn every_stacking_on_bases_with_a_side_of_6() {
     // All of them in release. Only every seventh in debug, where checked arithmetic is slow.
     agree_on(6..=6, if cfg!(debug_assertions) { 7 } else { 1 });
 }

@@ -20,7 +20,7 @@ fn contacts(
 }
 
 #[test]
-fn one_sphere_has_its_three_contacts_or_its_force_on_the_floor() {
+fn one_sphere_has_three_contacts_or_a_force_on_the_floor() {
     let pile = Pile::under(Region::SITE, stacking("+-+-+-")).unwrap();
     let forces: Forces<BigRational> = pile.forces();
     for site in pile.shape().sites() {

@@ -36,7 +36,7 @@ fn no_line_begins_at_a_change_of_sign() {
 }
 
 #[test]
-fn a_light_sphere_at_a_surface_inside_a_run_has_the_least_force() {
+fn a_light_sphere_at_a_surface_has_the_least_force() {
     let case = Case::under(&Bounds::SITE, "+++").with_weight((1, 0, 1), &ratio(1, 7));
     let light = Site { i: 1, j: 0, k: 1 };
     assert_eq!(least(&case), (light, Direction::Alpha, ratio(1, 7)));
@@ -143,7 +143,7 @@ fn a_light_bottom_sphere_does_not_hide_others() {
 
 /// The ratios have units of 2cosφ, which are irrational here.
 #[test]
-fn the_greatest_ratio_of_an_isosceles_pile_is_one_of_its_base() {
+fn the_greatest_ratio_of_an_isosceles_pile_is_found() {
     for s in [ratio(1, 3), ratio(4, 5), ratio(5, 7)] {
         let pile = Pile::isosceles(5, s.clone()).unwrap();
         let across = ratio(4, 1) * (ratio(1, 1) - &s * &s);
