@@ -71,8 +71,8 @@ fn mutants_list_rejecting_theorems() {
     let names: Vec<_> = cannonpile_proof::all().map(|found| found.name).collect();
     for fault in proofs::of_the_core() {
         let place = |name: &&str| names.iter().position(|listed| listed == name);
-        let places: Option<Vec<_>> = fault.refused_by.iter().map(place).collect();
-        let places = places.unwrap_or_else(|| panic!("{}: {:?}", fault.what, fault.refused_by));
+        let places: Option<Vec<_>> = fault.refuted_by.iter().map(place).collect();
+        let places = places.unwrap_or_else(|| panic!("{}: {:?}", fault.what, fault.refuted_by));
         assert!(places.is_sorted_by(|a, b| a < b), "{}", fault.what);
     }
 }

@@ -44,8 +44,8 @@ impl<F: Library> Attempts<F> {
             let failing = tried.filter(|(_, proof)| !proof.holds());
             let failing: Vec<_> = failing.map(|(theorem, _)| theorem.name).collect();
             let is_here = |name: &&str| self.theorems.iter().any(|theorem| theorem.name == *name);
-            let expected: Vec<_> = fault.refused_by.iter().copied().filter(is_here).collect();
-            if failing != expected || fault.refused_by.is_empty() {
+            let expected: Vec<_> = fault.refuted_by.iter().copied().filter(is_here).collect();
+            if failing != expected || fault.refuted_by.is_empty() {
                 otherwise.push(format!("{} ({}): {failing:?}", fault.what, fault.field));
             }
         }
@@ -55,7 +55,7 @@ impl<F: Library> Attempts<F> {
     /// Panics unless some fault refutes each theorem. The first one in the list must fail in a step.
     pub fn every_theorem_has_a_fault(&self) {
         for theorem in &self.theorems {
-            let refuses = |fault: &&Fault<F>| fault.refused_by.contains(&theorem.name);
+            let refuses = |fault: &&Fault<F>| fault.refuted_by.contains(&theorem.name);
             let fault = self.attempts.iter().map(|(fault, _)| fault).find(refuses);
             let fault = fault.unwrap_or_else(|| panic!("no fault for {}", theorem.name));
             let proof = theorem.prove_for(&fault.formulas);

@@ -20,7 +20,7 @@ pub(super) fn all() -> impl Iterator<Item = Fault<Formulas>> {
             core: fault.formulas,
             ..RIGHT
         },
-        refused_by: fault.refused_by,
+        refuted_by: fault.refuted_by,
     };
     let of_the_core = proofs::of_the_core().into_iter().map(lifted);
     of_the_core.chain(own())

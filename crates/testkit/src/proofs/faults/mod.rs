@@ -23,7 +23,7 @@ pub struct Fault<F: 'static = Formulas> {
     /// All formulas, the wrong one included.
     pub formulas: F,
     /// The theorems of all crates that fail, in the order of the list of theorems.
-    pub refused_by: &'static [&'static str],
+    pub refuted_by: &'static [&'static str],
 }
 
 const RIGHT: Formulas = Formulas::LIBRARY;
@@ -38,7 +38,7 @@ macro_rules! faults {
             what: $what,
             field: stringify!($field),
             formulas: Formulas { $field: $wrong, ..RIGHT },
-            refused_by: &[$($theorem),+],
+            refuted_by: &[$($theorem),+],
         }),*]
     };
 }
