@@ -353,7 +353,6 @@ mod tests {
             plane.exact(&half).unwrap_err(),
             loaded.mean(&0.5).unwrap_err(),
             heavy.mean_square(&0.5).unwrap_err(),
-            heavy.pair_moments(&0.5).unwrap_err(),
         ] {
             blames(Culprit::Key(Key::Weightless), error);
         }
@@ -378,7 +377,6 @@ mod tests {
             high.mean(&0.5).unwrap_err(),
             high.exact(&ratio(1, 3)).unwrap_err(),
             high.by_faults().unwrap_err(),
-            plane(60).pair_moments(&0.5).unwrap_err(),
             plane(5000).mean_square(&0.5).unwrap_err(),
         ] {
             blames(Culprit::Key(Key::Layers), error);

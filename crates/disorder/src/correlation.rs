@@ -1,13 +1,14 @@
-//! How much the loads of a layer scatter: the mean of the sum of their squares.
+//! The mean sum of squared loads of one layer.
 //!
-//! Let C_σ(δ) = E Σ_x f(x) f(x+δ)ᵀ, over all beginnings whose next sign is σ, with δ the difference of two sites of a layer.
-//! A step leads the first force along one contact and the second along another, so that δ changes by the difference of the
-//! two, and across the layer both go on alike:
+//! Let C_σ(δ) = E Σ_x f(x) f(x+δ)ᵀ be the autocorrelation of the contact forces f of a layer. The mean is over all
+//! stackings whose next sign is σ, and δ is the difference of two sites of the layer. One step moves the first force along
+//! its contact l and the second along its contact m. So δ changes by the difference of both. Both forces then cross the
+//! layer in the same way:
 //!
 //! C_σ ← (1 − q) C'_σ + q G C'_(−σ) G, with C'_σ(δ)_lm = C_σ(δ + σd_l − σd_m)_lm,
 //!
-//! where d_α = (0,0), d_β = (1,0), d_γ = (0,1). It is closed in itself: nothing is asked of single places. For the sum of squares
-//! in the end only C(0) is needed, so that n steps before it |δ| ≤ n is enough.
+//! where d_α = (0,0), d_β = (1,0), d_γ = (0,1). This recursion is closed: it needs no forces at single sites. The sum of
+//! squares is C(0) in the last layer, so a layer n steps above it needs |δ| ≤ n only.
 
 use cannonpile::formula;
 use cannonpile::lattice::{Direction, Sign};
@@ -15,36 +16,38 @@ use cannonpile::scalar::Algebra;
 use num_bigint::BigUint;
 
 use super::grid::{Grid, Size};
-use super::number::{Number, add};
+use super::nets::SIGNS;
+use super::number::add;
 use super::piles::RandomPiles;
-use super::walk::SIGNS;
 use crate::Error;
 use crate::THREE;
 use crate::error::bug;
 
-/// How the difference of two sites (i, j) moves with the second of them: by (i, −j), of which the cells next to one are those
-/// that a step leads to.
-fn of_differences(sign: Sign) -> [[isize; 2]; 3] {
-    let step = match sign {
-        Sign::Plus => 1,
-        Sign::Minus => -1,
-    };
+/// Returns the shifts of a difference (i, j), stored in the cell (i, −j). With this choice the cells around a cell are
+/// exactly the ones that a step reaches.
+fn difference_shifts(sign: Sign) -> [[isize; 2]; 3] {
+    let step = if sign == Sign::Plus { 1 } else { -1 };
     [[0, 0], [step, 0], [0, -step]]
 }
 
-/// The correlations of one next sign: a plane of cells for each pair of directions.
-type Planes<T> = [[Vec<T>; 3]; 3];
+/// The products of two forces, by the directions of their contacts.
+type Matrix<T> = [[T; 3]; 3];
+
+/// The correlations before a step, by the sign of the step and the cell. `None` stands for zero everywhere.
+type Layer<T> = [Option<Vec<Matrix<T>>>; 2];
 
 impl RandomPiles {
-    /// Returns the mean over all stackings of Σ N², with N the normal forces on the floor of one layer, in mg²: of the
-    /// response to loads.
+    /// Returns the mean over all stackings of Σ N², in mg², for the response to loads. N are the normal forces on the
+    /// floor of one layer.
     ///
-    /// Takes about 100 n³ operations for a single load. With the squares of the [mean](Self::mean) it says how much of one
-    /// stacking is in the mean: sphere by sphere, little.
+    /// The sum of squares of the [mean](Self::mean) divided by this value is the share of the mean in one stacking. It is
+    /// small: no single stacking is close to the mean, sphere by sphere. The cost is about 100 n³ operations for a single
+    /// load, with n the number of steps.
     ///
     /// # Errors
-    /// [`Error::OnlyOfLoads`] unless the spheres weigh nothing and there is a load; [`TooLarge`](cannonpile::Error::TooLarge); [`Overflow`](cannonpile::Error::Overflow) of a
-    /// scalar.
+    /// * [`Error::OnlyOfLoads`] unless the spheres are weightless and there is a load.
+    /// * [`TooLarge`](cannonpile::Error::TooLarge) if the correlations do not fit in memory.
+    /// * [`Overflow`](cannonpile::Error::Overflow) of the scalar.
     ///
     /// # Examples
     /// ```
@@ -65,168 +68,129 @@ impl RandomPiles {
         self.check_response(QUANTITY)?;
         let steps = self.stackings.steps();
         if steps == 0 {
-            let squares = self
-                .loads()
-                .values()
-                .map(|load| T::from_rational(&(load * load)));
+            let squares = self.loads().values();
+            let squares = squares.map(|load| T::from_rational(&(load * load)));
             return super::mean::defined(squares.fold(T::zero(), |sum, square| sum + &square));
         }
-        // A single cell at first, and as far around it as a step leads.
+        // The first window is the cell of δ = 0, and each further window adds one step around it.
         let size = Size::new([0, 0], [0, 0], 1, steps);
         size.check(QUANTITY, &BigUint::from(36_u32), 1)?;
-        let grid = Grid::new(&size, &vec![(0, 0..1)], of_differences)?;
+        let grid = Grid::new(&size, &vec![(0, 0..1)], difference_shifts)?;
         let correlation = Correlation {
             grid,
             same: T::one() - q,
             change: q.clone().div_int(THREE).div_int(THREE),
         };
         let steps = usize::try_from(steps).map_err(|_| bug("the size was checked"))?;
-        let mut layer = correlation.start(self)?;
+        let mut layer = correlation.start(self);
         for k in 1..=steps {
-            layer = correlation.step(&layer, k < steps, steps - k)?;
+            layer = correlation.step(&layer, k == steps, steps - k)?;
         }
         let origin = correlation.grid.cell([0, 0]);
         let mut sum = T::zero();
-        for plane in layer.iter().flatten().flatten().flatten() {
-            let at = origin.and_then(|at| plane.get(at));
-            add(&mut sum, at.ok_or_else(|| bug("the origin is a cell"))?);
+        for cells in layer.iter().flatten() {
+            let matrix = origin.and_then(|origin| cells.get(origin));
+            let matrix = matrix.ok_or_else(|| bug("the origin is a cell"))?;
+            matrix
+                .iter()
+                .flatten()
+                .for_each(|product| add(&mut sum, product));
         }
-        // Normals are a third of the sum of three lines.
+        // A normal force is a third of the sum of three contact forces.
         super::mean::defined(sum.div_int(THREE).div_int(THREE).div_int(self.firsts()))
     }
 }
 
-/// Correlations over differences of sites.
+/// The recursion of the correlations.
 struct Correlation<T> {
     grid: Grid,
+    /// 1 − q, the factor of C'.
     same: T,
-    /// Of 9 G C G.
+    /// q/9, the factor of 9 G C' G.
     change: T,
 }
 
 impl<T: Algebra> Correlation<T> {
-    fn planes(&self) -> Planes<T> {
-        let plane = || vec![T::zero(); self.grid.cells()];
-        [(); 3].map(|()| [(); 3].map(|()| plane()))
+    fn zeros(&self) -> Vec<Matrix<T>> {
+        vec![zero(); self.grid.cells()]
     }
 
-    /// The loads of the top layer: the same on each line.
-    fn start(&self, piles: &RandomPiles) -> Result<[Option<Planes<T>>; 2], Error> {
-        let loads = piles.loads();
-        let mut differences = Vec::new();
-        for ([i, j], first) in loads {
-            for ([x, y], second) in loads {
-                if let Some(cell) = self.grid.cell([x - i, j - y]) {
-                    differences.push((cell, T::from_rational(&(first * second))));
+    /// Returns the correlations of the loads. A load adds the same force to all three contacts of its sphere.
+    fn start(&self, piles: &RandomPiles) -> Layer<T> {
+        let mut cells = self.zeros();
+        for ([i, j], first) in piles.loads() {
+            for ([x, y], second) in piles.loads() {
+                // Loads that are further apart never reach the same sphere.
+                let cell = self.grid.cell([x - i, j - y]);
+                let matrix = cell.and_then(|cell| cells.get_mut(cell));
+                let product = T::from_rational(&(first * second));
+                for sum in matrix.into_iter().flatten().flatten() {
+                    add(sum, &product);
                 }
             }
         }
         let first = piles.stackings.first().signs();
-        let mut begun = [None, None];
-        for (sign, planes) in SIGNS.iter().zip(&mut begun) {
-            if !first.contains(sign) {
-                continue;
-            }
-            let mut made = self.planes();
-            for plane in made.iter_mut().flatten() {
-                for (cell, product) in &differences {
-                    let at = plane.get_mut(*cell);
-                    add(
-                        at.ok_or_else(|| bug("a cell is within its plane"))?,
-                        product,
-                    );
-                }
-            }
-            *planes = Some(made);
-        }
-        Ok(begun)
+        SIGNS.map(|sign| first.contains(&sign).then(|| cells.clone()))
     }
 
-    /// One step, and the choice of the next sign if there is one, of what is within `reach`.
-    fn step(
-        &self,
-        from: &[Option<Planes<T>>; 2],
-        goes_on: bool,
-        reach: usize,
-    ) -> Result<[Option<Planes<T>>; 2], Error> {
-        let [plus, minus] = from;
-        let moved = [
-            plus.as_ref().map(|planes| (Sign::Plus, planes)),
-            minus.as_ref().map(|planes| (Sign::Minus, planes)),
-        ];
+    /// Returns the correlations one step further down, for the differences within `reach`. The last step has no next sign.
+    fn step(&self, from: &Layer<T>, is_last: bool, reach: usize) -> Result<Layer<T>, Error> {
         let mut to = [None, None];
         for (at, to) in to.iter_mut().enumerate() {
-            let (straight, turned) = (moved[at], moved[1 - at].filter(|_| goes_on));
+            let straight = from[at].as_ref();
+            let turned = from[1 - at].as_ref().filter(|_| !is_last);
             if straight.is_none() && turned.is_none() {
                 continue;
             }
-            let mut planes = self.planes();
-            for cells in self.grid.window(reach)? {
-                for cell in cells {
-                    let sum = self.combined(cell, straight, turned, goes_on)?;
-                    for (plane, sum) in planes.iter_mut().flatten().zip(sum.into_iter().flatten()) {
-                        let at = plane.get_mut(cell);
-                        *at.ok_or_else(|| bug("a cell is within its plane"))? = sum;
+            let mut cells = self.zeros();
+            for cell in self.grid.window(reach)?.flatten() {
+                let mut sum = zero();
+                if let Some(from) = straight {
+                    sum = self.moved(cell, SIGNS[at], from)?;
+                    if !is_last {
+                        sum = sum.map(|row| row.map(|product| product * &self.same));
                     }
                 }
+                if let Some(from) = turned {
+                    let turned = tripled_both(&self.moved(cell, SIGNS[1 - at], from)?);
+                    for (sum, turned) in sum.iter_mut().flatten().zip(turned.into_iter().flatten())
+                    {
+                        add(sum, &(turned * &self.change));
+                    }
+                }
+                *cells.get_mut(cell).ok_or_else(|| bug(CELL))? = sum;
             }
-            *to = Some(planes);
+            *to = Some(cells);
         }
         Ok(to)
     }
 
-    fn combined(
-        &self,
-        cell: usize,
-        straight: Option<(Sign, &Planes<T>)>,
-        turned: Option<(Sign, &Planes<T>)>,
-        goes_on: bool,
-    ) -> Result<[[T; 3]; 3], Error> {
-        let mut sum = [(); 3].map(|()| [(); 3].map(|()| T::zero()));
-        if let Some((sign, planes)) = straight {
-            let moved = self.moved(cell, sign, planes)?;
-            for (sum, moved) in sum.iter_mut().flatten().zip(moved.into_iter().flatten()) {
-                *sum = if goes_on { moved * &self.same } else { moved };
-            }
-        }
-        if let Some((sign, planes)) = turned {
-            let turned = tripled_both(&self.moved(cell, sign, planes)?);
-            for (sum, turned) in sum.iter_mut().flatten().zip(turned.into_iter().flatten()) {
-                add(sum, &(turned * &self.change));
-            }
-        }
-        Ok(sum)
-    }
-
-    /// What comes to a difference of sites: C(δ + σd_l − σd_m)_lm.
-    fn moved(&self, cell: usize, sign: Sign, planes: &Planes<T>) -> Result<[[T; 3]; 3], Error> {
-        let mut moved = [(); 3].map(|()| [(); 3].map(|()| T::zero()));
-        for (l, (rows, to)) in Direction::ALL
-            .into_iter()
-            .zip(planes.iter().zip(&mut moved))
-        {
-            for (m, (plane, to)) in Direction::ALL.into_iter().zip(rows.iter().zip(to)) {
-                // Back along the second contact, and on along the first.
+    /// Returns C'(δ) for the difference δ of a cell.
+    fn moved(&self, cell: usize, sign: Sign, from: &[Matrix<T>]) -> Result<Matrix<T>, Error> {
+        let mut moved: Matrix<T> = zero();
+        for l in Direction::ALL {
+            for m in Direction::ALL {
+                // Back along the contact m, and forward along the contact l.
                 let cells = self.grid.above(&(cell..cell + 1), sign, m)?;
                 let cells = self.grid.above(&cells, -sign, l)?;
-                let from = plane.get(cells.start);
-                to.clone_from(from.ok_or_else(|| bug("a cell is within its plane"))?);
+                let matrix = from.get(cells.start).ok_or_else(|| bug(CELL))?;
+                moved[l.index()][m.index()].clone_from(&matrix[l.index()][m.index()]);
             }
         }
         Ok(moved)
     }
 }
 
-/// Returns 9 G C G.
-pub(super) fn tripled_both<T: Number>(c: &[[T; 3]; 3]) -> [[T; 3]; 3] {
-    transposed(
-        transposed(c.each_ref().map(formula::tripled_half_turn))
-            .each_ref()
-            .map(formula::tripled_half_turn),
-    )
+const CELL: &str = "a cell is within its plane";
+
+fn zero<T: Algebra>() -> Matrix<T> {
+    [(); 3].map(|()| [(); 3].map(|()| T::zero()))
 }
 
-fn transposed<T>(rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
-    let [[aa, ab, ac], [ba, bb, bc], [ca, cb, cc]] = rows;
-    [[aa, ba, ca], [ab, bb, cb], [ac, bc, cc]]
+/// Returns 9 G C G.
+fn tripled_both<T: Algebra>(c: &Matrix<T>) -> Matrix<T> {
+    let rows = c.each_ref().map(formula::tripled_half_turn);
+    let columns =
+        [0, 1, 2].map(|m| formula::tripled_half_turn(&rows.each_ref().map(|row| row[m].clone())));
+    [0, 1, 2].map(|l| columns.each_ref().map(|column| column[l].clone()))
 }

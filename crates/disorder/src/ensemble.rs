@@ -31,19 +31,19 @@
 
 mod binned;
 mod choice;
+mod continuations;
 mod count;
 mod distribution;
 mod draw;
 mod layer;
 mod merge;
 mod order;
-mod part;
 mod record;
 mod run;
 mod setup;
 mod sums;
-mod survivors;
 mod tally;
+mod verdicts;
 mod walk;
 mod wilson;
 mod written;
@@ -61,7 +61,7 @@ use num_traits::{One, Signed, Zero};
 
 use run::Run;
 use setup::Task;
-use survivors::Judge;
+use verdicts::Judge;
 
 use crate::Error;
 use crate::RandomStackings;
@@ -85,7 +85,8 @@ use cannonpile::stacking::Stacking;
 /// assert_eq!((least.stacking.to_string(), least.force.to_string()), ("+-+-".into(), "-2/27".into()));
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "written::EnsembleParts", into = "written::EnsembleParts")]
 pub struct Ensemble {
     /// The top layer, as a pile of its own.
     top: Pile,

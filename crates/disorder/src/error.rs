@@ -102,66 +102,43 @@ impl StdError for Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Core(error) => error.fmt(f),
-            error => f.write_str(&engine::shortened(&Whole(error).to_string())),
-        }
-    }
-}
-
-/// An error of this crate's own, with all digits of its numbers.
-struct Whole<'e>(&'e Error);
-
-impl fmt::Display for Whole<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Error::Core(error) => error.fmt(f),
-            Error::TooManyStackings { stackings, limit } => write!(
-                f,
+        let message = match self {
+            Self::Core(error) => return error.fmt(f),
+            Self::TooManyStackings { stackings, limit } => format!(
                 "{stackings} stackings are too many to go through at a time, at most {limit}: draw samples, take a \
                  smaller shard, or fewer layers"
             ),
-            Error::FaultProbability { given } => write!(
-                f,
-                "the fault probability must be at least 0 and at most 1, not {given}"
-            ),
-            Error::PlaceOfLoad { site, on_base } => write!(
-                f,
-                "the sphere (i,j,k) = {site} is not at one place in every stacking: {}",
-                if *on_base {
+            Self::FaultProbability { given } => {
+                format!("the fault probability must be at least 0 and at most 1, not {given}")
+            }
+            Self::PlaceOfLoad { site, on_base } => {
+                let remedy = if *on_base {
                     "leave loads out, or let the stackings hang from a top layer"
                 } else {
                     "put loads on the top layer, k = 0"
-                }
-            ),
-            Error::OnlyOfLoads {
-                quantity,
-                weightless,
-            } => write!(
-                f,
-                "{quantity} is that of loads on spheres that weigh nothing: {}",
-                if *weightless {
+                };
+                format!("the sphere (i,j,k) = {site} is not at one place in every stacking: {remedy}")
+            }
+            Self::OnlyOfLoads { quantity, weightless } => {
+                let remedy = if *weightless {
                     "put a load on one of the top layer"
                 } else {
                     "make them weightless, and put a load on one of the top layer"
-                }
-            ),
-            Error::NoStacking {
-                layers,
-                greatest,
-                base,
-            } => write!(
-                f,
-                "no stacking has {layers} layers on the base {base}: the highest has {greatest}"
-            ),
-            Error::Weightless => f.write_str(
-                "bounds are those of a pile that weighs something: give the spheres their weight",
-            ),
-            Error::NoJudge => f.write_str(
+                };
+                format!("{quantity} is that of loads on spheres that weigh nothing: {remedy}")
+            }
+            Self::NoStacking { layers, greatest, base } => {
+                format!("no stacking has {layers} layers on the base {base}: the highest has {greatest}")
+            }
+            Self::Weightless => {
+                "bounds are those of a pile that weighs something: give the spheres their weight".to_owned()
+            }
+            Self::NoJudge => {
                 "this ensemble counts stackings that stand with horizontal contacts, but has no judge of them: \
-                 call Ensemble::run_judged",
-            ),
-        }
+                 call Ensemble::run_judged".to_owned()
+            }
+        };
+        f.write_str(&engine::shortened(&message))
     }
 }
 

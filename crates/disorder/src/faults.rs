@@ -4,16 +4,15 @@ use cannonpile::scalar::{Numerators, Polynomial, Symbol};
 use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
 use num_rational::BigRational;
-use num_traits::{One, Zero, pow};
+use num_traits::{Zero, pow};
 
+use super::domain::Domain;
 use super::floor::FLOOR_UNIT;
-use super::frame::{Frame, Load};
 use super::mean::{Mean, MeanForce};
-use super::number::{All, Number};
 use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::check_fault_probability;
-use super::transfer::{Spot, Transfer};
+use super::transfer::{Spot, run_in_integers};
 use super::width::{Width, bits_of_counts, bits_of_sources};
 use crate::Error;
 use crate::error::bug;
@@ -73,34 +72,13 @@ pub struct FaultForce {
 /// ```
 #[derive(Clone, Debug)]
 pub struct ByFaults {
-    /// In order of b, then a, each with its place in the sums.
-    places: Vec<(Place, usize)>,
-    /// How many numbers of faults there are: n − 1 and one, or one.
-    classes: usize,
-    sums: Sums,
-    /// Of the loads.
+    /// In order of places. The sums with d faults are over 3^d and the denominator of the loads.
+    spots: Vec<Spot<BigInt>>,
+    most_faults: usize,
+    /// The common denominator of the loads.
     denominator: BigInt,
-    /// The signs that the first step can have.
+    /// The number of signs that the first step can have.
     firsts: BigInt,
-}
-
-/// By place and number d of faults: 3^d times the number of stackings, and six times 3^d times the sums of normal, shear_x
-/// and shear_y, over the denominator of the loads.
-#[derive(Clone, Debug)]
-enum Sums {
-    Narrow(Vec<[i64; 4]>),
-    Wide(Vec<[i128; 4]>),
-    Big(Vec<[BigInt; 4]>),
-}
-
-impl Sums {
-    fn get(&self, at: usize) -> Option<[BigInt; 4]> {
-        Some(match self {
-            Self::Narrow(sums) => sums.get(at)?.map(BigInt::from),
-            Self::Wide(sums) => sums.get(at)?.map(BigInt::from),
-            Self::Big(sums) => sums.get(at)?.clone(),
-        })
-    }
 }
 
 impl RandomPiles {
@@ -126,70 +104,20 @@ impl RandomPiles {
     pub fn by_faults(&self) -> Result<ByFaults, Error> {
         let denominator = self.denominator();
         let growth = bits_of_counts(self.stackings.steps());
-        let rough = Load {
-            classes: self.stackings.most_faults().unsigned_abs() + 1,
-            words: Width::of(growth).words(growth),
-        };
-        let frame = Frame::new(self, rough)?;
-        let bits = growth + bits_of_sources(&frame, &denominator)?;
+        let most_faults = self.stackings.most_faults();
+        let classes = most_faults.unsigned_abs() + 1;
+        let domain = Domain::new(self, classes, Width::of(growth).words(growth))?;
+        let bits = growth + bits_of_sources(&domain, &denominator)?;
+        let most_faults = usize::try_from(most_faults).map_err(|_| bug("the size was checked"))?;
         let width = Width::of(bits);
-        let cells = frame.bottom()?.into_iter().enumerate();
-        let places = cells.map(|(at, cell)| Ok((frame.place(cell)?, at)));
-        let mut places = places.collect::<Result<Vec<_>, Error>>()?;
-        places.sort_unstable();
-        let question = Question {
-            frame: &frame,
-            denominator: &denominator,
-            classes: usize::try_from(rough.classes).map_err(|_| bug("the size was checked"))?,
-        };
-        let sums = match width {
-            Width::Narrow => Sums::Narrow(question.sums(|n| i64::try_from(n).ok())?),
-            Width::Wide => Sums::Wide(question.sums(|n| i128::try_from(n).ok())?),
-            Width::Big => Sums::Big(question.sums(|n| Some(n.clone()))?),
-        };
+        let mut spots = run_in_integers(width, &domain, most_faults + 1, &denominator, None)?;
+        spots.sort_by_key(|spot| spot.place);
         Ok(ByFaults {
-            places,
-            classes: question.classes,
-            sums,
+            spots,
+            most_faults,
             firsts: self.firsts().get().into(),
             denominator,
         })
-    }
-}
-
-/// A question by faults.
-struct Question<'f> {
-    frame: &'f Frame<'f>,
-    denominator: &'f BigInt,
-    classes: usize,
-}
-
-impl Question<'_> {
-    fn sums<T: Number>(&self, number: impl Fn(&BigInt) -> Option<T>) -> Result<Vec<[T; 4]>, Error> {
-        let piles = self.frame.piles;
-        let over = |x: &BigRational| {
-            let numerator = number(&(x.numer() * (self.denominator / x.denom())));
-            numerator.ok_or_else(|| bug("the bound is that of all numbers"))
-        };
-        let loads = piles
-            .loads()
-            .iter()
-            .map(|(site, load)| Ok((*site, over(load)?)));
-        let transfer = Transfer {
-            frame: self.frame,
-            classes: self.classes,
-            same: All,
-            change: All,
-            weight: over(&piles.weight())?,
-            loads: loads.collect::<Result<_, Error>>()?,
-        };
-        let classes = transfer
-            .run()?
-            .into_iter()
-            .flat_map(|Spot { classes, .. }| classes);
-        let sums = classes
-            .map(|(stackings, floor)| [stackings, floor.normal, floor.shear_x, floor.shear_y]);
-        Ok(sums.collect())
     }
 }
 
@@ -207,7 +135,7 @@ impl ByFaults {
     /// ```
     #[must_use]
     pub fn most_faults(&self) -> usize {
-        self.classes - 1
+        self.most_faults
     }
 
     /// Returns the common denominator of the normal forces, summed over stackings with this many faults: 3^(d+1), times that
@@ -243,42 +171,36 @@ impl ByFaults {
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     pub fn rows(&self) -> impl Iterator<Item = Result<FaultForce, Error>> + '_ {
-        let mut powers = Vec::with_capacity(self.classes);
-        powers.extend(
-            core::iter::successors(Some(BigInt::one()), |power| Some(power * 3)).take(self.classes),
-        );
-        let classes = self.classes;
-        let rows = self.places.iter();
-        let rows = rows.flat_map(move |(place, at)| (0..classes).map(move |d| (*at, *place, d)));
-        rows.filter_map(move |(at, place, d)| {
-            let row = self.row(at, place, d, powers.get(d)?);
-            row.transpose()
+        self.spots.iter().flat_map(move |spot| {
+            let classes = (0..).zip(&spot.classes);
+            classes.filter_map(move |(d, sums)| self.row(spot.place, d, sums).transpose())
         })
     }
 
     fn row(
         &self,
-        at: usize,
         place: Place,
-        d: usize,
-        power: &BigInt,
+        faults: u32,
+        sums: &[BigInt; 4],
     ) -> Result<Option<FaultForce>, Error> {
-        let sums = self.sums.get(at * self.classes + d);
-        let [stackings, normal, shear_x, shear_y] = sums.ok_or_else(|| bug(SUMS))?;
-        if stackings.is_zero() {
+        if sums[0].is_zero() {
             return Ok(None);
         }
-        let scale = power * &self.denominator * FLOOR_UNIT.get();
-        let of = |n: BigInt| {
-            BigRational::from_ratio(n, &scale).ok_or_else(|| bug("denominators are not zero"))
-        };
+        let power = BigInt::from(3).pow(faults);
+        let scale = &power * &self.denominator * FLOOR_UNIT.get();
+        let row = MeanForce::of(
+            place,
+            sums.clone(),
+            BigRational::from_ratio,
+            [&power, &scale],
+        )?;
         Ok(Some(FaultForce {
             place,
-            faults: u32::try_from(d).map_err(|_| bug("the size was checked"))?,
-            stackings: (stackings / power).into_parts().1,
-            normal: of(normal)?,
-            shear_x: of(shear_x)?,
-            shear_y: of(shear_y)?,
+            faults,
+            stackings: row.probability.to_integer().into_parts().1,
+            normal: row.normal,
+            shear_x: row.shear_x,
+            shear_y: row.shear_y,
         }))
     }
 
@@ -304,8 +226,8 @@ impl ByFaults {
         let [faults, straight] = [a.clone(), (b - a) * 3];
         let most = self.most_faults();
         // The sum of 3^d S_d times a^d (3(b−a))^(n−1−d), over (3b)^(n−1).
-        let shares =
-            (0..self.classes).map(|d| pow(faults.clone(), d) * pow(straight.clone(), most - d));
+        let shares = (0..=self.most_faults)
+            .map(|d| pow(faults.clone(), d) * pow(straight.clone(), most - d));
         let shares: Vec<_> = shares.collect();
         let scale = pow(b * 3, most) * &self.firsts;
         let over = |n: BigInt, scale: &BigInt| BigRational::from_ratio(n, scale);
@@ -339,7 +261,7 @@ impl ByFaults {
     pub fn polynomial(&self) -> Result<Mean<Polynomial>, Error> {
         let most = self.most_faults();
         // q^d (1−q)^m = Σ_i C(m,i) (−1)^i q^(d+i), with m = n−1−d; over 3^(n−1).
-        let powers = (0..self.classes).map(|d| {
+        let powers = (0..=self.most_faults).map(|d| {
             let third = pow(BigInt::from(3), most - d);
             let terms = (0..=most - d).map(|i| {
                 let term = binomial(BigInt::from(most - d), BigInt::from(i)) * &third;
@@ -353,7 +275,7 @@ impl ByFaults {
             Polynomial::in_powers(Symbol("q"), terms, scale.clone())
         };
         self.mean(&scale, over, |sums| {
-            let mut totals = [(); 4].map(|()| vec![BigInt::zero(); self.classes]);
+            let mut totals = [(); 4].map(|()| vec![BigInt::zero(); self.most_faults + 1]);
             for (d, (powers, sums)) in powers.iter().zip(sums).enumerate() {
                 for (total, sum) in totals.iter_mut().zip(sums) {
                     if sum.is_zero() {
@@ -376,23 +298,10 @@ impl ByFaults {
         totals: impl Fn(&[[BigInt; 4]]) -> [U; 4],
     ) -> Result<Mean<T>, Error> {
         let forces = scale * &self.denominator * FLOOR_UNIT.get();
-        let over = |total: U, scale: &BigInt| {
-            over(total, scale).ok_or_else(|| bug("denominators are not zero"))
-        };
-        let rows = self.places.iter().map(|(place, at)| {
-            let sums = (0..self.classes).map(|d| self.sums.get(at * self.classes + d));
-            let sums = sums.collect::<Option<Vec<_>>>().ok_or_else(|| bug(SUMS))?;
-            let [probability, normal, shear_x, shear_y] = totals(&sums);
-            Ok(MeanForce {
-                place: *place,
-                probability: over(probability, scale)?,
-                normal: over(normal, &forces)?,
-                shear_x: over(shear_x, &forces)?,
-                shear_y: over(shear_y, &forces)?,
-            })
-        });
+        let rows = self
+            .spots
+            .iter()
+            .map(|spot| MeanForce::of(spot.place, totals(&spot.classes), &over, [scale, &forces]));
         Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
     }
 }
-
-const SUMS: &str = "there is a sum for each place and number of faults";

@@ -1,4 +1,4 @@
-//! What the floor feels of the forces on a sphere.
+//! The force on the floor below a bottom sphere, as a linear function of the forces on the sphere.
 
 use core::num::NonZeroI64;
 
@@ -13,91 +13,71 @@ use super::number::{Number, add};
 use crate::Error;
 use crate::error::bug;
 
-/// What the numerators of the floor are divided by: directions over 2, and three units of force to mg. Unwrapped by the
-/// compiler: zero would not build.
+/// The denominator of forces on the floor. Directions have the denominator 2, and mg is three units of contact force.
+/// The compiler evaluates the `unwrap`, and rejects zero.
 pub(super) const FLOOR_UNIT: NonZeroI64 = NonZeroI64::new(6).unwrap();
 
-/// Normal force and shears on the floor: six times those in the units of the base, in the unit of the numerators.
-#[derive(Clone, Debug)]
-pub(super) struct Floor<T> {
-    pub(super) normal: T,
-    pub(super) shear_x: T,
-    pub(super) shear_y: T,
-}
+/// The normal force and both shears on the floor, times [`FLOOR_UNIT`].
+type Floor<T> = [T; 3];
 
-/// What a force from above, and a weight, make of the force on the floor: six times it in the units of the base.
+/// The force on the floor for each unit of contact force and of weight.
 pub(super) struct FloorFactors<T> {
-    /// By sign and direction.
-    lines: [[[T; 3]; 3]; 2],
-    own: T,
+    /// By the sign of the last step and the direction of the contact.
+    contacts: [[Floor<T>; 3]; 2],
+    /// The normal force for a unit of weight.
+    weight: T,
 }
 
 impl<T: Number> FloorFactors<T> {
     pub(super) fn new() -> Result<Self, Error> {
-        // Directions over 2, and mg is three units of force along the lines.
         let half = BigRational::new(1.into(), 2.into());
-        let two = BigInt::from(2);
-        let numerator = |x: BigRational| (x * &two).to_integer();
-        let straight = directions(&half).map(|direction| direction.map(numerator));
-        let turned = straight.clone().map(Vector::turned_about_z);
-        let [zero, one] = [BigInt::zero(), BigInt::one()];
-        let units = [0, 1, 2].map(|line| {
-            let mut unit = [zero.clone(), zero.clone(), zero.clone()];
-            unit[line].clone_from(&one);
-            unit
-        });
-        let small = |n: &BigInt| {
-            let n = n
-                .to_i8()
-                .ok_or_else(|| bug("factors of the floor are small"))?;
-            let magnitude = (0..n.unsigned_abs()).fold(T::zero(), |sum, _| sum + &T::one());
-            Ok::<_, Error>(if n < 0 {
-                T::zero() - &magnitude
-            } else {
-                magnitude
-            })
+        let doubled = |x: BigRational| (x * BigInt::from(2)).to_integer();
+        let plus = directions(&half).map(|direction| direction.map(doubled));
+        let minus = plus.clone().map(Vector::turned_about_z);
+        let zeros = || [(); 3].map(|()| BigInt::zero());
+        let mut factors = Self {
+            contacts: [(); 2].map(|()| [(); 3].map(|()| [(); 3].map(|()| T::zero()))),
+            weight: T::zero(),
         };
-        let line = |unit: &[BigInt; 3], directions: &[Vector<BigInt>; 3]| {
-            let Vector { x, y, z } = formula::handed_on(unit, directions, &zero);
-            Ok::<_, Error>([small(&z)?, small(&x)?, small(&y)?])
-        };
-        let lines = |directions: &[Vector<BigInt>; 3]| {
-            let [a, b, c] = &units;
-            Ok::<_, Error>([
-                line(a, directions)?,
-                line(b, directions)?,
-                line(c, directions)?,
-            ])
-        };
-        let weight = formula::weight(&formula::increments(&half));
-        let own = formula::handed_on(
-            &[zero.clone(), zero.clone(), zero.clone()],
-            &straight,
-            &numerator(weight),
-        );
-        Ok(Self {
-            lines: [lines(&straight)?, lines(&turned)?],
-            own: small(&own.z)?,
-        })
+        for (contacts, directions) in factors.contacts.iter_mut().zip([&plus, &minus]) {
+            for (line, contact) in contacts.iter_mut().enumerate() {
+                let mut unit = zeros();
+                unit[line] = BigInt::one();
+                let force = formula::handed_on(&unit, directions, &BigInt::zero());
+                *contact = [small(&force.z)?, small(&force.x)?, small(&force.y)?];
+            }
+        }
+        let weight = doubled(formula::weight(&formula::increments(&half)));
+        factors.weight = small(&formula::handed_on(&zeros(), &plus, &weight).z)?;
+        Ok(factors)
     }
 
-    /// A weight, in the unit of forces.
-    pub(super) fn own(&self, weight: T) -> Floor<T> {
-        Floor {
-            normal: weight * &self.own,
-            shear_x: T::zero(),
-            shear_y: T::zero(),
-        }
+    /// Returns the normal force of a weight.
+    pub(super) fn weight(&self, weight: T) -> T {
+        weight * &self.weight
     }
 
-    /// Adds three forces from above, by the sign of the step above.
-    pub(super) fn add(&self, forces: [&T; 3], sign: Sign, floor: &mut Floor<T>) {
-        let [plus, minus] = &self.lines;
-        let lines = if sign == Sign::Plus { plus } else { minus };
-        for (force, [normal, shear_x, shear_y]) in forces.into_iter().zip(lines) {
-            add(&mut floor.normal, &(force.clone() * normal));
-            add(&mut floor.shear_x, &(force.clone() * shear_x));
-            add(&mut floor.shear_y, &(force.clone() * shear_y));
+    /// Adds the force on the floor of three contact forces, for the sign of the last step.
+    pub(super) fn add(&self, forces: [&T; 3], sign: Sign, floor: &mut [T; 3]) {
+        let [plus, minus] = &self.contacts;
+        let contacts = if sign == Sign::Plus { plus } else { minus };
+        for (force, contact) in forces.into_iter().zip(contacts) {
+            for (floor, factor) in floor.iter_mut().zip(contact) {
+                add(floor, &(force.clone() * factor));
+            }
         }
     }
+}
+
+/// Converts a small integer to the scalar, which may lack such a conversion.
+fn small<T: Number>(n: &BigInt) -> Result<T, Error> {
+    let n = n
+        .to_i8()
+        .ok_or_else(|| bug("factors of the floor are small"))?;
+    let magnitude = (0..n.unsigned_abs()).fold(T::zero(), |sum, _| sum + &T::one());
+    Ok(if n < 0 {
+        T::zero() - &magnitude
+    } else {
+        magnitude
+    })
 }

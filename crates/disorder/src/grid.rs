@@ -15,10 +15,10 @@ use crate::error::bug;
 const MAX_WORDS: u64 = 100_000_000;
 
 /// What a contact of each direction adds to the coordinates of a cell, for each sign.
-pub(super) type Moves = fn(Sign) -> [[isize; 2]; 3];
+pub(super) type Shifts = fn(Sign) -> [[isize; 2]; 3];
 
-/// How sites of one layer move: the moves of a pile whose layers are named by their sites.
-pub(super) fn of_sites(sign: Sign) -> [[isize; 2]; 3] {
+/// How sites of one layer move: the shifts of a pile whose layers are named by their sites.
+pub(super) fn site_shifts(sign: Sign) -> [[isize; 2]; 3] {
     let step = match sign {
         Sign::Plus => 1,
         Sign::Minus => -1,
@@ -27,7 +27,7 @@ pub(super) fn of_sites(sign: Sign) -> [[isize; 2]; 3] {
 }
 
 /// How places move.
-pub(super) fn of_places(sign: Sign) -> [[isize; 2]; 3] {
+pub(super) fn place_shifts(sign: Sign) -> [[isize; 2]; 3] {
     Place::descents(sign)
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Grid {
     rows: usize,
     /// By layer and row.
     windows: Vec<Vec<Range<usize>>>,
-    moves: Moves,
+    shifts: Shifts,
 }
 
 /// The rows of the first layer: its second coordinate and the range of the first.
@@ -111,7 +111,7 @@ impl Grid {
     ///
     /// # Errors
     /// [`Error::Bug`].
-    pub(super) fn new(size: &Size, first: &FirstRows, moves: Moves) -> Result<Self, Error> {
+    pub(super) fn new(size: &Size, first: &FirstRows, shifts: Shifts) -> Result<Self, Error> {
         let small = |n: i128| usize::try_from(n).map_err(|_| bug("the size was checked"));
         let margin = size.reach * size.steps + 1;
         let origin: [i128; 2] = array::from_fn(|axis| size.least[axis] - margin);
@@ -140,7 +140,7 @@ impl Grid {
             stride,
             rows,
             windows,
-            moves,
+            shifts,
         })
     }
 
@@ -196,7 +196,7 @@ impl Grid {
         sign: Sign,
         direction: Direction,
     ) -> Result<Range<usize>, Error> {
-        let [da, db] = (self.moves)(sign)[direction.index()];
+        let [da, db] = (self.shifts)(sign)[direction.index()];
         let stride = isize::try_from(self.stride).map_err(|_| bug("the size was checked"))?;
         let back = -(db * stride + da);
         let moved = |cell: usize| cell.checked_add_signed(back);
@@ -265,7 +265,7 @@ mod tests {
     fn cells_are_those_of_the_box() {
         let size = Size::new([2, -1], [3, -1], 1, 2);
         let first = FirstRows::from([(-1, 2..4)]);
-        let grid = Grid::new(&size, &first, of_places).unwrap();
+        let grid = Grid::new(&size, &first, place_shifts).unwrap();
         assert_eq!(grid.cells(), 8 * 7);
         for (a, b) in (-9..=12).flat_map(|a| (-9..=9).map(move |b| (a, b))) {
             let is_inside = (-1..=6).contains(&a) && (-4..=2).contains(&b);

@@ -29,7 +29,7 @@
 //! |---|---|
 //! | the random stackings | [`RandomStackings`], [`FirstSign`], [`check_fault_probability`] |
 //! | mean forces, at one q or for all | [`RandomPiles`], [`Mean`], [`MeanForce`]; [`ByFaults`], [`FaultForce`]; [`Place`] |
-//! | moments of the response to a load, its waves, its scatter | [`Moments`], [`Wave`], [`PairMoments`] |
+//! | moments of the response to a load, and its waves | [`Moments`], [`Wave`] |
 //! | enumeration and samples | [`Ensemble`], [`Choice`], [`Samples`], [`Shard`] |
 //! | their result, and its file | [`Tally`], [`WithFaults`], [`Distribution`], [`Histogram`], [`Binned`], [`Extreme`]; [`TallyRecord`], [`Unmergeable`] |
 //! | the formulas, and their proofs | [`formula`], [`theorem`] |
@@ -49,23 +49,22 @@
 use std::num::NonZeroI64;
 
 mod correlation;
+mod domain;
 mod ensemble;
 mod error;
 mod faults;
 mod floor;
 pub mod formula;
-mod frame;
 mod grid;
 mod mean;
 mod moments;
+mod nets;
 mod number;
-mod pairs;
 mod piles;
 mod place;
 mod stackings;
 pub mod theorem;
 mod transfer;
-mod walk;
 mod width;
 
 pub use ensemble::{
@@ -76,7 +75,6 @@ pub use error::Error;
 pub use faults::{ByFaults, FaultForce};
 pub use mean::{Mean, MeanForce};
 pub use moments::{Moments, Wave};
-pub use pairs::PairMoments;
 pub use piles::RandomPiles;
 pub use place::Place;
 pub use stackings::{FirstSign, RandomStackings, check_fault_probability};

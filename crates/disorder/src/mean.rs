@@ -7,13 +7,13 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::pow;
 
+use super::domain::Domain;
 use super::floor::FLOOR_UNIT;
-use super::frame::{Frame, Load};
-use super::number::{Number, Part};
+use super::number::Scale;
 use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::check_fault_probability;
-use super::transfer::{Spot, Transfer, shares};
+use super::transfer::{Transfer, run_in_integers, shares};
 use super::width::{Width, bits_of_sources};
 use crate::Error;
 use crate::error::bug;
@@ -52,6 +52,24 @@ pub struct MeanForce<T> {
 }
 
 impl<T> MeanForce<T> {
+    /// Returns the row for sums of a probability and three forces. `over` divides them by the scales of both.
+    pub(super) fn of<U, D>(
+        place: Place,
+        [probability, normal, shear_x, shear_y]: [U; 4],
+        over: impl Fn(U, &D) -> Option<T>,
+        [ones, forces]: [&D; 2],
+    ) -> Result<Self, Error> {
+        let over =
+            |sum: U, scale: &D| over(sum, scale).ok_or_else(|| bug("denominators are not zero"));
+        Ok(Self {
+            place,
+            probability: over(probability, ones)?,
+            normal: over(normal, forces)?,
+            shear_x: over(shear_x, forces)?,
+            shear_y: over(shear_y, forces)?,
+        })
+    }
+
     /// Returns the row with `f` applied to each number.
     ///
     /// # Errors
@@ -219,40 +237,21 @@ impl RandomPiles {
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     pub fn mean<T: Algebra>(&self, q: &T) -> Result<Mean<T>, Error> {
-        let frame = Frame::new(
-            self,
-            Load {
-                classes: 1,
-                words: 1,
-            },
-        )?;
-        let [same, change] = shares(q).map(Part);
-        let loads = self.loads().iter();
-        // A load of W mg adds W to each line, as a weight of mg adds 1.
-        let loads = loads.map(|(site, load)| (*site, T::from_rational(load)));
-        let transfer = Transfer {
-            frame: &frame,
-            classes: 1,
-            same,
-            change,
-            weight: T::from_rational(&self.weight()),
-            loads: loads.collect(),
-        };
-        let firsts = |sum: T| sum.div_int(self.firsts());
-        let force = |sum: T| firsts(sum).div_int(FLOOR_UNIT);
-        let row = |spot: Spot<T>| {
-            let (probability, floor) = one_class(spot.classes)?;
-            let row = MeanForce {
-                place: spot.place,
-                probability: firsts(probability),
-                normal: force(floor.normal),
-                shear_x: force(floor.shear_x),
-                shear_y: force(floor.shear_y),
-            };
+        let domain = Domain::new(self, 1, 1)?;
+        // A load of W mg adds W to the force of each contact, as a weight of mg adds 1.
+        let scalar = |x: &BigRational| Ok(T::from_rational(x));
+        let transfer = Transfer::new(&domain, 1, shares(q).map(Scale), scalar)?;
+        let over = |sum: T, unit: &NonZeroI64| Some(sum.div_int(self.firsts()).div_int(*unit));
+        let rows = transfer.run()?.into_iter().map(|spot| {
+            let row = MeanForce::of(
+                spot.place,
+                one_class(spot.classes)?,
+                over,
+                [&ONE, &FLOOR_UNIT],
+            )?;
             row.try_map(defined)
-        };
-        let rows: Result<Vec<_>, Error> = transfer.run()?.into_iter().map(row).collect();
-        Ok(Mean::of(rows?))
+        });
+        Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
     }
 
     /// Returns the mean over all stackings at a rational fault probability, exactly.
@@ -283,25 +282,18 @@ impl RandomPiles {
         // Not a default: what has no such number of steps is refused for its size.
         let steps = u64::try_from(choices.max(1)).unwrap_or(u64::MAX);
         let growth = tripled.bits().saturating_mul(steps);
-        let rough = Load {
-            classes: 1,
-            words: Width::of(growth).words(growth),
-        };
-        let frame = Frame::new(self, rough)?;
-        let bits = growth.saturating_add(bits_of_sources(&frame, &denominator)?);
-        let width = Width::of(bits);
+        let domain = Domain::new(self, 1, Width::of(growth).words(growth))?;
+        let bits = growth.saturating_add(bits_of_sources(&domain, &denominator)?);
         let choices = usize::try_from(choices).map_err(|_| bug("the size was checked"))?;
-        let question = Question {
-            frame: &frame,
-            q,
-            denominator: &denominator,
-            scale: pow(tripled, choices),
-        };
-        match width {
-            Width::Narrow => question.answer(|n| i64::try_from(n).ok()),
-            Width::Wide => question.answer(|n| i128::try_from(n).ok()),
-            Width::Big => question.answer(|n| Some(n.clone())),
-        }
+        let shares = [(q.denom() - q.numer()) * 3, q.numer().clone()];
+        let spots = run_in_integers(Width::of(bits), &domain, 1, &denominator, Some(shares))?;
+        let scale = pow(tripled, choices) * self.firsts().get();
+        let forces = &scale * denominator * FLOOR_UNIT.get();
+        let rows = spots.into_iter().map(|spot| {
+            let sums = one_class(spot.classes)?;
+            MeanForce::of(spot.place, sums, BigRational::from_ratio, [&scale, &forces])
+        });
+        Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
     }
 
     /// How many signs the first step can have: each begins with a share of one.
@@ -310,60 +302,6 @@ impl RandomPiles {
             [_, _] => TWO,
             _ => ONE,
         }
-    }
-}
-
-/// A mean that is asked for exactly.
-struct Question<'f> {
-    frame: &'f Frame<'f>,
-    q: &'f BigRational,
-    /// Of the loads.
-    denominator: &'f BigInt,
-    /// (3b)^(n−1).
-    scale: BigInt,
-}
-
-impl Question<'_> {
-    fn answer<T>(&self, number: impl Fn(&BigInt) -> Option<T>) -> Result<Mean<BigRational>, Error>
-    where
-        T: Number + Into<BigInt>,
-    {
-        let number = |n: &BigInt| number(n).ok_or_else(|| bug("the bound is that of all numbers"));
-        let piles = self.frame.piles;
-        let (a, b) = (self.q.numer(), self.q.denom());
-        let over = |x: &BigRational| number(&(x.numer() * (self.denominator / x.denom())));
-        let loads = piles
-            .loads()
-            .iter()
-            .map(|(site, load)| Ok((*site, over(load)?)));
-        let loads: Result<Vec<_>, Error> = loads.collect();
-        let transfer = Transfer {
-            frame: self.frame,
-            classes: 1,
-            same: Part(number(&((b - a) * 3))?),
-            change: Part(number(a)?),
-            weight: over(&piles.weight())?,
-            loads: loads?,
-        };
-        let firsts = BigInt::from(piles.firsts().get());
-        let shares = &self.scale * &firsts;
-        let forces = &shares * self.denominator * FLOOR_UNIT.get();
-        let row = |spot: Spot<T>| {
-            let (probability, floor) = one_class(spot.classes)?;
-            let of = |n: T, scale: &BigInt| {
-                BigRational::from_ratio(n.into(), scale)
-                    .ok_or_else(|| bug("denominators are not zero"))
-            };
-            Ok(MeanForce {
-                place: spot.place,
-                probability: of(probability, &shares)?,
-                normal: of(floor.normal, &forces)?,
-                shear_x: of(floor.shear_x, &forces)?,
-                shear_y: of(floor.shear_y, &forces)?,
-            })
-        };
-        let rows: Result<Vec<_>, Error> = transfer.run()?.into_iter().map(row).collect();
-        Ok(Mean::of(rows?))
     }
 }
 

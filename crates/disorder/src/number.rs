@@ -1,10 +1,10 @@
-//! The numbers a recursion counts with, and how much of them goes on straight and across a fault.
+//! The scalars of the recursion, and the factors of its two terms.
 
 use core::ops::{Add, Mul, Sub};
 
 use num_traits::{One, Zero};
 
-/// A ring of numerators: machine integers wide enough, big integers, or an algebra.
+/// A ring: machine integers that are wide enough, big integers, or an algebra.
 pub(super) trait Number:
     Clone
     + Zero
@@ -25,30 +25,30 @@ impl<T> Number for T where
 {
 }
 
-/// What a share of forces is multiplied by.
-pub(super) trait Share<T> {
-    /// Returns the share of `x`.
-    fn of(&self, x: T) -> T;
+/// A constant factor.
+pub(super) trait Factor<T> {
+    /// Returns `x` times the factor.
+    fn times(&self, x: T) -> T;
 }
 
-/// All of it: where stackings are counted by their faults.
+/// The factor 1, for sums by numbers of faults. No multiplication takes place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct All;
+pub(super) struct Unity;
 
-impl<T> Share<T> for All {
+impl<T> Factor<T> for Unity {
     #[inline]
-    fn of(&self, x: T) -> T {
+    fn times(&self, x: T) -> T {
         x
     }
 }
 
-/// A share in the ring: a probability, times a denominator.
+/// A probability, times a common denominator.
 #[derive(Clone, Debug)]
-pub(super) struct Part<T>(pub(super) T);
+pub(super) struct Scale<T>(pub(super) T);
 
-impl<T: Number> Share<T> for Part<T> {
+impl<T: Number> Factor<T> for Scale<T> {
     #[inline]
-    fn of(&self, x: T) -> T {
+    fn times(&self, x: T) -> T {
         x * &self.0
     }
 }
@@ -59,7 +59,7 @@ pub(super) fn tripled<T: Number>(x: &T) -> T {
     x.clone() + x + x
 }
 
-/// Adds to a number in its place.
+/// Adds `x` to `sum`.
 #[inline]
 pub(super) fn add<T: Number>(sum: &mut T, x: &T) {
     let before = core::mem::replace(sum, T::zero());

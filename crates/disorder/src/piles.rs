@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 
 use cannonpile::engine::common_denominator;
-use cannonpile::lattice::{Dimension, Region, Site};
+use cannonpile::lattice::{Dimension, MAX_LAYERS, Region, Site};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::place::Place;
-use super::stackings::RandomStackings;
+use super::stackings::{FirstSign, RandomStackings};
 use crate::Error;
 
 /// The piles of all stackings of an ensemble, alike in what they grow from and in what acts on them.
@@ -167,18 +166,13 @@ impl RandomPiles {
             return Err(Error::PlaceOfLoad { site, on_base });
         }
         let at = [site.i, site.j];
-        let region = match self.setting {
-            Setting::Under(top) => Some(top),
-            // Coordinates beyond those of regions leave `i128`.
-            Setting::Plane | Setting::On(_) => None,
+        // In the plane larger coordinates than those of regions would overflow.
+        let in_plane = at.iter().all(|n| (-MAX_LAYERS..=MAX_LAYERS).contains(n));
+        let (is_inside, region) = match self.setting {
+            Setting::Under(top) => (top.contains(site.i, site.j), Some(top)),
+            Setting::Plane | Setting::On(_) => (in_plane, None),
         };
-        let limit = -cannonpile::lattice::MAX_LAYERS..=cannonpile::lattice::MAX_LAYERS;
-        let within = |n: &i128| limit.contains(n);
-        let outside = match region {
-            Some(region) => !region.contains(site.i, site.j),
-            None => !at.iter().all(within),
-        };
-        if outside {
+        if !is_inside {
             let layers = self.stackings.layers();
             let outside = cannonpile::Error::site_outside(site, layers, Dimension::Three, region);
             return Err(outside.into());
@@ -227,12 +221,6 @@ impl RandomPiles {
         &self.loads
     }
 
-    /// The places of the loads.
-    pub(super) fn loaded_places(&self) -> Option<Vec<Place>> {
-        let places = self.loads.keys().map(|site| Place::of(*site, 0));
-        places.collect()
-    }
-
     /// The least common denominator of the loads.
     pub(super) fn denominator(&self) -> BigInt {
         common_denominator(self.loads.values())
@@ -262,13 +250,13 @@ impl RandomPiles {
     }
 
     /// The numbers of net steps of the bottom layer, whatever the stacking.
-    pub(super) fn nets(&self) -> core::ops::RangeInclusive<i128> {
+    pub(super) fn net_bounds(&self) -> (i128, i128) {
         let steps = self.stackings.steps();
         let turned = (steps - 2).max(-steps);
         match self.stackings.first() {
-            super::FirstSign::Plus => -turned..=steps,
-            super::FirstSign::Minus => -steps..=turned,
-            super::FirstSign::Random => -steps..=steps,
+            FirstSign::Plus => (-turned, steps),
+            FirstSign::Minus => (-steps, turned),
+            FirstSign::Random => (-steps, steps),
         }
     }
 }

@@ -107,14 +107,6 @@ impl Place {
         aa.checked_sub(ab)?.checked_add(bb)
     }
 
-    /// Returns the place so many steps along u_β and u_γ further on; the size of the piles was checked.
-    pub(super) const fn moved(self, [a, b]: [isize; 2]) -> Self {
-        Self {
-            a: self.a + a as i128,
-            b: self.b + b as i128,
-        }
-    }
-
     /// How a contact of each direction leads from place to place: ±u_α, ±u_β, ±u_γ.
     pub(super) const fn descents(sign: Sign) -> [[isize; 2]; 3] {
         match sign {

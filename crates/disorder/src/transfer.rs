@@ -1,23 +1,24 @@
-//! The one recursion: what the forces of all stackings add up to, layer after layer.
+//! The recursion for sums over all stackings, layer by layer.
 //!
-//! Let f_σ be the sum, over all beginnings of stackings whose next sign is σ, of what the spheres of a layer pass on, by
-//! place and direction: each stacking with its share of probability, or each of those with d faults alike. One step leads
-//! the forces along their contacts,
+//! Let f_σ be the sum of the contact forces below a layer, by place and direction, over all beginnings of stackings whose
+//! next sign is σ. Each beginning counts with its probability, or, by number of faults, once. A step moves the forces along
+//! their contacts:
 //!
-//! g_σ(x + σu_l, l) = f_σ(x, l),
+//! g_σ(x + σu_l, l) = f_σ(x, l).
 //!
-//! whichever beginning they come of, since a place is the same for all. There the next sign is chosen: the same one, with
-//! 1 − q, where forces go on straight, or the other, with q, where they make a [half-turn](cannonpile::formula::half_turn); and the
-//! spheres of the layer add what they weigh:
+//! This holds for every beginning, because a place is a position that no stacking changes. Then the next sign is chosen. With
+//! probability 1 − q it is the same, and the forces continue. With probability q it changes, and the forces make a
+//! [half-turn](cannonpile::formula::half_turn) G. Finally the weights of the spheres of the layer are added:
 //!
 //! f_σ ← (1 − q) g_σ + q G g_(−σ) + w·P(a sphere at x, next sign σ).
 //!
-//! *Proof.* Each stacking obeys its own equations, which are linear, and the choice depends on the sign before alone. ∎
-//! In numbers without thirds the second share is (q/3)·3G. By faults the shares are all of g_(σ,d) and all of 3G g_(−σ,d−1), over
-//! 3^d, and nothing is said of q.
+//! *Proof.* Every stacking obeys its own equations, which are linear, and the next sign depends on the last one only. ∎
 //!
-//! On a base the spheres of a layer depend on the steps that are left. So the net number of these is kept too, and the
-//! recursion starts with every number at which the base carries a top layer.
+//! To avoid thirds the second term is computed as (q/3)·3G. For d faults the recursion is f_(σ,d) ← g_(σ,d) + 3G g_(−σ,d−1),
+//! in units of 3^(−d). It does not depend on q.
+//!
+//! On a base the spheres of a layer depend on the steps that are left. So the forces are also stored by the net number of
+//! these steps. The recursion then starts with every number for which the top layer has a sphere.
 
 mod bottom;
 mod sources;
@@ -27,78 +28,140 @@ use cannonpile::engine::check_interrupt;
 use cannonpile::formula;
 use cannonpile::lattice::{Direction, Sign};
 use cannonpile::scalar::Algebra;
+use num_bigint::BigInt;
+use num_rational::BigRational;
 
-use super::floor::Floor;
-use super::frame::Frame;
-use super::number::{Number, Share, add};
+use super::domain::Domain;
+use super::nets::{NetCounts, SIGNS};
+use super::number::{Factor, Number, Scale, Unity, add};
 use super::place::Place;
-use super::walk::{SIGNS, Walk};
+use super::width::Width;
 use crate::Error;
 use crate::error::bug;
 
 /// The forces of one class and next sign: a plane of cells for each direction.
 type Planes<T> = [Vec<T>; 3];
 
-/// Forces by the net number of steps left (one number only, but on a base), class, and next sign; `None` where there are none.
+/// The forces of a layer, by the net number of steps that are left, class, and next sign. Only on a base there is more than
+/// one net number. `None` stands for zero everywhere.
 type Layer<T> = Vec<Vec<[Option<Planes<T>>; 2]>>;
 
-/// What is run over a frame.
+/// The recursion over a domain.
 pub(super) struct Transfer<'f, T, S> {
-    pub(super) frame: &'f Frame<'f>,
-    /// How many classes there are: numbers of faults, or one.
-    pub(super) classes: usize,
-    /// Of what goes on straight.
-    pub(super) same: S,
-    /// Of three times what makes a half-turn.
-    pub(super) change: S,
-    /// What a sphere adds to each line, in the unit of forces.
-    pub(super) weight: T,
-    /// What loads add, by site of the top layer.
-    pub(super) loads: Vec<([i128; 2], T)>,
+    domain: &'f Domain<'f>,
+    /// The number of classes: a class for each number of faults, or one class.
+    classes: usize,
+    /// The factor of g_σ.
+    same: S,
+    /// The factor of 3G g_(−σ).
+    change: S,
+    /// The force that a sphere adds to each of its contacts.
+    weight: T,
+    /// The force that each load adds to each contact of its sphere, by site of the top layer.
+    loads: Vec<([i128; 2], T)>,
 }
 
-/// What the bottom sphere at a place bears, summed over stackings.
+/// The result at one place of the bottom layer, summed over stackings.
 #[derive(Clone, Debug)]
 pub(super) struct Spot<T> {
     pub(super) place: Place,
-    /// By class: the share of stackings that have a sphere there, and the force on the floor.
-    pub(super) classes: Vec<(T, Floor<T>)>,
+    /// By class: the sum of the stackings that have a sphere there, and the sums of its normal force and both shears on
+    /// the floor, times [`FLOOR_UNIT`](super::floor::FLOOR_UNIT).
+    pub(super) classes: Vec<[T; 4]>,
 }
 
-impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
-    /// Returns what each place of the bottom layer bears.
-    ///
-    /// # Errors
-    /// [`Error::Bug`].
-    pub(super) fn run(&self) -> Result<Vec<Spot<T>>, Error> {
-        let frame = self.frame;
-        let mut walk = Walk::new(
-            self.classes,
-            frame.steps,
-            frame.plus(),
-            frame.piles.stackings.first_signs(),
-            frame.starts(),
-        )?;
-        let mut layer = self.empty();
-        if frame.steps > 0 {
-            self.load(&mut layer, &walk)?;
-            self.add_weights(&mut layer, &walk, 0)?;
+/// Runs the recursion in integers of this width. `shares` are the numerators of the factors of both terms, and `None` counts
+/// stackings by their faults. The loads are multiplied by `denominator`.
+pub(super) fn run_in_integers(
+    width: Width,
+    domain: &Domain<'_>,
+    classes: usize,
+    denominator: &BigInt,
+    shares: Option<[BigInt; 2]>,
+) -> Result<Vec<Spot<BigInt>>, Error> {
+    match width {
+        Width::Narrow => run_in::<i64>(domain, classes, denominator, shares),
+        Width::Wide => run_in::<i128>(domain, classes, denominator, shares),
+        Width::Big => run_in::<BigInt>(domain, classes, denominator, shares),
+    }
+}
+
+fn run_in<T: Number + TryFrom<BigInt> + Into<BigInt>>(
+    domain: &Domain<'_>,
+    classes: usize,
+    denominator: &BigInt,
+    shares: Option<[BigInt; 2]>,
+) -> Result<Vec<Spot<BigInt>>, Error> {
+    let number = |n: BigInt| T::try_from(n).map_err(|_| bug("the bound is that of all numbers"));
+    let scalar = |x: &BigRational| number(x.numer() * (denominator / x.denom()));
+    let spots = match shares {
+        None => Transfer::new(domain, classes, [Unity, Unity], scalar)?.run()?,
+        Some([same, change]) => {
+            let factors = [Scale(number(same)?), Scale(number(change)?)];
+            Transfer::new(domain, classes, factors, scalar)?.run()?
         }
-        let mut below = self.empty();
-        for k in 1..frame.steps {
-            walk.step();
-            walk.choose(&self.same, &self.change, |class| self.before(class));
-            self.pass_on(&mut layer, &mut below, k)?;
-            core::mem::swap(&mut layer, &mut below);
-            self.add_weights(&mut layer, &walk, k)?;
-        }
-        if frame.steps > 0 {
-            walk.step();
-        }
-        self.bottom(&layer, &walk)
+    };
+    let widened = spots.into_iter().map(|Spot { place, classes }| {
+        let classes = classes.into_iter().map(|sums| sums.map(Into::into));
+        let classes = classes.collect();
+        Spot { place, classes }
+    });
+    Ok(widened.collect())
+}
+
+impl<'f, T: Number, S: Factor<T>> Transfer<'f, T, S> {
+    /// Returns the recursion over a domain. `scalar` converts the loads and the weight of a sphere, in mg.
+    pub(super) fn new(
+        domain: &'f Domain<'f>,
+        classes: usize,
+        [same, change]: [S; 2],
+        scalar: impl Fn(&BigRational) -> Result<T, Error>,
+    ) -> Result<Self, Error> {
+        let loads = domain.piles.loads().iter();
+        let loads = loads.map(|(site, load)| Ok((*site, scalar(load)?)));
+        Ok(Self {
+            domain,
+            classes,
+            same,
+            change,
+            weight: scalar(&domain.piles.weight())?,
+            loads: loads.collect::<Result<_, Error>>()?,
+        })
     }
 
-    /// The class from which a fault leads to this one.
+    /// Returns the result for each place of the bottom layer.
+    ///
+    /// # Errors
+    /// [`Bug`](cannonpile::Error::Bug).
+    pub(super) fn run(&self) -> Result<Vec<Spot<T>>, Error> {
+        let domain = self.domain;
+        let mut counts = NetCounts::new(
+            self.classes,
+            domain.steps,
+            domain.plus(),
+            domain.piles.stackings.first_signs(),
+            domain.starts(),
+        )?;
+        let mut layer = self.empty();
+        if domain.steps > 0 {
+            self.add_loads(&mut layer, &counts)?;
+            self.add_weights(&mut layer, &counts, 0)?;
+        }
+        let mut below = self.empty();
+        for k in 1..domain.steps {
+            counts.step();
+            counts.choose(&self.same, &self.change, |class| self.before(class));
+            self.transmit(&layer, &mut below, k)?;
+            core::mem::swap(&mut layer, &mut below);
+            self.add_weights(&mut layer, &counts, k)?;
+        }
+        if domain.steps > 0 {
+            counts.step();
+        }
+        self.bottom(&layer, &counts)
+    }
+
+    /// Returns the class that a fault turns into `class`.
     fn before(&self, class: usize) -> Option<usize> {
         if self.classes == 1 {
             Some(class)
@@ -108,63 +171,58 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
     }
 
     fn empty(&self) -> Layer<T> {
-        let left = if self.frame.base().is_some() {
-            2 * self.frame.steps + 1
-        } else {
-            1
-        };
-        let class = || (0..self.classes).map(|_| [None, None]).collect();
-        (0..left).map(|_| class()).collect()
+        let classes = || (0..self.classes).map(|_| [None, None]).collect();
+        self.nets().map(|_| classes()).collect()
     }
 
     fn planes(&self) -> Planes<T> {
-        [(); 3].map(|()| vec![T::zero(); self.frame.grid.cells()])
+        [(); 3].map(|()| vec![T::zero(); self.domain.grid.cells()])
     }
 
-    /// The index of a number of net steps that are left; 0 of what is not on a base.
-    fn of_net(&self, net: isize) -> Option<usize> {
-        if self.frame.base().is_some() {
-            self.frame.steps.checked_add_signed(net)
-        } else {
-            Some(0)
-        }
-    }
-
-    /// The net numbers of steps left, in the order of layers: −n to n on a base, else one.
+    /// Returns the net numbers of steps that are left, in the order of a [`Layer`]: −n to n on a base, else only one.
     fn nets(&self) -> core::ops::RangeInclusive<isize> {
-        // As many as there are cells in memory.
-        let steps = self.frame.steps.cast_signed();
-        if self.frame.base().is_some() {
+        // No more than there are cells in memory.
+        let steps = self.domain.steps.cast_signed();
+        if self.domain.base().is_some() {
             -steps..=steps
         } else {
             0..=0
         }
     }
 
-    /// The number of net steps left before a step that leaves this one; itself where it is not on a base.
-    fn left_before(&self, net: isize, sign: Sign) -> Option<usize> {
-        let step = if sign == Sign::Plus {
-            self.frame.plus()
+    /// Returns the index in a [`Layer`] of a net number of steps that are left.
+    fn net_index(&self, net: isize) -> Option<usize> {
+        if self.domain.base().is_some() {
+            self.domain.steps.checked_add_signed(net)
         } else {
-            -self.frame.plus()
-        };
-        self.of_net(net - step)
+            Some(0)
+        }
     }
 
-    /// Leads the forces of a layer to layer `k` and across it, without its weights.
-    fn pass_on(&self, from: &mut Layer<T>, to: &mut Layer<T>, k: usize) -> Result<(), Error> {
+    /// Returns the index of the net number from which a step of this sign leads to `net`.
+    fn left_before(&self, net: isize, sign: Sign) -> Option<usize> {
+        let step = if sign == Sign::Plus {
+            self.domain.plus()
+        } else {
+            -self.domain.plus()
+        };
+        self.net_index(net - step)
+    }
+
+    /// Transmits the forces of a layer to layer `k` and through its spheres, without their weights.
+    fn transmit(&self, from: &Layer<T>, to: &mut Layer<T>, k: usize) -> Result<(), Error> {
         for (net, classes) in self.nets().zip(to) {
-            // What cannot come to the base in the steps that are left does not matter.
-            let reaches = net.unsigned_abs() <= self.frame.steps - k;
+            // Other numbers cannot lead to the base in the steps that are left.
+            let reaches = net.unsigned_abs() <= self.domain.steps - k;
             for (class, signs) in classes.iter_mut().enumerate() {
                 for (at, planes) in signs.iter_mut().enumerate() {
                     let of = |sign: usize, class: Option<usize>| {
                         let net = self.left_before(net, SIGNS[sign])?;
-                        from.get(net)?.get(class?)?.get(sign)?.as_ref()
+                        let planes = from.get(net)?.get(class?)?.get(sign)?.as_ref()?;
+                        Some((SIGNS[sign], planes))
                     };
-                    let straight = of(at, Some(class)).map(|planes| (SIGNS[at], planes));
-                    let turned =
-                        of(1 - at, self.before(class)).map(|planes| (SIGNS[1 - at], planes));
+                    let straight = of(at, Some(class));
+                    let turned = of(1 - at, self.before(class));
                     if !reaches || (straight.is_none() && turned.is_none()) {
                         *planes = None;
                         continue;
@@ -177,7 +235,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         Ok(())
     }
 
-    /// What goes on straight and what makes a half-turn, together.
+    /// Adds both terms of the recursion.
     fn combine(
         &self,
         planes: &mut Planes<T>,
@@ -185,28 +243,26 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         turned: Option<(Sign, &Planes<T>)>,
         k: usize,
     ) -> Result<(), Error> {
-        for cells in self.frame.grid.window(k)? {
+        for cells in self.domain.grid.window(k)? {
             check_interrupt()?;
-            let [a, b, c] = rows_mut(planes, &cells)?;
+            let mut rows = rows_mut(planes, &cells)?;
             if let Some((sign, from)) = straight {
-                let [ga, gb, gc] = self.above(from, &cells, sign)?;
-                carry(a, ga, &self.same);
-                carry(b, gb, &self.same);
-                carry(c, gc, &self.same);
-            } else {
-                for row in [&mut *a, &mut *b, &mut *c] {
-                    row.fill(T::zero());
+                let from = self.above(from, &cells, sign)?;
+                for (row, from) in rows.iter_mut().zip(from) {
+                    carry(row, from, &self.same);
                 }
+            } else {
+                rows.iter_mut().for_each(|row| row.fill(T::zero()));
             }
             if let Some((sign, from)) = turned {
                 let from = self.above(from, &cells, sign)?;
-                turn([a, b, c], from, &self.change);
+                turn(rows, from, &self.change);
             }
         }
         Ok(())
     }
 
-    /// The forces that come to these cells along each direction.
+    /// Returns the forces that arrive in these cells, by direction.
     fn above<'l>(
         &self,
         planes: &'l Planes<T>,
@@ -215,7 +271,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
     ) -> Result<[&'l [T]; 3], Error> {
         let [a, b, c] = planes;
         let along = |plane: &'l [T], direction| {
-            let cells = self.frame.grid.above(cells, sign, direction)?;
+            let cells = self.domain.grid.above(cells, sign, direction)?;
             plane.get(cells).ok_or_else(|| bug(FREE))
         };
         Ok([
@@ -232,39 +288,32 @@ fn rows_mut<'l, T>(
     [a, b, c]: &'l mut Planes<T>,
     cells: &Range<usize>,
 ) -> Result<[&'l mut [T]; 3], Error> {
-    let rows = (
-        a.get_mut(cells.clone()),
-        b.get_mut(cells.clone()),
-        c.get_mut(cells.clone()),
-    );
-    let (Some(a), Some(b), Some(c)) = rows else {
-        return Err(bug(FREE));
-    };
-    Ok([a, b, c])
+    let row = |plane: &'l mut Vec<T>| plane.get_mut(cells.clone()).ok_or_else(|| bug(FREE));
+    Ok([row(a)?, row(b)?, row(c)?])
 }
 
-/// The share that goes on straight.
+/// Sets `to` to the term of an unchanged sign.
 #[inline]
-fn carry<T: Number>(to: &mut [T], from: &[T], same: &impl Share<T>) {
+fn carry<T: Number>(to: &mut [T], from: &[T], same: &impl Factor<T>) {
     for (to, from) in to.iter_mut().zip(from) {
-        *to = same.of(from.clone());
+        *to = same.times(from.clone());
     }
 }
 
-/// Adds the share that makes a half-turn.
+/// Adds the term of a changed sign.
 #[inline]
-fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: &impl Share<T>) {
+fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: &impl Factor<T>) {
     let [ga, gb, gc] = from;
     let to = a.iter_mut().zip(b).zip(c);
     for (((a, b), c), ((ga, gb), gc)) in to.zip(ga.iter().zip(gb).zip(gc)) {
         let [ta, tb, tc] = formula::tripled_half_turn(&[ga.clone(), gb.clone(), gc.clone()]);
-        add(a, &change.of(ta));
-        add(b, &change.of(tb));
-        add(c, &change.of(tc));
+        add(a, &change.times(ta));
+        add(b, &change.times(tb));
+        add(c, &change.times(tc));
     }
 }
 
-/// Returns the shares 1 − q and q/3 of a fault probability.
+/// Returns the factors 1 − q and q/3 of both terms.
 pub(super) fn shares<T: Algebra>(q: &T) -> [T; 2] {
     let same = T::one() - q;
     [same, q.clone().div_int(crate::THREE)]

@@ -12,7 +12,7 @@ use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
 use num_traits::{One, Signed};
 
-use super::frame::Frame;
+use super::domain::Domain;
 use crate::Error;
 
 /// The integers of a recursion.
@@ -68,15 +68,15 @@ pub(super) fn bits_of_counts(steps: i128) -> u64 {
 ///
 /// # Errors
 /// [`Error::Bug`].
-pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> Result<u64, Error> {
+pub(super) fn bits_of_sources(domain: &Domain<'_>, denominator: &BigInt) -> Result<u64, Error> {
     let mut sum = BigUint::one();
-    if !frame.piles.is_weightless() {
-        for layer in 0..=frame.steps {
+    if !domain.piles.is_weightless() {
+        for layer in 0..=domain.steps {
             // No layer has more spheres than cells. ⌊√⌋ + 1 is above the root.
-            sum += BigUint::from(3 * frame.grid.reached(layer)?).sqrt() + 1_u32;
+            sum += BigUint::from(3 * domain.grid.reached(layer)?).sqrt() + 1_u32;
         }
     }
-    let loads = frame.piles.loads().values();
+    let loads = domain.piles.loads().values();
     for load in loads {
         // √3 < 2.
         sum += load.abs().ceil().to_integer().magnitude() * 2_u32;
@@ -88,7 +88,6 @@ pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> Result
 mod tests {
     use num_rational::BigRational;
 
-    use super::super::frame::Load;
     use super::*;
     use crate::{FirstSign, RandomPiles, RandomStackings};
     use cannonpile::lattice::{Region, Site};
@@ -129,12 +128,8 @@ mod tests {
                 (load(under.clone()), 2, 1 + roots + 200),
                 (load(under.weightless()), 6, 1 + 200),
             ] {
-                let one = Load {
-                    classes: 1,
-                    words: 1,
-                };
-                let frame = Frame::new(&piles, one).unwrap();
-                let found = bits_of_sources(&frame, &denominator.into()).unwrap();
+                let domain = Domain::new(&piles, 1, 1).unwrap();
+                let found = bits_of_sources(&domain, &denominator.into()).unwrap();
                 let bits = u64::from(64 - (bound * denominator).leading_zeros()) + 4;
                 assert_eq!(found, bits, "{steps} {denominator}");
             }

@@ -6,6 +6,9 @@ use core::str::FromStr;
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
+use serde::{Deserialize, Serialize};
+
+use super::written::SamplesParts;
 
 use crate::Error;
 use crate::check_fault_probability;
@@ -22,7 +25,8 @@ use crate::check_fault_probability;
 /// assert_ne!(drawn, Choice::All);
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Choice {
     /// Each stacking once.
     All,
@@ -48,11 +52,14 @@ pub enum Choice {
 /// assert_eq!(samples.fault_probability().to_string(), "1/3");
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "SamplesParts")]
 pub struct Samples {
+    #[serde(rename = "samples")]
     count: u64,
     seed: u64,
     /// 0 ≤ a ≤ b, with b below 2⁶⁴.
+    #[serde(with = "cannonpile::data::number")]
     fault_probability: BigRational,
 }
 

@@ -1,4 +1,4 @@
-//! What is counted on the way: bins, extremes and sums, in machine integers that are wide enough.
+//! Counters of forces: bins, extremes and sums, in machine integers that are wide enough.
 
 use core::cmp::Ordering;
 
@@ -8,7 +8,7 @@ use super::layer::{Numerator, Planes};
 use crate::Error;
 use crate::error::bug;
 
-/// Counts of numbers by bins, from the least bin that was met to the greatest.
+/// A histogram. It covers all bins from the least to the greatest number so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bins {
     pub(super) first: i64,
@@ -16,7 +16,7 @@ pub(super) struct Bins {
 }
 
 impl Bins {
-    /// Counts numbers, each so many times: of x the bin is ⌊x/width⌋. Their least and greatest are `ends`.
+    /// Counts each number x `times` times in the bin ⌊x/width⌋. `ends` are the least and the greatest number.
     pub(super) fn count<'t, T: Numerator + 't>(
         &mut self,
         numbers: impl IntoIterator<Item = &'t T>,
@@ -26,107 +26,81 @@ impl Bins {
     ) -> Result<(), Error> {
         let bin = |x: &T| x.div_floor(width).to_i64();
         let [first, last] = ends.each_ref().map(bin);
-        let ends = first.zip(last).ok_or_else(beyond)?;
-        self.cover(ends)?;
+        self.cover(first.zip(last).ok_or_else(outside)?)?;
         for x in numbers {
-            let place = bin(x).and_then(|bin| usize::try_from(bin - self.first).ok());
-            let count = place.and_then(|place| self.counts.get_mut(place));
-            *count.ok_or_else(beyond)? += times;
+            let index = bin(x).and_then(|bin| usize::try_from(bin - self.first).ok());
+            let count = index.and_then(|index| self.counts.get_mut(index));
+            *count.ok_or_else(outside)? += times;
         }
         Ok(())
     }
 
-    /// Makes room from one bin to another.
+    /// Extends the histogram to these bins.
     fn cover(&mut self, (first, last): (i64, i64)) -> Result<(), Error> {
         if self.counts.is_empty() {
             self.first = first;
         }
-        let before = usize::try_from(self.first - first);
-        if let Ok(before @ 1..) = before {
+        if let Ok(before @ 1..) = usize::try_from(self.first - first) {
             self.counts.splice(0..0, core::iter::repeat_n(0, before));
             self.first = first;
         }
-        let length = usize::try_from(last - self.first + 1).map_err(|_| beyond())?;
+        let length = usize::try_from(last - self.first + 1).map_err(|_| outside())?;
         if length > self.counts.len() {
             self.counts.resize(length, 0);
         }
         Ok(())
     }
 
-    /// Adds other counts, each so many times.
-    fn absorb(&mut self, other: &Self, times: u64) -> Result<(), Error> {
+    /// Adds another histogram `times` times.
+    fn add(&mut self, other: &Self, times: u64) -> Result<(), Error> {
         let Some(more) = other.counts.len().checked_sub(1) else {
             return Ok(());
         };
-        let last = other.first + i64::try_from(more).map_err(|_| beyond())?;
+        let last = other.first + i64::try_from(more).map_err(|_| outside())?;
         self.cover((other.first, last))?;
-        let before = usize::try_from(other.first - self.first).map_err(|_| beyond())?;
-        let counts = self.counts.iter_mut().skip(before);
-        counts
-            .zip(&other.counts)
-            .for_each(|(count, more)| *count += more * times);
+        let before = usize::try_from(other.first - self.first).map_err(|_| outside())?;
+        let pairs = self.counts.iter_mut().skip(before).zip(&other.counts);
+        pairs.for_each(|(count, more)| *count += more * times);
         Ok(())
-    }
-
-    fn clear(&mut self) {
-        self.counts.clear();
     }
 }
 
-fn beyond() -> Error {
+fn outside() -> Error {
     bug("a number lies between the least and the greatest of its layer")
 }
 
-/// The least or the greatest number that was met, and the signs of the first stacking that has it.
+/// The least or the greatest number so far, and the signs of the first stacking in which it occurs.
 #[derive(Clone, Debug)]
 pub(super) struct Extreme<T> {
     pub(super) value: T,
     pub(super) signs: Vec<Sign>,
 }
 
-/// The least and the greatest.
-#[derive(Clone, Debug)]
-pub(super) struct Ends<T> {
-    pub(super) least: Option<Extreme<T>>,
-    pub(super) greatest: Option<Extreme<T>>,
-}
+/// The least and the greatest number so far.
+pub(super) type Ends<T> = [Option<Extreme<T>>; 2];
 
-impl<T: Numerator> Ends<T> {
-    const NONE: Self = Self {
-        least: None,
-        greatest: None,
-    };
-
-    pub(super) fn meet(&mut self, [least, greatest]: &[T; 2], signs: impl Fn() -> Vec<Sign>) {
-        meet(&mut self.least, Ordering::Less, least.clone(), &signs);
-        let greatest = greatest.clone();
-        meet(&mut self.greatest, Ordering::Greater, greatest, &signs);
-    }
-}
-
-/// Takes in a number that is better, or as good and of a stacking that comes before.
-fn meet<T: Ord>(
-    best: &mut Option<Extreme<T>>,
-    better: Ordering,
-    value: T,
-    signs: impl Fn() -> Vec<Sign>,
-) {
-    let replaces = match best {
-        None => true,
-        Some(best) => match value.cmp(&best.value) {
-            Ordering::Equal => signs() < best.signs,
+/// Updates both ends with the least and the greatest number of a stacking.
+fn update<T: Numerator>(ends: &mut Ends<T>, values: [T; 2], signs: &[Sign]) {
+    let orders = [Ordering::Less, Ordering::Greater];
+    for ((end, value), better) in ends.iter_mut().zip(values).zip(orders) {
+        let replaces = |end: &Extreme<T>| match value.cmp(&end.value) {
+            Ordering::Equal => signs < end.signs.as_slice(),
             order => order == better,
-        },
-    };
-    if replaces {
-        let signs = signs();
-        *best = Some(Extreme { value, signs });
+        };
+        if end.as_ref().is_none_or(replaces) {
+            let signs = signs.to_vec();
+            *end = Some(Extreme { value, signs });
+        }
     }
 }
 
-/// How much lies above a layer, for the sums of its forces.
+/// The numbers that determine the sums of the forces below a layer, or their totals over several layers.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Level {
+    /// The number of layers: 1 for a single layer.
+    pub(super) layers: u128,
+    /// The spheres of layer k.
+    pub(super) spheres: u128,
     /// k.
     pub(super) depth: u128,
     /// The spheres of layers 1 to k.
@@ -136,131 +110,99 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// The next layer, with this many spheres.
+    /// Returns the level of a top layer.
+    pub(super) fn top(spheres: u128) -> Self {
+        Self {
+            layers: 1,
+            spheres,
+            ..Self::default()
+        }
+    }
+
+    /// Returns the level of the next layer, which has this number of spheres.
     pub(super) const fn next(self, spheres: u128) -> Self {
         Self {
+            layers: 1,
+            spheres,
             depth: self.depth + 1,
             squares: self.squares + 3 * spheres + 6 * self.under_top,
             under_top: self.under_top + spheres,
         }
     }
-}
 
-/// What was counted of the contact forces below some layers.
-#[derive(Clone, Debug)]
-pub(super) struct Forces<T> {
-    pub(super) bins: Bins,
-    pub(super) ends: Ends<T>,
-    /// The layers; and summed over them the spheres, and what [`Level`] has.
-    pub(super) layers: u128,
-    pub(super) spheres: u128,
-    pub(super) levels: Level,
-}
-
-impl<T: Numerator> Forces<T> {
-    pub(super) const fn new() -> Self {
-        Self {
-            bins: Bins {
-                first: 0,
-                counts: Vec::new(),
-            },
-            ends: Ends::NONE,
-            layers: 0,
-            spheres: 0,
-            levels: Level {
-                depth: 0,
-                under_top: 0,
-                squares: 0,
-            },
-        }
-    }
-
-    /// Counts the forces below one layer of a beginning with these signs.
-    pub(super) fn meet_layer(
-        &mut self,
-        forces: &Planes<T>,
-        width: &T,
-        ends: &[T; 2],
-        level: &Level,
-        signs: &[Sign],
-    ) -> Result<(), Error> {
-        for plane in forces {
-            self.bins.count(plane, width, ends, 1)?;
-        }
-        self.ends.meet(ends, || signs.to_vec());
-        self.layers += 1;
-        self.spheres += forces[0].len() as u128;
-        self.levels.depth += level.depth;
-        self.levels.under_top += level.under_top;
-        self.levels.squares += level.squares;
-        Ok(())
-    }
-
-    /// Adds what was counted below other layers, each so many times; their numerators times `scale` are ours. The
-    /// first stacking that goes on from signs is what `complete` says.
-    pub(super) fn absorb(
-        &mut self,
-        other: &Self,
-        times: u64,
-        scale: &T,
-        complete: impl Fn(&[Sign]) -> Vec<Sign>,
-    ) -> Result<(), Error> {
-        self.bins.absorb(&other.bins, times)?;
-        if let Some(Extreme { value, signs }) = &other.ends.least {
-            let value = value.clone() * scale;
-            meet(&mut self.ends.least, Ordering::Less, value, || {
-                complete(signs)
-            });
-        }
-        if let Some(Extreme { value, signs }) = &other.ends.greatest {
-            let value = value.clone() * scale;
-            let greatest = &mut self.ends.greatest;
-            meet(greatest, Ordering::Greater, value, || complete(signs));
-        }
-        let times = u128::from(times);
+    fn add(&mut self, other: &Self, times: u128) {
         self.layers += other.layers * times;
         self.spheres += other.spheres * times;
-        self.levels.depth += other.levels.depth * times;
-        self.levels.under_top += other.levels.under_top * times;
-        self.levels.squares += other.levels.squares * times;
-        Ok(())
-    }
-
-    /// Forgets all, in the same memory.
-    pub(super) fn clear(&mut self) {
-        self.bins.clear();
-        let bins = core::mem::take(&mut self.bins);
-        *self = Self {
-            bins,
-            ..Self::new()
-        };
+        self.depth += other.depth * times;
+        self.under_top += other.under_top * times;
+        self.squares += other.squares * times;
     }
 }
 
-/// What was counted of some stackings with a number of faults.
+/// The contact forces below one layer of a stacking.
+pub(super) struct LayerForces<T> {
+    bins: Bins,
+    ends: [T; 2],
+    level: Level,
+}
+
+impl<T: Numerator> LayerForces<T> {
+    /// Counts forces. `ends` are the least and the greatest of them.
+    pub(super) fn new(
+        forces: &Planes<T>,
+        width: &T,
+        ends: [T; 2],
+        level: Level,
+    ) -> Result<Self, Error> {
+        let mut bins = Bins::default();
+        for plane in forces {
+            bins.count(plane, width, &ends, 1)?;
+        }
+        Ok(Self { bins, ends, level })
+    }
+}
+
+/// The counters of some stackings with the same number of faults.
 #[derive(Clone, Debug)]
 pub(super) struct Counted<T> {
     pub(super) stackings: u64,
-    pub(super) forces: Forces<T>,
+    pub(super) forces: Bins,
+    pub(super) ends: Ends<T>,
+    /// The totals over all layers of all stackings.
+    pub(super) level: Level,
     pub(super) normals: Bins,
     pub(super) normal_ends: Ends<T>,
 }
 
 impl<T: Numerator> Counted<T> {
-    pub(super) const fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             stackings: 0,
-            forces: Forces::new(),
-            normals: Bins {
-                first: 0,
-                counts: Vec::new(),
-            },
-            normal_ends: Ends::NONE,
+            forces: Bins::default(),
+            ends: [None, None],
+            level: Level::default(),
+            normals: Bins::default(),
+            normal_ends: [None, None],
         }
     }
 
-    /// Counts a stacking's base, so many times.
-    pub(super) fn meet_base(
+    /// Adds a layer of `times` stackings, of which the first has these signs. `scale` converts the numerators of the layer.
+    pub(super) fn add_layer(
+        &mut self,
+        layer: &LayerForces<T>,
+        times: u64,
+        scale: &T,
+        signs: &[Sign],
+    ) -> Result<(), Error> {
+        self.forces.add(&layer.bins, times)?;
+        let values = layer.ends.clone().map(|value| value * scale);
+        update(&mut self.ends, values, signs);
+        self.level.add(&layer.level, times.into());
+        Ok(())
+    }
+
+    /// Adds `times` stackings with these signs and normal forces on the floor.
+    pub(super) fn add_base(
         &mut self,
         normals: &[T],
         width: &T,
@@ -270,7 +212,7 @@ impl<T: Numerator> Counted<T> {
     ) -> Result<(), Error> {
         self.stackings += times;
         self.normals.count(normals, width, ends, times)?;
-        self.normal_ends.meet(ends, || signs.to_vec());
+        update(&mut self.normal_ends, ends.clone(), signs);
         Ok(())
     }
 }

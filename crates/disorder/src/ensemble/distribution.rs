@@ -5,7 +5,6 @@ use core::cmp::Ordering;
 use cannonpile::stacking::Stacking;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::Zero;
 
 use super::count::{self, Bins, Counted, Ends};
 use super::layer::Numerator;
@@ -28,7 +27,7 @@ use crate::Error;
 /// assert_eq!(hcp.least.as_ref().unwrap().force.to_string(), "2/3");
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Distribution {
@@ -161,49 +160,24 @@ impl Distribution {
         setup: &Setup<T>,
         faults: usize,
     ) -> Result<Self, Error> {
-        let factor = setup.order.factor;
-        let denominator = setup.power(faults)?.clone().into() * &setup.scale;
-        let extremes = |ends: &Ends<T>, denominator: &BigInt| -> Result<_, Error> {
-            let extreme = |extreme: &Option<count::Extreme<T>>| {
-                let found = extreme
-                    .as_ref()
-                    .map(|found| Extreme::of(found, denominator));
-                found.transpose()
-            };
-            Ok((extreme(&ends.least)?, extreme(&ends.greatest)?))
-        };
-        let forces = &counted.forces;
-        let (least, greatest) = extremes(&forces.ends, &denominator)?;
-        let thirds = denominator * 3_u32;
-        let (least_normal, greatest_normal) = extremes(&counted.normal_ends, &thirds)?;
+        let factor = setup.factor;
         let times = BigInt::from(factor);
+        let denominator = setup.units(faults)?.power.clone().into() * &setup.scale;
+        let [least, greatest] = Extreme::of_ends(&counted.ends, &denominator)?;
+        let thirds = denominator * 3_u32;
+        let [least_normal, greatest_normal] = Extreme::of_ends(&counted.normal_ends, &thirds)?;
         Ok(Self {
             stackings: BigUint::from(counted.stackings) * factor,
-            contacts: BigUint::from(forces.spheres) * (3 * factor),
-            sum: setup.sums.sum(forces.layers, &forces.levels) * &times,
-            sum_of_squares: setup.sums.squares(forces.layers, &forces.levels) * &times,
-            forces: Histogram::of(&forces.bins, factor),
+            contacts: BigUint::from(counted.level.spheres) * (3 * factor),
+            sum: setup.sums.sum(&counted.level) * &times,
+            sum_of_squares: setup.sums.squares(&counted.level) * &times,
+            forces: Histogram::of(&counted.forces, factor),
             least,
             greatest,
             normals: Histogram::of(&counted.normals, factor),
             least_normal,
             greatest_normal,
         })
-    }
-
-    pub(super) fn nothing() -> Self {
-        Self {
-            stackings: BigUint::zero(),
-            contacts: BigUint::zero(),
-            sum: BigRational::zero(),
-            sum_of_squares: BigRational::zero(),
-            forces: Histogram::default(),
-            least: None,
-            greatest: None,
-            normals: Histogram::default(),
-            least_normal: None,
-            greatest_normal: None,
-        }
     }
 
     pub(super) fn add(&mut self, other: &Self) {
@@ -214,24 +188,20 @@ impl Distribution {
         self.forces.add(&other.forces);
         self.normals.add(&other.normals);
         let pairs = [
-            (&mut self.least, &other.least, Ordering::Less),
-            (&mut self.greatest, &other.greatest, Ordering::Greater),
-            (&mut self.least_normal, &other.least_normal, Ordering::Less),
-            (
-                &mut self.greatest_normal,
-                &other.greatest_normal,
-                Ordering::Greater,
-            ),
+            (&mut self.least, &other.least),
+            (&mut self.greatest, &other.greatest),
+            (&mut self.least_normal, &other.least_normal),
+            (&mut self.greatest_normal, &other.greatest_normal),
         ];
-        for (ours, theirs, better) in pairs {
-            let replaces = match (&*ours, theirs) {
-                (_, None) => false,
-                (None, Some(_)) => true,
-                (Some(ours), Some(theirs)) => match theirs.force.cmp(&ours.force) {
-                    Ordering::Equal => theirs.stacking.signs().lt(ours.stacking.signs()),
-                    order => order == better,
-                },
-            };
+        let orders = [Ordering::Less, Ordering::Greater].into_iter().cycle();
+        for ((ours, theirs), better) in pairs.into_iter().zip(orders) {
+            let replaces = theirs.as_ref().is_some_and(|theirs| {
+                ours.as_ref()
+                    .is_none_or(|ours| match theirs.force.cmp(&ours.force) {
+                        Ordering::Equal => theirs.stacking.signs().lt(ours.stacking.signs()),
+                        order => order == better,
+                    })
+            });
             if replaces {
                 ours.clone_from(theirs);
             }
@@ -240,9 +210,19 @@ impl Distribution {
 }
 
 impl Extreme {
-    fn of<T: Numerator>(found: &count::Extreme<T>, denominator: &BigInt) -> Result<Self, Error> {
-        let force = BigRational::new(found.value.clone().into(), denominator.clone());
-        let stacking = Stacking::from_signs(found.signs.iter().copied())?;
-        Ok(Self { force, stacking })
+    fn of_ends<T: Numerator>(
+        ends: &Ends<T>,
+        denominator: &BigInt,
+    ) -> Result<[Option<Self>; 2], Error> {
+        let extreme = |end: &Option<count::Extreme<T>>| {
+            let extreme = end.as_ref().map(|end| {
+                let force = BigRational::new(end.value.clone().into(), denominator.clone());
+                let stacking = Stacking::from_signs(end.signs.iter().copied())?;
+                Ok::<_, Error>(Self { force, stacking })
+            });
+            extreme.transpose()
+        };
+        let [least, greatest] = ends;
+        Ok([extreme(least)?, extreme(greatest)?])
     }
 }

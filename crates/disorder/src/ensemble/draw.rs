@@ -13,7 +13,7 @@ use crate::FirstSign;
 use crate::error::bug;
 
 /// What draws the samples of a seed.
-pub(super) struct Drawer {
+pub(super) struct Sampler {
     key: [u8; 32],
     first: FirstSign,
     steps: usize,
@@ -22,7 +22,7 @@ pub(super) struct Drawer {
     of: u64,
 }
 
-impl Drawer {
+impl Sampler {
     pub(super) fn new(samples: &Samples, first: FirstSign, steps: usize) -> Result<Self, Error> {
         let q = samples.fault_probability();
         let [faults, of] = [q.numer(), q.denom()].map(|part| {
@@ -111,7 +111,7 @@ mod tests {
     fn samples_depend_on_their_number_and_the_seed() -> Result<(), Error> {
         let drawn = |seed, q: (i64, i64), n| {
             let samples = Samples::new(9, seed, BigRational::new(q.0.into(), q.1.into()))?;
-            Ok::<_, Error>(Drawer::new(&samples, FirstSign::Random, 12)?.sample(n))
+            Ok::<_, Error>(Sampler::new(&samples, FirstSign::Random, 12)?.sample(n))
         };
         for n in 0..9 {
             let alike = |signs: &[Sign]| signs[0] == signs[1];

@@ -1,4 +1,4 @@
-//! The forces of one layer, and how they come down to the next.
+//! The contact forces below one layer, and their transfer to the next layer.
 
 use cannonpile::formula;
 use cannonpile::lattice::{Direction, Region, Sign};
@@ -9,8 +9,7 @@ use num_traits::ToPrimitive;
 use crate::Error;
 use crate::error::bug;
 
-/// An integer that is wide enough for the numerators of an ensemble: that is decided beforehand, so that plain operators
-/// serve.
+/// An integer type. A bound computed beforehand ensures that it is wide enough, so plain operators do not overflow.
 pub(super) trait Numerator:
     Clone
     + Integer
@@ -29,48 +28,39 @@ impl Numerator for i64 {}
 impl Numerator for i128 {}
 impl Numerator for BigInt {}
 
-/// Three numbers for each sphere of a layer, by direction; the spheres row after row.
+/// Three numbers for each sphere of a layer, by direction. The spheres are stored row by row.
 pub(super) type Planes<T> = [Vec<T>; 3];
 
-/// Where the spheres of a layer are in its planes.
+/// The indices of the spheres of a layer in its [`Planes`].
 #[derive(Clone, Debug)]
 pub(super) struct Places {
-    /// The first row.
+    /// j of the first row.
     y: i128,
-    /// Of each row its first i, and how many spheres come before it.
+    /// For each row: its first i, and the number of spheres before it.
     rows: Vec<(i128, usize)>,
     spheres: usize,
 }
 
 impl Places {
-    /// Those of a region, whose sites are fewer than memory holds.
+    /// Returns the indices for a region, which must fit in memory.
     pub(super) fn of(region: &Region) -> Result<Self, Error> {
         let mut places = Self {
             y: *region.y().start(),
             rows: Vec::new(),
             spheres: 0,
         };
-        places.become_those_of(region)?;
-        Ok(places)
-    }
-
-    /// Takes another region, in the same memory.
-    pub(super) fn become_those_of(&mut self, region: &Region) -> Result<(), Error> {
-        self.y = *region.y().start();
-        self.rows.clear();
-        self.spheres = 0;
         for row in region.rows(0) {
-            self.rows.push((row.i.start, self.spheres));
-            self.spheres += row.length()?;
+            places.rows.push((row.i.start, places.spheres));
+            places.spheres += row.length()?;
         }
-        Ok(())
+        Ok(places)
     }
 
     pub(super) const fn spheres(&self) -> usize {
         self.spheres
     }
 
-    /// The rows in order: j, the first i, and the places of the row.
+    /// Iterates over the rows: j, the first i, and the indices of the spheres.
     pub(super) fn rows(&self) -> impl Iterator<Item = (i128, i128, core::ops::Range<usize>)> + '_ {
         let ends = self.rows.iter().skip(1).map(|(_, before)| *before);
         let ends = ends.chain([self.spheres]);
@@ -80,17 +70,17 @@ impl Places {
             .map(|(j, ((i, before), end))| (j, *i, *before..end))
     }
 
-    /// The place of site (i, j), which may lie beyond the end of its row.
-    fn place(&self, i: i128, j: i128) -> Option<usize> {
+    /// Returns the index of site (i, j). It is wrong if the site lies beyond the end of its row.
+    fn index(&self, i: i128, j: i128) -> Option<usize> {
         let row = usize::try_from(j - self.y).ok()?;
         let (first, before) = self.rows.get(row)?;
         before.checked_add(usize::try_from(i - first).ok()?)
     }
 }
 
-/// Hands the forces of a layer to the spheres below: sphere (i, j) of the one gives to (i, j) + σd of the other. What
-/// nothing comes to receives 0.
-pub(super) fn hand_down<T: Numerator>(
+/// Moves the forces below a layer to the next layer: sphere (i, j) acts on the sphere (i, j) + σd. A sphere without contact
+/// from above in some direction receives 0.
+pub(super) fn move_down<T: Numerator>(
     forces: &Planes<T>,
     from: &Places,
     sign: Sign,
@@ -104,7 +94,7 @@ pub(super) fn hand_down<T: Numerator>(
         received.resize(to.spheres, T::zero());
         for (j, i, places) in from.rows() {
             let length = places.len();
-            let begin = to.place(i + di, j + dj);
+            let begin = to.index(i + di, j + dj);
             let target = begin.and_then(|begin| received.get_mut(begin..begin + length));
             let source = forces.get(places);
             let (target, source) = target
@@ -116,16 +106,18 @@ pub(super) fn hand_down<T: Numerator>(
     Ok(())
 }
 
-/// Passes on what a layer receives, its spheres' own included, where the sign stays as it is.
-pub(super) fn pass_on<T: Numerator>(received: &Planes<T>, own: &T, forces: &mut Planes<T>) {
+/// Computes the forces below a layer from the forces on it, if the sign does not change. `own` is the force that the weight
+/// of a sphere adds.
+pub(super) fn transmit<T: Numerator>(received: &Planes<T>, own: &T, forces: &mut Planes<T>) {
     for (received, forces) in received.iter().zip(forces) {
         forces.clear();
         forces.extend(received.iter().map(|g| formula::passed_on(g.clone(), own)));
     }
 }
 
-/// Passes on what a layer receives, its spheres' own included, where the sign changes: over three times the denominator.
-pub(super) fn turn<T: Numerator>(received: &Planes<T>, own: &T, forces: &mut Planes<T>) {
+/// Computes the forces below a layer from the forces on it, if the sign changes. The results have three times the
+/// denominator of the received forces.
+pub(super) fn transmit_turned<T: Numerator>(received: &Planes<T>, own: &T, forces: &mut Planes<T>) {
     let spheres = received[0].len();
     for plane in forces.iter_mut() {
         plane.resize(spheres, T::zero());
@@ -142,7 +134,7 @@ pub(super) fn turn<T: Numerator>(received: &Planes<T>, own: &T, forces: &mut Pla
     }
 }
 
-/// The least and the greatest of some numbers; none of none.
+/// Returns the least and the greatest number, or `None` for an empty list.
 pub(super) fn extremes<'t, T: Numerator + 't>(
     numbers: impl IntoIterator<Item = &'t T>,
 ) -> Option<[T; 2]> {

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use cannonpile::lattice::Site;
 use cannonpile::scalar::Ring;
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -159,22 +160,6 @@ impl Tally {
         Ok(whole)
     }
 
-    /// Returns the tally made of its parts, if a run can have counted so.
-    pub(super) fn from_parts(
-        ensemble: Ensemble,
-        choice: Choice,
-        shard: Shard,
-        faults: Vec<WithFaults>,
-    ) -> Option<Self> {
-        let tally = Self {
-            ensemble,
-            choice,
-            shard,
-            faults,
-        };
-        tally.is_possible().then_some(tally)
-    }
-
     /// Adds what was counted of others of the same ensemble.
     pub(super) fn add(&mut self, other: &Self) {
         let faults = self.faults.iter_mut().zip(&other.faults);
@@ -190,43 +175,32 @@ impl Tally {
                 shard,
                 ..
             } = tally;
-            let stackings = ensemble.stackings();
-            let top = ensemble.top();
-            let loads = top
-                .loads()
-                .map(|(site, load)| format!("{},{}={load}", site.i, site.j));
-            let loads: Vec<_> = loads.collect();
+            let (stackings, top) = (ensemble.stackings(), ensemble.top());
+            let none = || "none".to_owned();
+            let load = |(site, load): (Site, &BigRational)| format!("{},{}={load}", site.i, site.j);
+            let loads: Vec<_> = top.loads().map(load).collect();
             let loads = if loads.is_empty() {
-                "none".into()
+                none()
             } else {
                 loads.join(" ")
             };
             let [samples, seed, q] = match choice {
-                Choice::All => [(); 3].map(|()| "none".into()),
+                Choice::All => [none(), none(), none()],
                 Choice::Drawn(samples) => [
                     samples.count().to_string(),
                     samples.seed().to_string(),
                     samples.fault_probability().to_string(),
                 ],
             };
+            let weight = u8::from(!top.is_weightless());
+            let spacing = ["above 1", "1"][usize::from(ensemble.has_horizontal_contacts())];
             [
                 ("number of layers", stackings.layers().to_string()),
                 ("first sign", stackings.first().to_string()),
                 ("top", format!("{:#}", top.shape().base())),
                 ("load", loads),
-                (
-                    "weight of spheres",
-                    if top.is_weightless() { "0" } else { "1" }.into(),
-                ),
-                (
-                    "spacing",
-                    if ensemble.has_horizontal_contacts() {
-                        "1"
-                    } else {
-                        "above 1"
-                    }
-                    .into(),
-                ),
+                ("weight of spheres", weight.to_string()),
+                ("spacing", spacing.to_owned()),
                 ("width of bins", ensemble.bins().to_string()),
                 ("number of samples", samples),
                 ("seed", seed),
@@ -234,15 +208,13 @@ impl Tally {
                 ("number of parts", shard.of().to_string()),
             ]
         };
-        let pairs = described(self).into_iter().zip(described(first));
-        let mut pairs = pairs.filter(|(ours, theirs)| ours != theirs);
-        pairs
-            .next()
-            .map(|((what, ours), (_, theirs))| (what, ours, theirs))
+        let mut pairs = described(self).into_iter().zip(described(first));
+        let (ours, theirs) = pairs.find(|(ours, theirs)| ours != theirs)?;
+        Some((ours.0, ours.1, theirs.1))
     }
 
     /// Whether it has the stackings of its part, each number of faults once, and bins that a run can have.
-    fn is_possible(&self) -> bool {
+    pub(super) fn is_possible(&self) -> bool {
         let stackings = self.ensemble.stackings();
         // First, since layers beyond number are not gone into.
         if self.faults.len() as i128 != stackings.most_faults() + 1 {
@@ -273,7 +245,7 @@ impl Tally {
                     .all(|of| of.is_possible(&self.ensemble, d))
         };
         let expected = stackings_of(&self.ensemble, &self.choice, self.shard);
-        expected == Ok(Some(self.stackings())) && self.faults.iter().enumerate().all(is_row)
+        expected == Some(self.stackings()) && self.faults.iter().enumerate().all(is_row)
     }
 }
 

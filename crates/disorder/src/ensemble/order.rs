@@ -1,4 +1,4 @@
-//! The order of all stackings.
+//! The order in which stackings are enumerated.
 
 use cannonpile::lattice::Sign;
 
@@ -7,14 +7,14 @@ use crate::Error;
 use crate::FirstSign;
 use crate::error::bug;
 
-/// The order of all stackings of an ensemble: that of their signs from the top, + before −.
+/// The stackings of an ensemble in lexicographic order of their signs from the top, with + before −.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Order {
-    /// The first sign, where it is given, or one of two mirror images is walked for both.
+    /// The first sign, if it is the same in all enumerated stackings.
     first: Option<Sign>,
-    /// The number of signs that are not given.
+    /// The number of signs that vary.
     pub(super) free: u32,
-    /// How many stackings each stands for.
+    /// The number of stackings with the same forces that each enumerated one stands for.
     pub(super) factor: u32,
 }
 
@@ -26,13 +26,10 @@ impl Order {
             FirstSign::Random => None,
         };
         let both = *choice == Choice::All && given.is_none() && steps > 0;
+        // Of two mirror images one is enumerated.
         let halves = both && ensemble.is_its_own_mirror_image();
         let first = if halves { Some(Sign::Plus) } else { given };
-        let free = if first.is_some() {
-            steps.saturating_sub(1)
-        } else {
-            steps
-        };
+        let free = steps.saturating_sub(usize::from(first.is_some()));
         Ok(Self {
             first,
             free: u32::try_from(free).map_err(|_| bug("layers that fit in memory are few"))?,
@@ -40,19 +37,14 @@ impl Order {
         })
     }
 
-    /// The first sign, where it is given.
-    pub(super) const fn first(&self) -> Option<Sign> {
-        self.first
-    }
-
-    /// How many there are, if places are counted in 62 bits.
+    /// Returns the number of enumerated stackings. `None` if it is 2⁶² or more.
     pub(super) fn total(&self) -> Option<u64> {
         (self.free < 62).then(|| 1 << self.free)
     }
 
-    /// The signs of the stacking at a place of the order.
-    pub(super) fn signs(&self, place: u64) -> Vec<Sign> {
-        let free = (0..self.free).rev().map(|bit| match place >> bit & 1 {
+    /// Returns the signs of the stacking with this index.
+    pub(super) fn signs(&self, index: u64) -> Vec<Sign> {
+        let free = (0..self.free).rev().map(|bit| match index >> bit & 1 {
             0 => Sign::Plus,
             _ => Sign::Minus,
         });

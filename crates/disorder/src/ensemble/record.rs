@@ -227,11 +227,16 @@ impl TallyRecord {
             faults,
             ..
         } = parts;
-        let tally = Tally::from_parts(ensemble, choice, shard, faults);
+        let tally = Tally {
+            ensemble,
+            choice,
+            shard,
+            faults,
+        };
         let refused = |said: String| io::Error::new(io::ErrorKind::InvalidData, said);
-        let tally = tally.ok_or_else(|| {
-            refused("its counts are not those of its stackings: run it again".to_owned())
-        })?;
+        if !tally.is_possible() {
+            return Err(refused(Unmergeable::Impossible { place: 0 }.to_string()));
+        }
         let record = Self::new(tally, fault_probability.clone());
         let record = record.map_err(|error| refused(error.to_string()))?;
         if record.fault_probability != fault_probability {

@@ -5,11 +5,10 @@ use core::ops::Range;
 use cannonpile::engine::try_for_each;
 use num_bigint::BigInt;
 
-use super::draw::Drawer;
+use super::draw::Sampler;
 use super::layer::Numerator;
-use super::part::Walked;
 use super::setup::{Setup, Task};
-use super::survivors::{Judge, Survivors};
+use super::verdicts::{Judge, Verdicts};
 use super::walk::walk;
 use super::{Choice, Ensemble, Shard, Tally, WithFaults};
 use crate::Error;
@@ -47,9 +46,9 @@ impl<E: From<Error> + Send> Run<'_, E> {
     }
 
     fn in_numbers<T: Numerator>(&self) -> Result<Tally, E> {
-        let survivors = match (self.ensemble.has_horizontal_contacts, self.judge) {
+        let verdicts = match (self.ensemble.has_horizontal_contacts, self.judge) {
             (false, _) => None,
-            (true, Some(judge)) => Some(Survivors::new(self.ensemble, judge)),
+            (true, Some(judge)) => Some(Verdicts::new(self.ensemble, judge)),
             (true, None) => return Err(Error::NoJudge.into()),
         };
         let setup = self.task.setup::<T>(self.ensemble)?;
@@ -67,7 +66,7 @@ impl<E: From<Error> + Send> Run<'_, E> {
                 .collect::<Result<Vec<_>, _>>()?;
             try_for_each(
                 ranges.into_iter().zip(&mut counted).collect(),
-                |(range, counted)| self.count(&setup, survivors.as_ref(), range, counted),
+                |(range, counted)| self.count(&setup, verdicts.as_ref(), range, counted),
             )?;
             for counted in &counted {
                 tally.add(counted);
@@ -98,22 +97,22 @@ impl<E: From<Error> + Send> Run<'_, E> {
     fn count<T: Numerator>(
         &self,
         setup: &Setup<T>,
-        survivors: Option<&Survivors<'_, E>>,
+        verdicts: Option<&Verdicts<'_, E>>,
         range: Range<u64>,
         tally: &mut Tally,
     ) -> Result<(), E> {
         let length = range.end - range.start;
-        let walked = match self.choice {
-            Choice::All => Walked::Range(range),
+        let list: Vec<_> = match self.choice {
+            Choice::All => range.map(|index| self.task.order.signs(index)).collect(),
             Choice::Drawn(samples) => {
                 let first = self.ensemble.stackings.first();
-                let drawer = Drawer::new(samples, first, setup.steps)?;
-                let mut drawn: Vec<_> = range.map(|n| drawer.sample(n)).collect();
+                let sampler = Sampler::new(samples, first, setup.steps)?;
+                let mut drawn: Vec<_> = range.map(|n| sampler.sample(n)).collect();
                 drawn.sort_unstable();
-                Walked::Listed(drawn)
+                drawn
             }
         };
-        let counted = walk(setup, survivors, &walked)?;
+        let counted = walk(setup, verdicts, &list)?;
         let has_held = self.ensemble.has_horizontal_contacts;
         let kinds = counted.all.iter().zip(&counted.standing).zip(&counted.held);
         for (faults, (((all, standing), held), with)) in kinds.zip(&mut tally.faults).enumerate() {

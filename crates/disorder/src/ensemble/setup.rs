@@ -1,4 +1,6 @@
-//! What is decided before stackings are walked: how wide numbers must be, and what they are multiples of.
+//! Preparation of a run: limits, integer widths and common denominators.
+
+use core::ops::Range;
 
 use cannonpile::engine::common_denominator;
 use cannonpile::engine::{refuse_beyond, refuse_beyond_memory};
@@ -16,29 +18,30 @@ use super::{Choice, Ensemble, Shard};
 use crate::Error;
 use crate::error::bug;
 
-/// The most words of 64 bits that a walk keeps: the numbers of a layer for each layer.
-const MAX_WORDS: u64 = 50_000_000;
+/// The most 64-bit words that a walk stores, for all layers of one stacking.
+const MOST_WORDS: u64 = 50_000_000;
 
-/// The most bins from the least force that there may be to the greatest.
+/// The most bins that a histogram of contact forces can have.
 pub(super) const MOST_BINS: u64 = 100_000;
 
-/// The most stackings that one walk goes through, all of them.
+/// The most stackings that one run enumerates.
 const MOST_STACKINGS: u64 = 1 << 24;
 
-/// What is asked of an ensemble, checked, and what it takes.
+/// A checked request.
 pub(super) struct Task {
     steps: usize,
-    order: Order,
-    /// Of stackings or samples, those of the part.
-    pub(super) range: core::ops::Range<u64>,
-    /// What all forces and the width of the bins are multiples of, times 3^faults.
+    pub(super) order: Order,
+    /// The indices of the stackings or samples of the shard.
+    pub(super) range: Range<u64>,
+    /// The common denominator of all forces and the width of the bins, without the factor 3^faults.
     scale: BigInt,
-    /// The forces below the top layer, in f₀: what its spheres add to their lines.
+    /// The forces below the top layer, in f₀, one for each sphere.
     top_own: Vec<BigRational>,
-    /// What a sphere of another layer adds, times the scale.
+    /// The force that a sphere of another layer adds to each of its contacts, times the scale.
     own: BigInt,
+    /// The width of the bins of contact forces, times the scale.
     width: BigInt,
-    /// No numerator exceeds it.
+    /// A bound on all numerators.
     bound: BigInt,
 }
 
@@ -47,78 +50,55 @@ impl Task {
         let spheres = sizes(ensemble)?;
         let steps = spheres.len() - 1;
         let order = Order::new(ensemble, choice, steps)?;
-        let range = match choice {
-            Choice::All => {
-                let too_many = |stackings: BigUint| Error::TooManyStackings {
-                    stackings,
-                    limit: MOST_STACKINGS,
-                };
-                let total = order.total();
-                let total = total.ok_or_else(|| too_many(BigUint::one() << order.free))?;
-                let range = shard.range(total);
-                if range.end - range.start > MOST_STACKINGS {
-                    return Err(too_many((range.end - range.start).into()));
-                }
-                range
-            }
-            Choice::Drawn(samples) => shard.range(samples.count()),
+        let too_many = |stackings: BigUint| Error::TooManyStackings {
+            stackings,
+            limit: MOST_STACKINGS,
         };
-        let contacts = spheres.iter().sum::<u128>() * 3;
-        let walked = u128::from(range.end - range.start) * u128::from(order.factor);
-        // A multiple of three, so that none is 2⁶² itself, which counts of 64 bits do not hold.
+        let range = range_of(&order, choice, shard);
+        let range = range.ok_or_else(|| too_many(BigUint::one() << order.free))?;
+        let count = range.end - range.start;
+        if *choice == Choice::All && count > MOST_STACKINGS {
+            return Err(too_many(count.into()));
+        }
+        let total = spheres.iter().sum::<u128>();
+        // The number is a multiple of three. So it is less than 2⁶², and counters of 64 bits suffice.
         refuse_beyond(
             "the contact forces of all samples",
-            BigUint::from(walked) * contacts,
+            BigUint::from(u128::from(count) * u128::from(order.factor)) * (total * 3),
             1 << 62,
             "take a smaller shard, or fewer samples",
         )?;
-        Self::of(ensemble, &spheres, order, range)
-    }
-
-    /// Of layers with at most so many spheres.
-    fn of(
-        ensemble: &Ensemble,
-        spheres: &[u128],
-        order: Order,
-        range: core::ops::Range<u64>,
-    ) -> Result<Self, Error> {
-        let steps = spheres.len() - 1;
         let half = BigRational::new(1.into(), 2.into());
-        // On an equilateral base all three are one.
+        // On an equilateral base all three increments are 1.
         let [increment, ..] = formula::increments(&half);
         let top_own = ensemble.own_of_top(&increment)?;
         let weight = ensemble.weight();
         let sums = Sums::of(&top_own, &weight);
-        let level = spheres
-            .iter()
-            .skip(1)
-            .fold(Level::default(), |level, spheres| level.next(*spheres));
-        // A force is no greater than the root of the sum of squares of its layer, which grows on the way down.
-        let greatest = sums.squares(1, &level).ceil().to_integer().sqrt() + 1_u32;
-        let bins =
-            (BigRational::from_integer(greatest.clone() + &greatest) / ensemble.bins()).ceil();
+        let below = spheres.iter().skip(1);
+        let level = below.fold(Level::top(0), |level, spheres| level.next(*spheres));
+        // No force exceeds the root of the sum of squares of its layer, which grows from layer to layer.
+        let greatest = sums.squares(&level).ceil().to_integer().sqrt() + 1_u32;
+        let span = BigRational::from_integer(greatest.clone() + &greatest);
         refuse_beyond(
             "the histogram of contact forces",
-            bins.to_integer().into_parts().1,
+            (span / ensemble.bins()).ceil().to_integer().into_parts().1,
             MOST_BINS,
             "use wider bins, or fewer layers",
         )?;
         let own = formula::force(weight, &increment);
-        let denominators = top_own.iter().chain([&own, ensemble.bins()]);
-        let scale = common_denominator(denominators);
+        let scale = common_denominator(top_own.iter().chain([&own, ensemble.bins()]));
         let times = |number: &BigRational| (number * &scale).to_integer();
         let width = times(ensemble.bins());
-        // Sums of three on the way, and their tripled half-turn; three widths for the normal forces.
+        // The factor 16 covers sums of three forces and the tripled half-turn. Normal forces have bins of three widths.
         let bound = (greatest * &scale * 16_u32).max(width.clone() * 3_u32);
         let bound = bound * power_of_three(steps.saturating_sub(1));
-        // Big integers have their words elsewhere.
+        // A big integer stores its words in a list, which costs about five words more.
         let words = match bound.bits() {
             0..64 => 1,
             64..128 => 2,
             bits => bits / 64 + 5,
         };
-        let numbers = BigUint::from(spheres.iter().sum::<u128>() * NUMBERS);
-        refuse_too_many(&(numbers * words))?;
+        refuse_too_many(&(BigUint::from(total * NUMBERS) * words))?;
         Ok(Self {
             steps,
             order,
@@ -131,81 +111,71 @@ impl Task {
         })
     }
 
-    /// Whether numbers of so many bits suffice, their sign included.
+    /// Returns whether signed integers of this many bits suffice.
     pub(super) fn fits(&self, bits: u64) -> bool {
         self.bound.bits() < bits
     }
 
-    /// In numbers that are wide enough.
+    /// Converts the numerators to integers that are wide enough.
     pub(super) fn setup<T: Numerator>(&self, ensemble: &Ensemble) -> Result<Setup<T>, Error> {
         let number = |big: BigInt| T::try_from(big).map_err(|_| bug("the bound holds for all"));
-        let kinds = self.steps.saturating_sub(1) + 1;
-        let powers: Result<Vec<T>, Error> = (0..kinds)
-            .map(|faults| number(power_of_three(faults)))
-            .collect();
-        let powers = powers?;
-        let times_powers = |of: &BigInt| -> Result<Vec<T>, Error> {
-            let of = number(of.clone())?;
-            Ok(powers.iter().map(|power| of.clone() * power).collect())
+        let units = |faults: usize| {
+            let power = power_of_three(faults);
+            Ok(Units {
+                own: number(&self.own * &power)?,
+                width: number(&self.width * &power)?,
+                normal_width: number(&self.width * 3_u32 * &power)?,
+                power: number(power)?,
+            })
         };
+        let by_faults = (0..self.steps.max(1)).map(units);
         let top_own = self.top_own.iter();
-        let top_own: Result<Vec<T>, Error> = top_own
-            .map(|own| number((own * &self.scale).to_integer()))
-            .collect();
-        let top_own = top_own?;
+        let top_own = top_own.map(|own| number((own * &self.scale).to_integer()));
+        let top_own: Vec<T> = top_own.collect::<Result<_, Error>>()?;
         Ok(Setup {
             steps: self.steps,
-            order: self.order,
             top: ensemble.region(),
             top_own: [top_own.clone(), top_own.clone(), top_own],
-            own: times_powers(&self.own)?,
-            widths: times_powers(&self.width)?,
-            normal_widths: times_powers(&(self.width.clone() * 3_u32))?,
-            powers,
+            by_faults: by_faults.collect::<Result<_, Error>>()?,
+            factor: self.order.factor,
             scale: self.scale.clone(),
             sums: Sums::of(&self.top_own, &ensemble.weight()),
         })
     }
 }
 
-/// What a walk works with.
+/// The constants of a walk.
 pub(super) struct Setup<T> {
     pub(super) steps: usize,
-    pub(super) order: Order,
     pub(super) top: Region,
     /// The forces below the top layer.
     pub(super) top_own: Planes<T>,
-    /// By faults, from here on: what a sphere adds to its lines.
-    own: Vec<T>,
-    widths: Vec<T>,
-    normal_widths: Vec<T>,
-    /// 3^faults.
-    pub(super) powers: Vec<T>,
+    pub(super) by_faults: Vec<Units<T>>,
+    /// The number of stackings that each listed one stands for.
+    pub(super) factor: u32,
     pub(super) scale: BigInt,
     pub(super) sums: Sums,
 }
 
+/// The numerators of constants below a given number of faults. They have the factor 3^faults.
+pub(super) struct Units<T> {
+    /// The force that a sphere adds to each of its contacts.
+    pub(super) own: T,
+    /// The width of the bins of contact forces.
+    pub(super) width: T,
+    /// Three times the width of the bins of normal forces.
+    pub(super) normal_width: T,
+    /// 3^faults.
+    pub(super) power: T,
+}
+
 impl<T> Setup<T> {
-    pub(super) fn own(&self, faults: usize) -> Result<&T, Error> {
-        self.own.get(faults).ok_or_else(too_many_faults)
-    }
-
-    /// The width of bins of forces.
-    pub(super) fn width(&self, faults: usize) -> Result<&T, Error> {
-        self.widths.get(faults).ok_or_else(too_many_faults)
-    }
-
-    /// That of three times a normal force.
-    pub(super) fn normal_width(&self, faults: usize) -> Result<&T, Error> {
-        self.normal_widths.get(faults).ok_or_else(too_many_faults)
-    }
-
-    pub(super) fn power(&self, faults: usize) -> Result<&T, Error> {
-        self.powers.get(faults).ok_or_else(too_many_faults)
+    pub(super) fn units(&self, faults: usize) -> Result<&Units<T>, Error> {
+        self.by_faults.get(faults).ok_or_else(too_many_faults)
     }
 }
 
-fn too_many_faults() -> Error {
+pub(super) fn too_many_faults() -> Error {
     bug("a stacking has no more faults than signs that can change")
 }
 
@@ -213,7 +183,7 @@ fn power_of_three(exponent: usize) -> BigInt {
     num_traits::pow(BigInt::from(3_u32), exponent)
 }
 
-/// What is kept for each sphere of each layer: what comes down to it and what it passes on, three numbers each.
+/// The numbers stored for each sphere of each layer: three forces from above, and three below.
 const NUMBERS: u128 = 6;
 
 fn refuse_too_many(words: &BigUint) -> Result<(), Error> {
@@ -226,7 +196,7 @@ fn refuse_too_many(words: &BigUint) -> Result<(), Error> {
     Ok(())
 }
 
-/// The most spheres of each layer, whatever the stacking.
+/// Returns the greatest number of spheres that each layer has in any stacking.
 fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
     let top = ensemble.region();
     let mut sizes = Vec::new();
@@ -238,28 +208,25 @@ fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
         refuse_too_many(&numbers)?;
         sizes.push(
             most.to_u128()
-                .ok_or_else(|| bug("what is below the limit fits"))?,
+                .ok_or_else(|| bug("the limit fits 128 bits"))?,
         );
     }
     Ok(sizes)
 }
 
-/// How many stackings a part has; `None` of an ensemble of which no part is walked.
-pub(super) fn stackings_of(
-    ensemble: &Ensemble,
-    choice: &Choice,
-    shard: Shard,
-) -> Result<Option<BigUint>, Error> {
-    let (total, factor) = match choice {
-        Choice::All => {
-            let Ok(steps) = usize::try_from(ensemble.stackings().steps()) else {
-                return Ok(None);
-            };
-            let order = Order::new(ensemble, choice, steps)?;
-            (order.total(), order.factor)
-        }
-        Choice::Drawn(samples) => (Some(samples.count()), 1),
+/// Returns the indices of the stackings or samples of a shard. `None` if their total number exceeds 62 bits.
+fn range_of(order: &Order, choice: &Choice, shard: Shard) -> Option<Range<u64>> {
+    let total = match choice {
+        Choice::All => order.total()?,
+        Choice::Drawn(samples) => samples.count(),
     };
-    let range = total.map(|total| shard.range(total));
-    Ok(range.map(|range| BigUint::from(range.end - range.start) * factor))
+    Some(shard.range(total))
+}
+
+/// Returns the number of stackings of a shard. `None` if no run has such a shard.
+pub(super) fn stackings_of(ensemble: &Ensemble, choice: &Choice, shard: Shard) -> Option<BigUint> {
+    let steps = usize::try_from(ensemble.stackings().steps()).ok()?;
+    let order = Order::new(ensemble, choice, steps).ok()?;
+    let range = range_of(&order, choice, shard)?;
+    Some(BigUint::from(range.end - range.start) * order.factor)
 }

@@ -31,17 +31,17 @@ impl Sums {
     }
 
     /// The sum of the forces below some layers, by what lies above them in all.
-    pub(super) fn sum(&self, layers: u128, levels: &Level) -> BigRational {
+    pub(super) fn sum(&self, level: &Level) -> BigRational {
         let [top, _] = &self.top;
-        let below = BigRational::from_integer(BigInt::from(levels.under_top) * 3_u32);
-        top * BigInt::from(layers) + below * &self.weight
+        let below = BigRational::from_integer(BigInt::from(level.under_top) * 3_u32);
+        top * BigInt::from(level.layers) + below * &self.weight
     }
 
     /// The sum of their squares.
-    pub(super) fn squares(&self, layers: u128, levels: &Level) -> BigRational {
+    pub(super) fn squares(&self, level: &Level) -> BigRational {
         let [sum, squares] = &self.top;
-        let mixed = sum * BigInt::from(levels.depth) * BigInt::from(2_u32);
-        let below = mixed + BigRational::from_integer(levels.squares.into());
-        squares * BigInt::from(layers) + below * &self.weight
+        let mixed = sum * BigInt::from(level.depth) * BigInt::from(2_u32);
+        let below = mixed + BigRational::from_integer(level.squares.into());
+        squares * BigInt::from(level.layers) + below * &self.weight
     }
 }

@@ -1,10 +1,8 @@
 //! What was counted of an ensemble, in exact numbers.
 
-use core::iter::successors;
-
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::{One, Zero, pow};
 
 use super::count::Counted;
 use super::distribution::Distribution;
@@ -73,17 +71,8 @@ impl WithFaults {
             faults: u32::try_from(faults).map_err(|_| bug("layers that fit in memory are few"))?,
             all: Distribution::of(all, setup, faults)?,
             standing: Distribution::of(standing, setup, faults)?,
-            held: held.map(|held| BigUint::from(held) * setup.order.factor),
+            held: held.map(|held| BigUint::from(held) * setup.factor),
         })
-    }
-
-    pub(super) fn nothing(faults: u32, has_held: bool) -> Self {
-        Self {
-            faults,
-            all: Distribution::nothing(),
-            standing: Distribution::nothing(),
-            held: has_held.then(BigUint::zero),
-        }
     }
 
     pub(super) fn add(&mut self, other: &Self) {
@@ -113,14 +102,17 @@ impl Tally {
         let most = ensemble.stackings().most_faults();
         let most = u32::try_from(most).map_err(|_| bug("layers that fit in memory are few"))?;
         let has_held = ensemble.has_horizontal_contacts();
-        let faults = (0..=most)
-            .map(|d| WithFaults::nothing(d, has_held))
-            .collect();
+        let faults = (0..=most).map(|faults| WithFaults {
+            faults,
+            all: Distribution::default(),
+            standing: Distribution::default(),
+            held: has_held.then(BigUint::zero),
+        });
         Ok(Self {
             ensemble,
             choice,
             shard,
-            faults,
+            faults: faults.collect(),
         })
     }
 
@@ -150,11 +142,7 @@ impl Tally {
     /// ```
     #[must_use]
     pub fn standing(&self, by: By) -> Option<BigUint> {
-        let mut sum = BigUint::zero();
-        for with in &self.faults {
-            sum += with.that_stand(by)?;
-        }
-        Some(sum)
+        self.faults.iter().map(|with| with.that_stand(by)).sum()
     }
 
     /// Returns the weights of means, by number of faults: what each stacking that was looked at counts for. Of all stackings
@@ -183,20 +171,16 @@ impl Tally {
         if self.shard != Shard::WHOLE {
             return Ok(None);
         }
-        let Choice::Drawn(samples) = &self.choice else {
-            let powers = |of: BigRational| {
-                let first = BigRational::one();
-                successors(Some(first), move |power| Some(power * &of)).take(self.faults.len())
-            };
-            let (change, stay) = (powers(q.clone()), powers(BigRational::one() - q));
-            let stay: Vec<_> = stay.collect();
-            let weights = change.zip(stay.into_iter().rev());
-            let first_signs = self.first_signs();
-            let weights = weights.map(|(change, stay)| change * stay / &first_signs);
-            return Ok(Some(weights.collect()));
+        let most = self.faults.len().saturating_sub(1);
+        let stay = BigRational::one() - q;
+        let weight = |d: usize| match &self.choice {
+            Choice::Drawn(samples) => BigRational::new(BigInt::one(), samples.count().into()),
+            Choice::All => {
+                let first_signs = self.ensemble.stackings().first_signs().len();
+                pow(q.clone(), d) * pow(stay.clone(), most - d) / BigInt::from(first_signs)
+            }
         };
-        let weight = BigRational::new(BigInt::one(), samples.count().into());
-        Ok(Some(vec![weight; self.faults.len()]))
+        Ok(Some((0..self.faults.len()).map(weight).collect()))
     }
 
     /// Returns the probability that a stacking stands at the fault probability q, Σ_d c_d q^d (1−q)^(n−1−d), half of it with
@@ -230,19 +214,9 @@ impl Tally {
         let Some(weights) = self.weights(q)?.filter(|_| self.choice == Choice::All) else {
             return Ok(None);
         };
-        let mut sum = BigRational::zero();
-        for (with, weight) in self.faults.iter().zip(weights) {
-            let Some(count) = with.that_stand(by) else {
-                return Ok(None);
-            };
-            sum += weight * BigInt::from(count);
-        }
-        Ok(Some(sum))
-    }
-
-    /// How many first signs there are, each as likely.
-    fn first_signs(&self) -> BigInt {
-        self.ensemble.stackings().first_signs().len().into()
+        let terms = self.faults.iter().zip(weights);
+        let terms = terms.map(|(with, weight)| Some(weight * BigInt::from(with.that_stand(by)?)));
+        Ok(terms.sum())
     }
 }
 

@@ -1,26 +1,31 @@
-//! What the floor feels of the last layer.
+//! The last step, and the forces on the floor.
 
 use super::{FREE, Layer, Spot, Transfer};
 use crate::Error;
 use crate::error::bug;
 use crate::floor::FloorFactors;
-use crate::number::{Number, Share, add};
-use crate::place::Place;
-use crate::walk::{SIGNS, Walk};
+use crate::nets::{NetCounts, SIGNS};
+use crate::number::{Factor, Number, add};
 
-impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
-    /// The last step, and what the floor feels.
-    pub(super) fn bottom(&self, layer: &Layer<T>, walk: &Walk<T>) -> Result<Vec<Spot<T>>, Error> {
-        let frame = self.frame;
-        let floor = FloorFactors::new()?;
-        let counts: Vec<_> = (0..self.classes).map(|class| walk.of_both(class)).collect();
+impl<T: Number, S: Factor<T>> Transfer<'_, T, S> {
+    /// Takes the last step, and returns the forces on the floor.
+    pub(super) fn bottom(
+        &self,
+        layer: &Layer<T>,
+        counts: &NetCounts<T>,
+    ) -> Result<Vec<Spot<T>>, Error> {
+        let domain = self.domain;
+        let factors = FloorFactors::new()?;
+        let counts: Vec<_> = (0..self.classes)
+            .map(|class| counts.of_both(class))
+            .collect();
         let mut spots = Vec::new();
-        for cell in frame.bottom()? {
+        for cell in domain.bottom()? {
             let mut classes = Vec::with_capacity(self.classes);
             for (class, counts) in counts.iter().enumerate() {
-                let spheres = frame.spheres(cell, counts)?;
-                let own = spheres.clone() * &self.weight;
-                let mut force = floor.own(own);
+                let spheres = domain.spheres(cell, counts)?;
+                let weight = factors.weight(spheres.clone() * &self.weight);
+                let mut floor = [weight, T::zero(), T::zero()];
                 for (at, sign) in SIGNS.into_iter().enumerate() {
                     let net = self.left_before(0, sign);
                     let planes = net.and_then(|net| layer.get(net)?.get(class)?.get(at)?.as_ref());
@@ -29,32 +34,20 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
                         let ([a], [b], [c]) = (a, b, c) else {
                             return Err(bug(FREE));
                         };
-                        floor.add([a, b, c], sign, &mut force);
+                        factors.add([a, b, c], sign, &mut floor);
                     }
                 }
-                classes.push((spheres, force));
+                // The loads of a single layer act on the floor directly.
+                let loads = self.loads.iter().filter(|_| domain.steps == 0);
+                for (_, load) in loads.filter(|(site, _)| domain.top_cell(*site) == Some(cell)) {
+                    add(&mut floor[0], &factors.weight(load.clone()));
+                }
+                let [normal, shear_x, shear_y] = floor;
+                classes.push([spheres, normal, shear_x, shear_y]);
             }
-            let place = frame.place(cell)?;
+            let place = domain.place(cell)?;
             spots.push(Spot { place, classes });
         }
-        if frame.steps == 0 {
-            self.load_floor(&mut spots, &floor)?;
-        }
         Ok(spots)
-    }
-
-    /// Of a single layer the floor feels the loads at once.
-    fn load_floor(&self, spots: &mut [Spot<T>], floor: &FloorFactors<T>) -> Result<(), Error> {
-        for (site, load) in &self.loads {
-            let place = Place::of(*site, 0);
-            let spot = spots.iter_mut().find(|spot| Some(spot.place) == place);
-            let classes = spot.map(|spot| &mut spot.classes);
-            let (_, force) = classes
-                .and_then(|classes| classes.first_mut())
-                .ok_or_else(|| bug("loads are on the top layer"))?;
-            let own = floor.own(load.clone());
-            add(&mut force.normal, &own.normal);
-        }
-        Ok(())
     }
 }

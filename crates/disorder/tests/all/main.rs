@@ -7,7 +7,6 @@ mod ensemble_of_stackings;
 mod enumeration;
 mod few_faults;
 mod moments;
-mod products;
 mod refused;
 mod spread;
 mod squares;

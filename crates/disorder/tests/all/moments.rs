@@ -1,42 +1,28 @@
 //! Second moments: of all stackings one by one.
 
-use std::collections::BTreeMap;
-
 use cannonpile::scalar::{Polynomial, Symbol};
-use cannonpile_disorder::{FirstSign, Place};
+use cannonpile_disorder::FirstSign;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero, pow};
 
 use cannonpile_testkit::answers::ratio;
-use cannonpile_testkit::disorder::{Piles, named, probabilities};
-use cannonpile_testkit::oracles::one_by_one::{self, faults};
+use cannonpile_testkit::disorder::Piles;
+use cannonpile_testkit::oracles::one_by_one::faults;
 
-/// The products of the normals of every two places, in the mean.
-fn products(
-    described: &Piles,
-    q: &BigRational,
-) -> BTreeMap<(one_by_one::Place, one_by_one::Place), BigRational> {
+/// Returns the mean over all stackings of the sum of squared normal forces.
+fn enumerated(described: &Piles, q: &BigRational) -> BigRational {
     let choices = described.steps.saturating_sub(1);
     let stackings = described.stackings();
-    let mut products = BTreeMap::new();
-    for signs in &stackings {
+    let random = described.first == FirstSign::Random && described.steps > 0;
+    let firsts = ratio(if random { 2 } else { 1 }, 1);
+    let terms = stackings.iter().map(|signs| {
         let d = faults(signs);
-        let share = pow(q.clone(), d) * pow(BigRational::one() - q, choices - d);
-        let firsts = if described.first == FirstSign::Random && described.steps > 0 {
-            2
-        } else {
-            1
-        };
-        let share = share / ratio(firsts, 1);
-        let bottom = described.bottom(signs);
-        for (x, first) in &bottom {
-            for (y, second) in &bottom {
-                let product = &first[0] * &second[0] * &share;
-                *products.entry((*x, *y)).or_insert_with(BigRational::zero) += product;
-            }
-        }
-    }
-    products
+        let share = pow(q.clone(), d) * pow(BigRational::one() - q, choices - d) / &firsts;
+        let bottom = described.bottom(signs).into_values();
+        let squares = bottom.map(|[normal, ..]| &normal * &normal);
+        squares.sum::<BigRational>() * share
+    });
+    terms.sum()
 }
 
 fn described() -> Vec<Piles> {
@@ -57,35 +43,15 @@ fn described() -> Vec<Piles> {
 }
 
 #[test]
-fn squares_and_products_of_all_stackings() {
+fn mean_squares_agree_with_enumeration() {
     for described in described() {
         let piles = described.piles().unwrap();
         for q in [ratio(0, 1), ratio(1, 3), ratio(1, 1)] {
-            let expected = products(&described, &q);
-            let diagonal = expected.iter().filter(|((x, y), _)| x == y);
-            let squares: BigRational = diagonal.map(|(_, product)| product.clone()).sum();
+            let expected = enumerated(&described, &q);
             let found = piles.mean_square(&q).unwrap();
-            assert_eq!(found, squares, "{described:?} {q}");
+            assert_eq!(found, expected, "{described:?} {q}");
             let float = piles.mean_square(&q.to_f64().unwrap()).unwrap();
-            assert!((float - squares.to_f64().unwrap()).abs() < 1e-13);
-            if described.steps > 4 {
-                continue;
-            }
-            let pairs = piles.pair_moments(&q).unwrap();
-            let names = pairs.pairs().map(|(x, y)| ((named(x), named(y)), (x, y)));
-            let names: BTreeMap<_, _> = names.collect();
-            for (pair, product) in &expected {
-                let found = names.get(pair).map(|(x, y)| pairs.normals(*x, *y));
-                // Both bear something together in some stacking, or the sum of products is 0.
-                assert_eq!(
-                    found.unwrap_or_else(BigRational::zero),
-                    *product,
-                    "{described:?} {pair:?}"
-                );
-            }
-            let sum: BigRational = names.values().map(|(x, y)| pairs.normals(*x, *y)).sum();
-            let load: BigRational = described.loads.iter().map(|(_, load)| load.clone()).sum();
-            assert_eq!(sum, &load * &load);
+            assert!((float - expected.to_f64().unwrap()).abs() < 1e-13);
         }
     }
 }
@@ -107,34 +73,6 @@ fn squares_by_faults() {
     }
 }
 
-/// Of the forces along the lines: a third of the sum of squares is kept in every stacking, and their correlations vanish.
-#[test]
-fn forces_keep_their_sum_of_squares() {
-    for steps in 1..=6 {
-        let piles = Piles::response(steps, FirstSign::Random).piles().unwrap();
-        for q in probabilities() {
-            let pairs = piles.pair_moments(&q).unwrap();
-            let mut squares = BigRational::zero();
-            for (x, y) in pairs.pairs().filter(|(x, y)| x == y) {
-                let products = pairs.from_above(x, y);
-                squares += (0..3)
-                    .map(|line| products[line][line].clone())
-                    .sum::<BigRational>();
-            }
-            assert_eq!(squares, ratio(3, 1), "{steps} {q}");
-        }
-    }
-    let nowhere = Place { a: 99, b: 0 };
-    let piles = Piles::response(3, FirstSign::Plus).piles().unwrap();
-    assert_eq!(
-        piles
-            .pair_moments(&ratio(1, 2))
-            .unwrap()
-            .normals(nowhere, nowhere),
-        ratio(0, 1)
-    );
-}
-
 /// Deep down loads and both components of the force share the squares evenly: 1/3, but 1/2 in HCP.
 #[test]
 fn squares_deep_down() {
@@ -152,14 +90,39 @@ fn planted_faults_are_found() {
     let piles = right.piles().unwrap();
     let q = ratio(1, 3);
     let squares = piles.mean_square(&q).unwrap();
-    let diagonal = |products: &BTreeMap<_, BigRational>| {
-        let of = |((x, y), product): (&(one_by_one::Place, one_by_one::Place), &BigRational)| {
-            (x == y).then(|| product.clone())
-        };
-        products.iter().filter_map(of).sum::<BigRational>()
-    };
-    assert_eq!(diagonal(&products(&right, &q)), squares);
-    assert_ne!(diagonal(&products(&right, &ratio(1, 4))), squares);
+    assert_eq!(enumerated(&right, &q), squares);
+    assert_ne!(enumerated(&right, &ratio(1, 4)), squares);
     let longer = Piles::response(5, FirstSign::Plus);
-    assert_ne!(diagonal(&products(&longer, &q)), squares);
+    assert_ne!(enumerated(&longer, &q), squares);
+}
+
+/// Loads too far apart for any sphere to feel both: the squares add up, at whatever distance.
+#[test]
+fn of_loads_that_do_not_meet() {
+    for steps in [1, 2] {
+        let of_one = Piles::response(steps, FirstSign::Plus);
+        let one = of_one.piles().unwrap().mean_square(&ratio(1, 3)).unwrap();
+        let far = i64::try_from(steps).unwrap() + 2;
+        for i in [-far, -far + 1, 0, far - 1, far] {
+            for j in [-far, far] {
+                for at in [[i, j], [j, i]] {
+                    let mut described = of_one.clone();
+                    described.loads.push((at, ratio(3, 1)));
+                    let found = described.piles().unwrap().mean_square(&ratio(1, 3));
+                    assert_eq!(found.unwrap(), &one * ratio(10, 1), "{steps} {at:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Five and six steps down, where forces of beginnings that are still far apart come together.
+#[test]
+fn squares_further_down() {
+    for steps in [5, 6] {
+        let described = Piles::response(steps, FirstSign::Plus);
+        let squares = enumerated(&described, &ratio(1, 4));
+        let found = described.piles().unwrap().mean_square(&0.25).unwrap();
+        assert!((found - squares.to_f64().unwrap()).abs() < 1e-14, "{found}");
+    }
 }

@@ -107,14 +107,6 @@ fn the_plane_bears_loads_alone() {
         },
         &["mean square"]
     );
-    is_refused!(
-        heavy.pair_moments(&0.5).unwrap_err(),
-        Error::OnlyOfLoads {
-            weightless: false,
-            ..
-        },
-        &["pair moments"]
-    );
 }
 
 #[test]
@@ -170,13 +162,6 @@ fn what_no_memory_holds() {
             );
         }
     }
-    let plane = RandomPiles::plane(stackings(60)).weightless();
-    let plane = plane.with_load(site(0, 0, 0), one()).unwrap();
-    is_refused!(
-        plane.pair_moments(&0.5).unwrap_err(),
-        Error::Core(Core::TooLarge { .. }),
-        &["mean square"]
-    );
     let plane = RandomPiles::plane(stackings(5000)).weightless();
     let plane = plane.with_load(site(0, 0, 0), one()).unwrap();
     is_refused!(
@@ -254,13 +239,6 @@ fn what_is_too_large_says_how_large() {
         too_large(plane(5000, FirstSign::Plus).mean_square(&0.5)),
         ("the mean square of random stackings", needed, 100_000_000)
     );
-    // 3n²+3n+1 places for each load.
-    let pairs = 10_621 * 10_621 * 6;
-    let piles = plane(60, FirstSign::Plus);
-    let of_pairs = |needed| ("the pair moments of random stackings", needed, 20_000_000);
-    assert_eq!(too_large(piles.pair_moments(&0.5)), of_pairs(pairs));
-    let piles = piles.with_load(site(3, 0, 0), one()).unwrap();
-    assert_eq!(too_large(piles.pair_moments(&0.5)), of_pairs(4 * pairs));
 }
 
 /// More layers than bits are counted for are refused without counting them.

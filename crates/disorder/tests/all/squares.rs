@@ -132,16 +132,6 @@ fn of_a_response() {
             .with_load(Site { i: 2, j: -1, k: 0 }, ratio(1, 3))
             .unwrap();
         for q in probabilities() {
-            let pairs = plane.pair_moments(&q).unwrap();
-            let alone = pairs.pairs().filter(|(x, y)| x == y);
-            let squares = alone.map(|(x, y)| {
-                let [[a, ..], [_, b, _], [.., c]] = pairs.from_above(x, y);
-                a + b + c
-            });
-            assert_eq!(
-                squares.sum::<BigRational>(),
-                (whole(4) + ratio(1, 9)) * whole(3)
-            );
             let mean = plane.exact(&q).unwrap();
             let of_mean: BigRational = mean.rows().iter().map(|row| square(&row.normal)).sum();
             let mean_square = plane.mean_square(&q).unwrap();

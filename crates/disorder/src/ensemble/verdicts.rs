@@ -15,13 +15,13 @@ pub(super) type Judge<'j, E> = dyn Fn(&Pile) -> Result<bool, E> + Sync + 'j;
 
 /// The verdicts so far, by the signs from the top. The judge is called once for each stacking, unless two threads need
 /// the same verdict at the same time.
-pub(super) struct Survivors<'j, E> {
+pub(super) struct Verdicts<'j, E> {
     ensemble: &'j Ensemble,
     judge: &'j Judge<'j, E>,
     known: Mutex<BTreeMap<Vec<Sign>, bool>>,
 }
 
-impl<'j, E: From<Error>> Survivors<'j, E> {
+impl<'j, E: From<Error>> Verdicts<'j, E> {
     pub(super) fn new(ensemble: &'j Ensemble, judge: &'j Judge<'j, E>) -> Self {
         Self {
             ensemble,
@@ -31,7 +31,7 @@ impl<'j, E: From<Error>> Survivors<'j, E> {
     }
 
     /// Returns whether the stacking of these signs stands with horizontal contacts.
-    pub(super) fn contains(&self, signs: &[Sign]) -> Result<bool, E> {
+    pub(super) fn is_stable(&self, signs: &[Sign]) -> Result<bool, E> {
         // A thread that panics leaves the map complete, since one insertion is all that it does under the lock.
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let found = known().get(signs).copied();
@@ -80,9 +80,9 @@ mod tests {
             Ok::<_, Error>(true)
         };
         let ensemble = touching()?;
-        let survivors = Survivors::new(&ensemble, &judge);
+        let verdicts = Verdicts::new(&ensemble, &judge);
         for signs in [[Sign::Plus, Sign::Minus], [Sign::Plus, Sign::Minus]] {
-            assert!(survivors.contains(&signs)?);
+            assert!(verdicts.is_stable(&signs)?);
         }
         assert_eq!(calls.into_inner(), 1);
         Ok(())
