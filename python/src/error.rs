@@ -133,10 +133,10 @@ fn of_disorder(error: &cannonpile_disorder::Error) -> Option<&'static str> {
         Error::TooManyStackings { .. } | Error::NoStacking { .. } => Some("layers"),
         Error::FaultProbability { .. } => Some("fault_probability"),
         Error::PlaceOfLoad { .. }
-        | Error::OnlyOfLoads {
+        | Error::NotAResponse {
             weightless: true, ..
         } => Some("loads"),
-        Error::Weightless | Error::OnlyOfLoads { .. } => Some("weightless"),
+        Error::Weightless | Error::NotAResponse { .. } => Some("weightless"),
         _ => None,
     }
 }

@@ -148,10 +148,10 @@ const fn of_disorder(error: &cannonpile_disorder::Error) -> Option<Culprit> {
         Error::TooManyStackings { .. } | Error::NoStacking { .. } => Culprit::Key(Key::Layers),
         Error::FaultProbability { .. } => Culprit::FaultProbability,
         Error::PlaceOfLoad { .. }
-        | Error::OnlyOfLoads {
+        | Error::NotAResponse {
             weightless: true, ..
         } => Culprit::Key(Key::Load),
-        Error::Weightless | Error::OnlyOfLoads { .. } => Culprit::Key(Key::Weightless),
+        Error::Weightless | Error::NotAResponse { .. } => Culprit::Key(Key::Weightless),
         _ => return None,
     })
 }

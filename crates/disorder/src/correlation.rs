@@ -45,7 +45,7 @@ impl RandomPiles {
     /// load, with n the number of steps.
     ///
     /// # Errors
-    /// * [`Error::OnlyOfLoads`] unless the spheres are weightless and there is a load.
+    /// * [`Error::NotAResponse`] unless the spheres are weightless and there is a load.
     /// * [`TooLarge`](cannonpile::Error::TooLarge) if the correlations do not fit in memory.
     /// * [`Overflow`](cannonpile::Error::Overflow) of the scalar.
     ///

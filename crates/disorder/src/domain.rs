@@ -26,6 +26,9 @@ pub(super) struct Domain<'p> {
     pub(super) steps: usize,
 }
 
+/// A row of cells, with the net numbers for which each cell has a sphere.
+type RowOfSpheres = (Range<usize>, Vec<Nets>);
+
 const QUANTITY: &str = "the mean over random stackings";
 
 impl<'p> Domain<'p> {
@@ -34,7 +37,7 @@ impl<'p> Domain<'p> {
     ///
     /// # Errors
     /// * [`TooLarge`](cannonpile::Error::TooLarge) beyond the memory limit.
-    /// * [`Error::OnlyOfLoads`] for a plane with weight or without loads.
+    /// * [`Error::NotAResponse`] for a plane with weight or without loads.
     /// * [`Error::NoStacking`] for a base that supports no stacking of so many layers.
     pub(super) fn new(piles: &'p RandomPiles, classes: u128, words: u64) -> Result<Self, Error> {
         let steps = piles.stackings.steps();
@@ -152,7 +155,7 @@ impl<'p> Domain<'p> {
         &self,
         k: usize,
         net: isize,
-    ) -> Result<Vec<(Range<usize>, Vec<Nets>)>, Error> {
+    ) -> Result<Vec<RowOfSpheres>, Error> {
         if self.base().is_none() {
             let within = (-(k as i128), k as i128);
             let nets = |cells: &Range<usize>| {

@@ -1,33 +1,31 @@
-//! What is not linear in the stackings: how many stand, the least force, the distribution of forces. By going through all
-//! of them, or through samples.
+//! Enumeration and sampling of stackings, for quantities that are not linear in the stackings.
 //!
-//! Means over random stackings obey one recursion. Whether a pile stands, its least force, and how its forces are
-//! distributed do not: every stacking has to be looked at. An [`Ensemble`] is one top layer with every stacking below
-//! it; a [`Choice`] says whether all are taken or some are drawn, a [`Shard`] which part of them. What is counted is a
-//! [`Tally`]: exact integers and rationals, by number of faults, so that any fault probability can be put in afterwards, and
-//! that the tallies of parts [merge](Tally::merge) into that of the whole, bit for bit, however it was cut up and in whatever order
-//! they come.
+//! Mean forces obey one recursion over all stackings. Stability, the least force and the distribution of forces do not,
+//! so each stacking is computed. An [`Ensemble`] is a top layer with every stacking below it. A [`Choice`] selects all
+//! stackings or random samples, and a [`Shard`] selects a part of them. The result is a [`Tally`] of exact integers and
+//! rationals, sorted by the number of faults. So the fault probability can be chosen afterwards. The tallies of all
+//! shards [merge](Tally::merge) into the tally of the whole, bit for bit, in any order.
 //!
 //! # What is counted of which piles
-//! *All* includes stackings of which some contact would have to pull: its forces are those of a prestressed pile, whose contacts
-//! can. *Standing* are those of which none pulls, those that a pile of loose spheres can have.
+//! *All* includes unstable stackings, in which some contact is in tension. Their forces are those of a prestressed
+//! pile. *Standing* are the stackings without tension, which a pile of loose spheres can have.
 //!
 //! # Why it is exact
-//! A force below a layer is an integer over 3^d times the common denominator of the loads, with d changes of sign above it.
-//! The sum of the squares of all forces of a layer depends on the weights only (each force arrives at one sphere, and
-//! the half-turn is orthogonal), so that no force exceeds its root: this bound, computed beforehand, decides whether 64 bits
-//! suffice, or 128, or none do and big integers are taken.
+//! A force below a layer is an integer over 3^d times the common denominator of the loads, with d sign changes above
+//! it. The sum of the squares of all forces below a layer depends on the weights only. The reason is that each force
+//! acts on one sphere of the next layer, and that the half-turn is orthogonal. So no force exceeds the root of this
+//! sum. The bound is computed beforehand, and decides between 64-bit, 128-bit and big integers.
 //!
 //! # Why it is fast
-//! Stackings that begin alike have the same forces down to where they part. All of n steps are walked as the tree that they
-//! are, which has at most 2ⁿ⁺¹ layers where the stackings have n 2ⁿ. If the top layer with its loads is its own mirror image, one
-//! of each mirror pair is walked.
+//! Stackings with a common beginning have the same forces there. So all stackings of n steps are computed as a tree,
+//! which has at most 2ⁿ⁺¹ layers instead of n 2ⁿ. If the top layer with its loads is its own mirror image, one stacking
+//! of each mirror pair is computed.
 //!
 //! # With horizontal contacts
-//! At a = R also stackings of which some contacts pull may stand. The beginnings of what stands stand, and what
-//! stands does so with its last step repeated; so only changes of sign below what stands so far need
-//! a proof. The caller's judge decides those ([`Ensemble::run_judged`]); `equilibrium` of the crate
-//! `cannonpile-horizontal` decides with a proof.
+//! At a = R a stacking with contacts in tension can be stable too. All beginnings of a stable stacking are stable, and
+//! it stays stable if its last step is repeated. So a proof is needed only for a sign change below a stable beginning.
+//! The judge of the caller decides these cases ([`Ensemble::run_judged`]). `equilibrium` of the crate
+//! `cannonpile-horizontal` decides them with a proof.
 
 mod binned;
 mod choice;
@@ -70,7 +68,7 @@ use cannonpile::formula;
 use cannonpile::lattice::{Region, Site};
 use cannonpile::stacking::Stacking;
 
-/// Every stacking below one top layer.
+/// All stackings below one top layer.
 ///
 /// # Examples
 /// ```
@@ -88,7 +86,7 @@ use cannonpile::stacking::Stacking;
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(try_from = "written::EnsembleParts", into = "written::EnsembleParts")]
 pub struct Ensemble {
-    /// The top layer, as a pile of its own.
+    /// The top layer, as a pile of one layer.
     top: Pile,
     stackings: RandomStackings,
     has_horizontal_contacts: bool,
@@ -96,10 +94,10 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// Returns the ensemble of these stackings under a top layer, with bins of a third.
+    /// Returns the ensemble of these stackings under a top layer, with bins of width 1/3.
     ///
     /// # Errors
-    /// Those of [`Pile::under`].
+    /// The errors of [`Pile::under`].
     ///
     /// # Examples
     /// See [`Ensemble`].
@@ -112,11 +110,11 @@ impl Ensemble {
         })
     }
 
-    /// Returns the ensemble with one more vertical load on a sphere (i, j) of the top layer, in mg. What lies below is another
-    /// sphere in another stacking, and bears none.
+    /// Returns the ensemble with an additional vertical load on a sphere (i, j) of the top layer, in mg. Spheres of
+    /// other layers cannot carry a load, because their positions depend on the stacking.
     ///
     /// # Errors
-    /// [`SiteOutside`](cannonpile::Error::SiteOutside); [`NegativeLoad`](cannonpile::Error::NegativeLoad).
+    /// [`SiteOutside`](cannonpile::Error::SiteOutside), [`NegativeLoad`](cannonpile::Error::NegativeLoad).
     ///
     /// # Examples
     /// ```
@@ -136,8 +134,8 @@ impl Ensemble {
         Ok(self)
     }
 
-    /// Returns the ensemble with spheres that weigh nothing: the response to the loads. A pile then counts as standing if none of
-    /// its contacts pulls.
+    /// Returns the ensemble with weightless spheres, for the response to the loads. A stacking then counts as standing
+    /// if none of its contacts is in tension.
     ///
     /// # Examples
     /// See [`with_load`](Self::with_load).
@@ -147,7 +145,7 @@ impl Ensemble {
         self
     }
 
-    /// Returns the ensemble that also counts the stackings that stand at a = R, with horizontal contacts.
+    /// Returns the ensemble that also counts the stackings that are stable with horizontal contacts, at a = R.
     ///
     /// This crate does not solve for forces in horizontal contacts. A run of such an ensemble needs a judge, which the
     /// caller passes to [`run_judged`](Self::run_judged).
@@ -165,7 +163,7 @@ impl Ensemble {
         Ok(self)
     }
 
-    /// Returns the ensemble with bins of this width: in f₀ of contact forces, in mg of normal forces.
+    /// Returns the ensemble with bins of this width, in f₀ for contact forces and in mg for normal forces.
     ///
     /// # Errors
     /// [`Syntax`](cannonpile::Error::Syntax) for a width that is not positive.
@@ -178,14 +176,14 @@ impl Ensemble {
     ///
     /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
     /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
-    /// assert_eq!(ensemble.bins().to_string(), "1/3");
-    /// assert!(ensemble.clone().with_bins(BigRational::new(1.into(), 10.into())).is_ok());
-    /// assert!(ensemble.with_bins(BigRational::from_integer(0.into())).is_err());
+    /// assert_eq!(ensemble.bin_width().to_string(), "1/3");
+    /// assert!(ensemble.clone().with_bin_width(BigRational::new(1.into(), 10.into())).is_ok());
+    /// assert!(ensemble.with_bin_width(BigRational::from_integer(0.into())).is_err());
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
-    pub fn with_bins(mut self, width: BigRational) -> Result<Self, Error> {
+    pub fn with_bin_width(mut self, width: BigRational) -> Result<Self, Error> {
         if !width.is_positive() {
-            let expected = "a width of bins: a positive number";
+            let expected = "a positive width of bins";
             return Err(Error::syntax(&width.to_string(), expected));
         }
         self.bins = width;
@@ -208,7 +206,7 @@ impl Ensemble {
         self.stackings
     }
 
-    /// Returns the top layer, as a pile of one layer: its spheres, their loads, and whether spheres weigh nothing.
+    /// Returns the top layer as a pile of one layer, with its loads.
     ///
     /// # Examples
     /// ```
@@ -225,16 +223,16 @@ impl Ensemble {
         &self.top
     }
 
-    /// Returns the width of the bins, in f₀ of contact forces, in mg of normal forces.
+    /// Returns the width of the bins, in f₀ for contact forces and in mg for normal forces.
     ///
     /// # Examples
-    /// See [`with_bins`](Self::with_bins).
+    /// See [`with_bin_width`](Self::with_bin_width).
     #[must_use]
-    pub const fn bins(&self) -> &BigRational {
+    pub const fn bin_width(&self) -> &BigRational {
         &self.bins
     }
 
-    /// Returns whether it is also counted how many stand with horizontal contacts.
+    /// Returns whether the ensemble also counts the stackings that are stable with horizontal contacts.
     ///
     /// # Examples
     /// ```
@@ -250,10 +248,10 @@ impl Ensemble {
         self.has_horizontal_contacts
     }
 
-    /// Returns the pile of one stacking, of as many layers as that has.
+    /// Returns the pile of one stacking, which may have any number of layers.
     ///
     /// # Errors
-    /// Those of [`Pile::under`].
+    /// The errors of [`Pile::under`].
     ///
     /// # Examples
     /// ```
@@ -277,12 +275,13 @@ impl Ensemble {
         })
     }
 
-    /// Returns what is counted of a part of all stackings, or of samples.
+    /// Counts the forces of all stackings or samples of a shard.
     ///
     /// # Errors
-    /// [`Error::TooManyStackings`] for a part of more than 2²⁴ of all; [`TooLarge`](cannonpile::Error::TooLarge) for layers
-    /// that do not fit in memory, for more than 10⁵ bins, and for more than 2⁶² contact forces; [`Error::NoJudge`] with
-    /// horizontal contacts.
+    /// * [`Error::TooManyStackings`] for a shard of more than 2²⁴ enumerated stackings.
+    /// * [`TooLarge`](cannonpile::Error::TooLarge) for layers that do not fit in memory, for more than 10⁵ bins, and
+    ///   for more than 2⁶² contact forces.
+    /// * [`Error::NoJudge`] with horizontal contacts.
     ///
     /// # Examples
     /// ```
@@ -295,7 +294,7 @@ impl Ensemble {
     /// let half = BigRational::new(1.into(), 2.into());
     /// let drawn = Choice::Drawn(Samples::new(100, 1, half)?);
     /// let whole = ensemble.run(&drawn, Shard::WHOLE)?;
-    /// // In parts, on as many machines.
+    /// // The shards can run on different machines.
     /// let parts: Result<Vec<_>, _> = (1..=3).map(|part| ensemble.run(&drawn, Shard::new(part, 3)?)).collect();
     /// assert_eq!(Tally::merge(&parts?), Ok(whole));
     /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -304,8 +303,8 @@ impl Ensemble {
         self.run_observed(choice, shard, &|_| {})
     }
 
-    /// Returns what [`run`](Self::run) does; the observer is called from time to time with how many stackings more have been
-    /// looked at.
+    /// Returns the result of [`run`](Self::run), and reports its progress. Each call of the observer receives the
+    /// number of stackings that were computed since the last call.
     ///
     /// # Errors
     /// As for [`run`](Self::run).
@@ -334,11 +333,11 @@ impl Ensemble {
     }
 
     /// Returns the result of [`run_observed`](Self::run_observed) for an ensemble that also counts the stackings that
-    /// stand with horizontal contacts. The judge decides whether a pile does.
+    /// are stable with horizontal contacts. The judge decides whether a pile is.
     ///
-    /// The run calls the judge only for piles that do not stand without horizontal contacts. Each of them ends with a
-    /// sign change, and all its layers but the last stand. The judge may be called from several threads at once, and
-    /// it must return the same verdict for the same pile. It is not called for an ensemble that does not count these
+    /// The run calls the judge only for piles that are unstable without horizontal contacts. Each of them ends with a
+    /// sign change, and is stable without its last layer. The judge may be called from several threads at once, and
+    /// must return the same verdict for the same pile. It is not called for an ensemble that does not count these
     /// stackings.
     ///
     /// # Errors
@@ -352,7 +351,7 @@ impl Ensemble {
     ///
     /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
     /// let touching = Ensemble::under(Region::SITE, stackings)?.with_horizontal_contacts()?;
-    /// // Five layers of HCP, straight from there on, stand only with horizontal contacts. For any pile the crate
+    /// // HCP of five layers, continued straight, is stable only with horizontal contacts. For any pile the crate
     /// // `cannonpile-horizontal` decides it with a proof: `Ok(equilibrium(pile)?.claim == Claim::Stands)`.
     /// let judge = |pile: &Pile| Ok::<_, Error>(pile.shape().stacking().to_string() == "+-+-+");
     /// let tally = touching.run_judged(&Choice::All, Shard::WHOLE, &|_| {}, &judge)?;
@@ -391,11 +390,10 @@ impl Ensemble {
         .tally()
     }
 
-    /// Returns how many stackings, or samples, a part has: those that are looked at; of two mirror images that have the same forces
-    /// one is.
+    /// Returns the number of stackings or samples of a shard. Two mirror images with the same forces count as one.
     ///
     /// # Errors
-    /// As for [`run`](Self::run), of what is too much.
+    /// As for [`run`](Self::run), except [`Error::NoJudge`].
     ///
     /// # Examples
     /// ```
@@ -412,12 +410,12 @@ impl Ensemble {
         Ok(end - start)
     }
 
-    /// The sites of the top layer.
+    /// Returns the sites of the top layer.
     fn region(&self) -> Region {
         self.top.shape().base()
     }
 
-    /// What a sphere without a load weighs, in mg: 0 or 1.
+    /// Returns the weight of a sphere without a load, in mg: 0 or 1.
     fn weight(&self) -> BigRational {
         if self.top.is_weightless() {
             BigRational::zero()
@@ -426,7 +424,7 @@ impl Ensemble {
         }
     }
 
-    /// What the spheres of the top layer add to each of their lines, in row order.
+    /// Returns the force that each sphere of the top layer adds to each of its contacts, in row order.
     fn own_of_top(&self, increment: &BigRational) -> Result<Vec<BigRational>, Error> {
         let weight = self.weight();
         let own = |site| -> Result<_, Error> {
@@ -436,8 +434,8 @@ impl Ensemble {
         self.top.shape().sites().map(own).collect()
     }
 
-    /// Whether the top layer with its loads is its own mirror image, so that stackings that are mirror images of each other have
-    /// the same forces.
+    /// Returns whether the top layer with its loads is its own mirror image. Then mirror images of stackings have the
+    /// same forces.
     fn is_its_own_mirror_image(&self) -> bool {
         let region = self.region();
         let [sum_of_i, sum_of_j] =

@@ -1,4 +1,4 @@
-//! Errors of this crate: one enum, whose messages name the value and the remedy.
+//! The error type of this crate.
 
 use std::error::Error as StdError;
 use std::fmt;
@@ -10,7 +10,7 @@ use num_rational::BigRational;
 
 /// An error of this crate, or an error of the core that it wraps.
 ///
-/// The message is one line. It names the value and says what would be accepted.
+/// The message is one line. It names the value and states what would be accepted.
 ///
 /// # Examples
 /// ```
@@ -43,15 +43,15 @@ pub enum Error {
     PlaceOfLoad {
         /// The sphere.
         site: Site,
-        /// Whether the base is given. Then the position of every layer above it depends on the stacking.
+        /// True if the base is given. Then the position of every layer above it depends on the stacking.
         on_base: bool,
     },
-    /// A response to loads needs weightless spheres and at least one load.
+    /// The quantity is defined for the response to loads only. It needs weightless spheres and at least one load.
     #[non_exhaustive]
-    OnlyOfLoads {
+    NotAResponse {
         /// The quantity requested.
         quantity: &'static str,
-        /// Whether the spheres are weightless, so that only a load is missing.
+        /// True if the spheres are weightless, so that only a load is missing.
         weightless: bool,
     },
     /// The base supports no stacking of this height.
@@ -105,36 +105,37 @@ impl fmt::Display for Error {
         let message = match self {
             Self::Core(error) => return error.fmt(f),
             Self::TooManyStackings { stackings, limit } => format!(
-                "{stackings} stackings are too many to go through at a time, at most {limit}: draw samples, take a \
-                 smaller shard, or fewer layers"
+                "{stackings} stackings exceed the limit of {limit} for one run; draw samples, or use a smaller shard or \
+                 fewer layers"
             ),
             Self::FaultProbability { given } => {
                 format!("the fault probability must be at least 0 and at most 1, not {given}")
             }
             Self::PlaceOfLoad { site, on_base } => {
                 let remedy = if *on_base {
-                    "leave loads out, or let the stackings hang from a top layer"
+                    "remove the loads, or give a top layer instead of the base"
                 } else {
                     "put loads on the top layer, k = 0"
                 };
-                format!("the sphere (i,j,k) = {site} is not at one place in every stacking: {remedy}")
+                format!("the position of sphere (i,j,k) = {site} depends on the stacking; {remedy}")
             }
-            Self::OnlyOfLoads { quantity, weightless } => {
+            Self::NotAResponse { quantity, weightless } => {
                 let remedy = if *weightless {
-                    "put a load on one of the top layer"
+                    "add a load on the top layer"
                 } else {
-                    "make them weightless, and put a load on one of the top layer"
+                    "make the spheres weightless, and add a load on the top layer"
                 };
-                format!("{quantity} is that of loads on spheres that weigh nothing: {remedy}")
+                format!("{quantity} is defined for loads on weightless spheres only; {remedy}")
             }
             Self::NoStacking { layers, greatest, base } => {
-                format!("no stacking has {layers} layers on the base {base}: the highest has {greatest}")
+                let s = if *greatest == 1 { "" } else { "s" };
+                format!("base {base} supports at most {greatest} layer{s}, not {layers}; use fewer layers or a larger base")
             }
             Self::Weightless => {
-                "bounds are those of a pile that weighs something: give the spheres their weight".to_owned()
+                "stability with horizontal contacts needs the weight of the spheres; do not make them weightless".to_owned()
             }
             Self::NoJudge => {
-                "this ensemble counts stackings that stand with horizontal contacts, but has no judge of them: \
+                "the ensemble counts stackings that are stable with horizontal contacts, but the run has no judge; \
                  call Ensemble::run_judged".to_owned()
             }
         };
@@ -147,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_of_the_core_display_as_themselves() {
+    fn errors_of_the_core_keep_their_message() {
         let inner = cannonpile::Pile::triangular(0).unwrap_err();
         let wrapped = Error::from(inner.clone());
         assert_eq!(wrapped.to_string(), inner.to_string());
@@ -158,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn long_numbers_are_shortened() {
+    fn messages_shorten_long_numbers() {
         let stackings = BigUint::from(3_u32).pow(1000);
         let error = Error::TooManyStackings {
             stackings,

@@ -1,4 +1,4 @@
-//! What bottom spheres bear in all stackings with so many faults: the answer for every fault probability.
+//! Sums over all stackings with the same number of faults, which give the mean for every fault probability.
 
 use cannonpile::scalar::{Numerators, Polynomial, Symbol};
 use num_bigint::{BigInt, BigUint};
@@ -17,7 +17,7 @@ use super::width::{Width, bits_of_counts, bits_of_sources};
 use crate::Error;
 use crate::error::bug;
 
-/// What is at one place of the bottom layer, summed over all stackings with so many faults.
+/// The forces at one place of the bottom layer, summed over all stackings with the same number of faults.
 ///
 /// # Examples
 /// ```
@@ -26,7 +26,7 @@ use crate::error::bug;
 ///
 /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus)?);
 /// let rows: Result<Vec<_>, _> = piles.by_faults()?.rows().collect();
-/// // Straight under the apex there is a sphere in HCP only, the stacking +-.
+/// // At the place below the apex only HCP, the stacking +-, has a sphere.
 /// let middle = rows?.into_iter().find(|row| row.place == Place { a: 0, b: 0 }).unwrap();
 /// assert_eq!((middle.faults, middle.stackings, middle.normal.to_string()), (1, 1_u32.into(), "5/3".into()));
 /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -38,23 +38,27 @@ pub struct FaultForce {
     pub place: Place,
     /// The number d of faults.
     pub faults: u32,
-    /// How many of these stackings have a sphere there.
+    /// The number of these stackings that have a sphere at the place.
     pub stackings: BigUint,
-    /// The sum of the normal forces on the floor, in mg: an integer over 3^(d+1) times the denominator of the loads.
+    /// The sum of the normal forces on the floor, in mg. It is an integer over 3^(d+1) times the common denominator of
+    /// the loads.
     pub normal: BigRational,
-    /// The sum of the shears along x, in mg·tanθ: as `normal` an integer, over twice that.
+    /// The sum of the shears along x, in mg·tanθ. Its denominator is at most twice that of `normal`.
     pub shear_x: BigRational,
-    /// The sum of the shears along y, in √3·mg·tanθ: over the same.
+    /// The sum of the shears along y, in √3·mg·tanθ. Its denominator is at most twice that of `normal`.
     pub shear_y: BigRational,
 }
 
-/// What the bottom layer bears, summed over the stackings with each number of faults: exactly, for every fault probability.
+/// The forces on the floor, summed over the stackings with each number of faults. They give the exact mean for every
+/// fault probability.
 ///
-/// The mean at the fault probability q is Σ_d S_d q^d (1−q)^(n−1−d), with S_d the sum over the C(n−1,d) stackings with d
-/// faults (over twice as many if the first sign is random, and half of it): a polynomial of degree n − 1 at most. Inside are
-/// integers, over 2·3^(d+1) and the denominator of the loads. So the coefficient of q^j has a denominator that divides
-/// 2·3^(j+1) times that of the loads, and of a normal force 3^(j+1) times it: S_d goes into it times an integer for d ≤ j
-/// alone. (With a random first sign all that is doubled.)
+/// Let S_d be the sum over the stackings with d faults, of which there are C(n−1,d) for a given first sign. Then the
+/// mean at the fault probability q is Σ_d S_d q^d (1−q)^(n−1−d), or half of it for a random first sign. It is a
+/// polynomial in q of degree n − 1 at most.
+///
+/// The sums are stored as integers over 2·3^(d+1) times the common denominator of the loads. The coefficient of q^j of
+/// the mean contains S_d for d ≤ j only. So its denominator divides 2·3^(j+1) times the denominator of the loads, and
+/// 3^(j+1) times it for normal forces. With a random first sign both bounds double.
 ///
 /// # Examples
 /// ```
@@ -65,31 +69,32 @@ pub struct FaultForce {
 /// let plane = RandomPiles::plane(RandomStackings::new(3, FirstSign::Plus)?).weightless();
 /// let plane = plane.with_load(Site::APEX, BigRational::from_integer(1.into()))?;
 /// let by_faults = plane.by_faults()?;
-/// // Under the load HCP has a sphere that bears −1/3, FCC has none.
+/// // At the place below the load HCP has a sphere with the normal force −1/3. FCC has no sphere there.
 /// let place = Place { a: 0, b: 0 };
 /// assert_eq!(by_faults.polynomial()?.at(place).unwrap().normal.to_string(), "-q/3");
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct ByFaults {
-    /// In order of places. The sums with d faults are over 3^d and the denominator of the loads.
+    /// The results in order of places. The sums for d faults have the denominator 3^d times that of the loads.
     spots: Vec<Spot<BigInt>>,
     most_faults: usize,
     /// The common denominator of the loads.
     denominator: BigInt,
-    /// The number of signs that the first step can have.
+    /// The number of possible first signs.
     firsts: BigInt,
 }
 
 impl RandomPiles {
-    /// Returns what the bottom layer bears by the number of faults.
+    /// Returns the forces on the floor by number of faults.
     ///
-    /// Takes about 20 n⁴ additions of integers for a single load or sphere on top, n = L − 1: of 64 bits up to about n = 28,
-    /// of 128 bits up to about n = 60.
+    /// The cost is about 20 n⁴ additions of integers for a single load or a single sphere on top, with n = L − 1. The
+    /// integers have 64 bits up to about n = 28, and 128 bits up to about n = 60.
     ///
     /// # Errors
-    /// [`TooLarge`](cannonpile::Error::TooLarge) of what would not fit in memory; [`Error::OnlyOfLoads`] for a plane with weight or without loads;
-    /// [`Error::NoStacking`] for a base that carries no stacking.
+    /// * [`TooLarge`](cannonpile::Error::TooLarge) if the sums do not fit in memory.
+    /// * [`Error::NotAResponse`] for a plane with weight or without loads.
+    /// * [`Error::NoStacking`] for a base that supports no stacking of this height.
     ///
     /// # Examples
     /// ```
@@ -138,8 +143,8 @@ impl ByFaults {
         self.most_faults
     }
 
-    /// Returns the common denominator of the normal forces, summed over stackings with this many faults: 3^(d+1), times that
-    /// of the loads. That of the shears is twice it.
+    /// Returns a common denominator of the sums of normal forces over the stackings with d faults: 3^(d+1) times the
+    /// denominator of the loads. The shears have twice this denominator.
     ///
     /// # Examples
     /// ```
@@ -155,10 +160,11 @@ impl ByFaults {
         BigInt::from(3).pow(faults) * 3 * &self.denominator
     }
 
-    /// Returns the sums, by place and number of faults; those numbers at which no stacking has a sphere are left out.
+    /// Iterates over the sums, by place and number of faults. Numbers of faults for which no stacking has a sphere at
+    /// the place are omitted.
     ///
     /// # Errors
-    /// In an item: [`Bug`](cannonpile::Error::Bug).
+    /// An item is [`Bug`](cannonpile::Error::Bug) if an invariant is violated.
     ///
     /// # Examples
     /// ```
@@ -166,7 +172,7 @@ impl ByFaults {
     /// use cannonpile::lattice::Region;
     ///
     /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus)?);
-    /// // Six places of FCC, with no fault, and seven of HCP, with one.
+    /// // Six places of FCC, without faults, and seven places of HCP, with one fault.
     /// assert_eq!(piles.by_faults()?.rows().count(), 13);
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
@@ -204,7 +210,7 @@ impl ByFaults {
         }))
     }
 
-    /// Returns the mean at a fault probability.
+    /// Returns the mean at the fault probability `q`.
     ///
     /// # Errors
     /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.
@@ -225,7 +231,7 @@ impl ByFaults {
         let (a, b) = (q.numer(), q.denom());
         let [faults, straight] = [a.clone(), (b - a) * 3];
         let most = self.most_faults();
-        // The sum of 3^d S_d times a^d (3(b−a))^(n−1−d), over (3b)^(n−1).
+        // With q = a/b the mean is Σ_d 3^d S_d a^d (3(b−a))^(n−1−d), over (3b)^(n−1).
         let shares = (0..=self.most_faults)
             .map(|d| pow(faults.clone(), d) * pow(straight.clone(), most - d));
         let shares: Vec<_> = shares.collect();
@@ -242,10 +248,10 @@ impl ByFaults {
         })
     }
 
-    /// Returns the means as polynomials in the fault probability, the symbol `q`.
+    /// Returns the mean as polynomials in the fault probability, with the symbol `q`.
     ///
     /// # Errors
-    /// [`Bug`](cannonpile::Error::Bug).
+    /// [`Bug`](cannonpile::Error::Bug) if an invariant is violated.
     ///
     /// # Examples
     /// ```
@@ -260,7 +266,7 @@ impl ByFaults {
     /// ```
     pub fn polynomial(&self) -> Result<Mean<Polynomial>, Error> {
         let most = self.most_faults();
-        // q^d (1−q)^m = Σ_i C(m,i) (−1)^i q^(d+i), with m = n−1−d; over 3^(n−1).
+        // q^d (1−q)^m = Σ_i C(m,i) (−1)^i q^(d+i), with m = n−1−d. The common denominator is 3^(n−1).
         let powers = (0..=self.most_faults).map(|d| {
             let third = pow(BigInt::from(3), most - d);
             let terms = (0..=most - d).map(|i| {
@@ -290,7 +296,7 @@ impl ByFaults {
         })
     }
 
-    /// The rows made of the totals of each place, over the denominator of probabilities.
+    /// Returns the mean. `totals` combines the sums of one place, and `scale` is the denominator of probabilities.
     fn mean<U, T>(
         &self,
         scale: &BigInt,

@@ -1,4 +1,4 @@
-//! The response to a load in stackings of any signs, and its mean over random ones.
+//! Formulas for the response to a load: in one stacking, and in the mean over random stackings.
 
 use core::num::NonZeroI64;
 
@@ -6,21 +6,22 @@ use cannonpile::scalar::{Algebra, Ring};
 
 use crate::THREE;
 
-// Unwrapped by the compiler: zero would not build.
+// The compiler evaluates the `unwrap`, and rejects zero.
 const SIXTEEN: NonZeroI64 = NonZeroI64::new(16).unwrap();
 const SEVEN_HUNDRED_SIXTY_EIGHT: NonZeroI64 = NonZeroI64::new(768).unwrap();
 
-/// Returns what the sign σ_s of step s makes of the third moment of a unit load at depth n: Σ v r³cos3φ is the sum over s of
-/// σ_s times 3(n−s)(2s−1) + 3s−2.
+/// Returns 3(n−s)(2s−1) + 3s−2, the coefficient of the sign σ_s of step s in the third moment of a unit load at depth
+/// n: Σ v r³cos3φ is the sum over s of σ_s times this value.
 ///
-/// In units of ρ³, ρ = 2R sinθ the horizontal part of a contact; v are the loads on the spheres n layers below the load, 1
-/// ≤ s ≤ n, at the distance r from its line, in the azimuth φ from α under +. Theorem `third-moment`.
+/// The unit is ρ³, with ρ = 2R sinθ the horizontal part of a contact. The v are the loads on the spheres n layers below
+/// the unit load. Their distance from its vertical line is r, and their azimuth from the direction α under a + step is
+/// φ. The domain is 1 ≤ s ≤ n. Theorem `third-moment`.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::formula::third_moment;
 ///
-/// // In FCC three loads of 1/3 are at r = n: n³.
+/// // In FCC three loads of 1/3 have r = n, so the moment is n³.
 /// let n = 7.0;
 /// assert_eq!((1..=7).map(|s| third_moment(&n, &f64::from(s))).sum::<f64>(), 343.0);
 /// ```
@@ -29,15 +30,16 @@ pub fn third_moment<T: Ring>(n: &T, s: &T) -> T {
     integer::<T>(3) * &deep(n, s) * &odd(s) + &(integer::<T>(3) * s) - &integer(2)
 }
 
-/// Returns what all signs have in common of the fourth moment of a unit load at depth n, Σ v r⁴: n(2n³+2n²−2n+1)/3.
+/// Returns n(2n³+2n²−2n+1)/3, the part of the fourth moment Σ v r⁴ of a unit load at depth n that does not depend on
+/// the signs.
 ///
-/// In units of ρ⁴. What two signs add is [`fourth_moment_of_pair`]. Theorem `fourth-moment`.
+/// The unit is ρ⁴. [`fourth_moment_of_pair`] is the part that depends on two signs. Theorem `fourth-moment`.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::formula::fourth_moment;
 ///
-/// // The first step leads to r = ρ, whatever its sign.
+/// // The first step leads to r = ρ for both signs.
 /// assert_eq!(fourth_moment(&1.0), 1.0);
 /// ```
 #[must_use]
@@ -47,16 +49,16 @@ pub fn fourth_moment<T: Algebra>(n: &T) -> T {
     ((sum - &(integer::<T>(2) * n) + &T::one()) * n).div_int(THREE)
 }
 
-/// Returns what the signs of two steps s < t add to the fourth moment of a unit load at depth n, times σ_sσ_t:
-/// 2(2n−2t+1)(2s−1).
+/// Returns 2(2n−2t+1)(2s−1), the coefficient of the product σ_sσ_t of two signs, s < t, in the fourth moment Σ v r⁴ of
+/// a unit load at depth n.
 ///
-/// In units of ρ⁴. Theorem `fourth-moment`.
+/// The unit is ρ⁴. Theorem `fourth-moment`.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::formula::{fourth_moment, fourth_moment_of_pair};
 ///
-/// // In FCC three loads of 1/3 are at r = n: n⁴.
+/// // In FCC three loads of 1/3 have r = n, so the moment is n⁴.
 /// let pair = |s: i32, t: i32| fourth_moment_of_pair(&5.0, &f64::from(s), &f64::from(t));
 /// let pairs: f64 = (1..=5).flat_map(|t| (1..t).map(move |s| pair(s, t))).sum();
 /// assert_eq!(fourth_moment(&5.0) + pairs, 625.0);
@@ -66,11 +68,10 @@ pub fn fourth_moment_of_pair<T: Ring>(n: &T, s: &T, t: &T) -> T {
     integer::<T>(2) * &(integer::<T>(2) * &deep(n, t) + &T::one()) * &odd(s)
 }
 
-/// Returns (1−μ)³ times the mean third moment of a unit load at depth n, over random stackings that begin with +:
+/// Returns (1−μ)³ times the mean third moment of a unit load at depth n, over random stackings whose first sign is +:
 /// 3(1−μ)(1+μ)n(1+μⁿ) − 2(μ²+4μ+1)(1−μⁿ).
 ///
-/// In units of ρ³. μ = 1−2q with q the probability that a sign differs from the one before, `power` is μⁿ. Theorem
-/// `third-moment`.
+/// The unit is ρ³. μ is 1−2q with the fault probability q, and `power` is μⁿ. Theorem `third-moment`.
 ///
 /// # Examples
 /// ```
@@ -87,17 +88,17 @@ pub fn mean_third_moment<T: Ring>(n: &T, mu: &T, power: &T) -> T {
     whole - &(integer::<T>(2) * &square * &(T::one() - power))
 }
 
-/// Returns (1−μ)⁴ times the mean of what pairs of signs add to the fourth moment of a unit load at depth n, over random
+/// Returns (1−μ)⁴ times the mean of the pair terms of the fourth moment of a unit load at depth n, over random
 /// stackings: 4μn³(1−μ)³/3 − 4μn²(1−μ)² + 2μ(μ²+4μ+7)n(1−μ)/3 − 2μ(1+μ)²(1−μⁿ).
 ///
-/// In units of ρ⁴; to it belongs [`fourth_moment`]. μ = 1−2q, `power` is μⁿ, as for [`mean_third_moment`]. Theorem
-/// `fourth-moment`.
+/// The unit is ρ⁴. The mean fourth moment is the sum of the pair terms and [`fourth_moment`]. As in
+/// [`mean_third_moment`], μ is 1−2q and `power` is μⁿ. Theorem `fourth-moment`.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::formula::{fourth_moment_of_pair, mean_fourth_moment_of_pairs};
 ///
-/// // Two steps: their signs have the mean product μ.
+/// // The signs of two steps have the mean product μ.
 /// let (n, mu) = (2.0, 0.5);
 /// let mean = mu * fourth_moment_of_pair(&n, &1.0, &2.0);
 /// assert_eq!(mean_fourth_moment_of_pairs(&n, &mu, &0.25) / (1.0_f64 - mu).powi(4), mean);
@@ -113,18 +114,18 @@ pub fn mean_fourth_moment_of_pairs<T: Algebra>(n: &T, mu: &T, power: &T) -> T {
     (odd.div_int(THREE) - &(integer::<T>(4) * &deep * &deep) - &rest) * mu
 }
 
-/// Returns damping and dispersion of the waves that the mean response is at great depth, times q and q²: (1−q)/16 and
+/// Returns q times the damping and q² times the dispersion of long waves in the mean response: (1−q)/16 and
 /// (13q²−42q+21)/768.
 ///
-/// A wave of the number k, κ = kρ, is multiplied by exp(±iκ/√2·(1 + bκ²) − aκ² + …) by every layer: its speed is ρ/√2 for
-/// every q > 0, a and b are these numbers over q and q². Dimensionless; q is the probability that a sign differs from the one before. What is
-/// horizontal, and across the wave, only decays, with exp(−2aκ²). Theorem `mean-spectrum`.
+/// With wave number k and κ = kρ each layer multiplies a wave by exp(±iκ/√2·(1 + bκ²) − aκ² + …). The damping a and the
+/// dispersion b are dimensionless, and q > 0 is the fault probability. The speed is ρ/√2 for every q. The horizontal
+/// force across the wave only decays, by exp(−2aκ²) in each layer. Theorem `mean-spectrum`.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::formula::wave;
 ///
-/// // HCP: no damping, and b = −1/96.
+/// // HCP has no damping, and b = −1/96.
 /// assert_eq!(wave(&1.0), [0.0, -1.0 / 96.0]);
 /// ```
 #[must_use]
@@ -136,16 +137,15 @@ pub fn wave<T: Algebra>(q: &T) -> [T; 2] {
     ]
 }
 
-/// Returns by how much the probability of a registry exceeds ⅓ one layer further down: −(1−q)y − (1−2q)x.
+/// Returns the excess of the probability of a registry over ⅓ in the next layer: −(1−q)y − (1−2q)x.
 ///
-/// x is by how much it does two layers above, and y in the layer above; q is the probability that a sign differs from the one
-/// before. Theorem `registry`.
+/// The excess is y in the last layer and x in the layer above it. q is the fault probability. Theorem `registry`.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::formula::registry_excess;
 ///
-/// // FCC: the registries follow each other, 0, 1, 2.
+/// // In FCC the registries are 0, 1, 2 in turn.
 /// let [here, elsewhere] = [2.0_f64 / 3.0, -1.0 / 3.0];
 /// assert_eq!(registry_excess(&here, &elsewhere, &0.0), elsewhere);
 /// assert!((registry_excess(&elsewhere, &elsewhere, &0.0) - here).abs() < 1e-15);
@@ -165,7 +165,7 @@ fn deep<T: Ring>(n: &T, s: &T) -> T {
     n.clone() - s
 }
 
-/// 2s − 1.
+/// Returns 2s − 1.
 fn odd<T: Ring>(s: &T) -> T {
     integer::<T>(2) * s - &T::one()
 }

@@ -1,4 +1,4 @@
-//! The cells of a recursion over places: row after row, and of each row what can be reached.
+//! The grid of cells, with the range of each row that forces can reach.
 
 use core::array;
 use core::ops::Range;
@@ -11,13 +11,13 @@ use super::place::Place;
 use crate::Error;
 use crate::error::bug;
 
-/// The most 64-bit words that a recursion keeps.
+/// The most 64-bit words that the recursion stores.
 const MAX_WORDS: u64 = 100_000_000;
 
-/// What a contact of each direction adds to the coordinates of a cell, for each sign.
+/// The shifts of a cell by a contact of each direction, for a sign.
 pub(super) type Shifts = fn(Sign) -> [[isize; 2]; 3];
 
-/// How sites of one layer move: the shifts of a pile whose layers are named by their sites.
+/// Returns the shifts of a site.
 pub(super) fn site_shifts(sign: Sign) -> [[isize; 2]; 3] {
     let step = match sign {
         Sign::Plus => 1,
@@ -26,14 +26,15 @@ pub(super) fn site_shifts(sign: Sign) -> [[isize; 2]; 3] {
     [[0, 0], [step, 0], [0, step]]
 }
 
-/// How places move.
+/// Returns the shifts of a place.
 pub(super) fn place_shifts(sign: Sign) -> [[isize; 2]; 3] {
     Place::descents(sign)
 }
 
-/// Cells in rows, with one free cell all around, and of each layer the range of every row that forces can reach.
+/// Rows of cells with a margin of one free cell. For each layer and row the grid stores the range that forces can
+/// reach.
 ///
-/// The ranges of a layer are within those of the next.
+/// The ranges of a layer contain those of the layer above.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
     /// The coordinates of the first cell.
@@ -45,22 +46,23 @@ pub(super) struct Grid {
     shifts: Shifts,
 }
 
-/// The rows of the first layer: its second coordinate and the range of the first.
+/// The rows of the first layer: the second coordinate, and the range of the first coordinate.
 pub(super) type FirstRows = Vec<(i128, Range<i128>)>;
 
-/// How large the cells of a recursion would be.
+/// The size of a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
-    /// Least and greatest coordinates of the first layer.
+    /// The least and the greatest coordinates of the first layer.
     least: [i128; 2],
     greatest: [i128; 2],
-    /// How far each layer reaches beyond the one above; 0 or 1.
+    /// The growth of the ranges from layer to layer: 0 or 1.
     reach: i128,
     steps: i128,
 }
 
 impl Size {
-    /// Of a first layer with coordinates between these, and layers that each `reach` 0 or 1 cells beyond the one above.
+    /// Returns the size of a grid whose first layer has coordinates between these. Each further layer extends by
+    /// `reach`, 0 or 1.
     pub(super) const fn new(
         least: [i128; 2],
         greatest: [i128; 2],
@@ -75,10 +77,10 @@ impl Size {
         }
     }
 
-    /// Refuses what takes more memory than is sensible: so many numbers a cell, of so many words.
+    /// Rejects a grid that exceeds the memory limit, with `per_cell` numbers of `words` words in each cell.
     ///
     /// # Errors
-    /// [`TooLarge`](cannonpile::Error::TooLarge).
+    /// [`TooLarge`](cannonpile::Error::TooLarge) beyond [`MAX_WORDS`].
     pub(super) fn check(
         &self,
         quantity: &'static str,
@@ -91,26 +93,26 @@ impl Size {
             let reach = BigUint::from(2 * self.reach.unsigned_abs()) * self.steps.unsigned_abs();
             cells *= side + reach + 3_u32;
         }
-        // The windows: two words for each row of each layer.
+        // The last term estimates the ranges.
         let needed = cells * per_cell + BigUint::from(self.steps.unsigned_abs());
         let words = words.max(1);
-        // Not a default: no machine has as many.
+        // Saturation is correct, because no machine has so many words.
         let bytes = usize::try_from(words).map_or(usize::MAX, |words| words.saturating_mul(8));
         refuse_beyond_memory(
             quantity,
             &needed,
             (MAX_WORDS / words, bytes),
-            "ask for fewer layers, or a smaller pile",
+            "use fewer layers, or a smaller pile",
         )?;
         Ok(())
     }
 }
 
 impl Grid {
-    /// Returns the cells of a recursion over so many steps. The size must have been checked.
+    /// Returns a grid whose size was checked.
     ///
     /// # Errors
-    /// [`Error::Bug`].
+    /// [`Bug`](cannonpile::Error::Bug).
     pub(super) fn new(size: &Size, first: &FirstRows, shifts: Shifts) -> Result<Self, Error> {
         let small = |n: i128| usize::try_from(n).map_err(|_| bug("the size was checked"));
         let margin = size.reach * size.steps + 1;
@@ -144,23 +146,23 @@ impl Grid {
         })
     }
 
-    /// How many cells a plane has.
+    /// Returns the number of cells.
     pub(super) const fn cells(&self) -> usize {
         self.stride * self.rows
     }
 
-    /// How many cells of a layer can be reached.
+    /// Returns the number of cells of a layer that forces can reach.
     ///
     /// # Errors
-    /// [`Error::Bug`].
+    /// [`Bug`](cannonpile::Error::Bug).
     pub(super) fn reached(&self, layer: usize) -> Result<usize, Error> {
         Ok(self.window(layer)?.map(|cells| cells.len()).sum())
     }
 
-    /// The rows of a layer that have cells: their ranges, counted from the first cell of the plane.
+    /// Iterates over the ranges of a layer that are not empty, counted from the first cell of the grid.
     ///
     /// # Errors
-    /// [`Error::Bug`] of a layer that is not there.
+    /// [`Bug`](cannonpile::Error::Bug) for a layer that does not exist.
     pub(super) fn window(
         &self,
         layer: usize,
@@ -175,21 +177,21 @@ impl Grid {
         }))
     }
 
-    /// The coordinates of a cell.
+    /// Returns the coordinates of a cell.
     pub(super) fn coordinates(&self, cell: usize) -> [i128; 2] {
         let [a, b] = [cell % self.stride, cell / self.stride];
-        // No plane has more cells than memory.
+        // Indices of cells fit in memory, so both conversions are exact.
         [self.origin[0] + a as i128, self.origin[1] + b as i128]
     }
 
-    /// The cell of coordinates that are within the box.
+    /// Returns the cell with these coordinates, or `None` outside of the grid.
     pub(super) fn cell(&self, at: [i128; 2]) -> Option<usize> {
         let [a, b] = [0, 1].map(|axis| usize::try_from(at[axis] - self.origin[axis]).ok());
         let (a, b) = (a?, b?);
         (a < self.stride && b < self.rows).then(|| b * self.stride + a)
     }
 
-    /// The cells from which the contacts of a direction lead to these, under a step of a sign.
+    /// Returns the cells from which contacts of this direction lead to the given cells, for a step of this sign.
     pub(super) fn above(
         &self,
         cells: &Range<usize>,
@@ -207,15 +209,15 @@ impl Grid {
     }
 }
 
-/// What the contacts below a layer can reach, whichever their signs: the hull of every row.
+/// Returns the ranges one layer further down, for both signs.
 fn dilated(window: &[Range<usize>]) -> Vec<Range<usize>> {
     let range = |row: Option<usize>| {
         let range = row.and_then(|row| window.get(row));
         range.filter(|range| !range.is_empty())
     };
     let hulls = (0..window.len()).map(|row| {
-        // From the row itself by ±u_β, from the next by u_α and −u_γ, from the one before by −u_α and u_γ. A range that
-        // is not empty begins beyond the first cell.
+        // The same row is reached by ±u_β, the next one by u_α and −u_γ, and the previous one by −u_α and u_γ. A
+        // nonempty range starts after the first cell of its row.
         let parts = [
             range(Some(row)).map(|range| range.start - 1..range.end + 1),
             range(row.checked_add(1)).map(|range| range.start - 1..range.end),
@@ -224,7 +226,7 @@ fn dilated(window: &[Range<usize>]) -> Vec<Range<usize>> {
         let hull = |hull: Range<usize>, part: Range<usize>| {
             hull.start.min(part.start)..hull.end.max(part.end)
         };
-        // Not a default: a row that nothing reaches has no cells.
+        // No force reaches such a row, so its range is empty.
         parts.into_iter().flatten().reduce(hull).unwrap_or(0..0)
     });
     hulls.collect()
@@ -234,9 +236,9 @@ fn dilated(window: &[Range<usize>]) -> Vec<Range<usize>> {
 mod tests {
     use super::*;
 
-    /// 97 and 997 further than the first cell, and a free one at each end: 10⁵ cells.
+    /// The first layer is 98 × 998 cells, and the margin is one cell on each side: 10⁵ cells.
     #[test]
-    fn as_many_words_as_may_be_kept_and_no_more() {
+    fn sizes_are_limited() {
         let needed = |reach, steps, per_cell: u32, words| {
             let size = Size::new([-7, 5], [90, 1002], reach, steps);
             match size.check("cells", &per_cell.into(), words) {
@@ -251,18 +253,18 @@ mod tests {
         assert_eq!(needed(0, 0, 1000, 1), None);
         assert_eq!(needed(0, 0, 1000, 0), None);
         assert_eq!(needed(0, 0, 1001, 1), Some(100_100_000));
-        // Windows of one layer more.
+        // One more layer of ranges.
         assert_eq!(needed(0, 1, 1000, 1), Some(100_000_001));
         assert_eq!(needed(0, 0, 500, 2), None);
         assert_eq!(needed(0, 0, 501, 2), Some(50_100_000));
-        // 50 cells more at each end.
+        // 50 more cells on each side.
         assert_eq!(needed(1, 50, 454, 1), None);
         assert_eq!(needed(1, 50, 455, 1), Some(200 * 1100 * 455 + 50));
     }
 
-    /// Two steps around two cells, and a free cell at each end.
+    /// Two steps around two cells, with a margin of one cell.
     #[test]
-    fn cells_are_those_of_the_box() {
+    fn cells_and_coordinates_agree() {
         let size = Size::new([2, -1], [3, -1], 1, 2);
         let first = FirstRows::from([(-1, 2..4)]);
         let grid = Grid::new(&size, &first, place_shifts).unwrap();
@@ -276,7 +278,7 @@ mod tests {
                 assert_eq!(grid.coordinates(cell), [a, b]);
             }
         }
-        // Rows of 2; of 3, 4, 3; of 4, 5, 6, 5, 4.
+        // Rows of 2; then of 3, 4, 3; then of 4, 5, 6, 5, 4.
         for (layer, cells) in [2, 10, 24].into_iter().enumerate() {
             assert_eq!(grid.reached(layer).unwrap(), cells);
         }

@@ -1,8 +1,10 @@
-//! Exact contact forces in sphere piles of random stackings: mean forces, moments of the response to a load, and ensembles.
+//! Exact contact forces in sphere piles of random stackings: mean forces, moments of the response to a load, and
+//! ensembles.
 //!
-//! A stacking is a sequence of close-packed layers. In a random stacking each sign of the sequence differs from the sign
-//! before with the fault probability q, independently. This crate computes averages over all stackings without drawing
-//! any of them, in exact numbers or in floats. For quantities without such a recursion it enumerates or samples stackings.
+//! A stacking is a sequence of close-packed layers. In a random stacking each sign of the sequence differs from the
+//! previous sign with the fault probability q, independently. This crate computes averages over all stackings without
+//! drawing any of them, in exact numbers or in floats. Quantities without such a recursion are computed by enumeration
+//! or sampling.
 //!
 //! ```
 //! use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomPiles, RandomStackings, Shard};
@@ -37,7 +39,8 @@
 //!
 //! # Guarantees
 //! * With exact scalars every result is exact. With floats each operation rounds.
-//! * A tally contains integers and rationals only. The tallies of all shards merge into the tally of the whole, byte for byte.
+//! * A tally contains integers and rationals only. The tallies of all shards merge into the tally of the whole, byte
+//!   for byte.
 //! * Sample n depends on the seed, the fault probability and n only. It is the same on every machine and in every shard.
 //! * A function that would need too much memory or time returns an error, which names the limit.
 //! * The crate contains no `unsafe` code.
@@ -79,12 +82,12 @@ pub use piles::RandomPiles;
 pub use place::Place;
 pub use stackings::{FirstSign, RandomStackings, check_fault_probability};
 
-// Unwrapped by the compiler: zero would not build.
+// The compiler evaluates the `unwrap`, and rejects zero.
 pub(crate) const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
 pub(crate) const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 
-/// The examples of README.md, run as tests.
+/// Runs the examples of README.md as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

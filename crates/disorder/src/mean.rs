@@ -1,4 +1,4 @@
-//! What bottom spheres bear in the mean.
+//! Mean forces on the floor.
 
 use core::num::NonZeroI64;
 
@@ -19,17 +19,17 @@ use crate::Error;
 use crate::error::bug;
 use crate::{ONE, TWO};
 
-/// What is at one place of the bottom layer, in the mean over all stackings.
+/// The mean forces at one place of the bottom layer, over all stackings.
 ///
-/// A stacking without a sphere at the place counts as one whose sphere bears nothing, so that the normals of all rows add up to the mean
-/// weight of a pile and its loads.
+/// A stacking without a sphere at the place contributes 0. So the normal forces of all rows sum to the mean weight of a
+/// pile and its loads.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::{FirstSign, MeanForce, Place, RandomPiles, RandomStackings};
 /// use cannonpile::lattice::Region;
 ///
-/// // Three spheres under one, each with a third of it.
+/// // Three spheres support one, each with a third of its weight.
 /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(2, FirstSign::Plus)?);
 /// let mean = piles.mean(&0.5)?;
 /// let place = Place { a: -1, b: -1 };
@@ -41,9 +41,9 @@ use crate::{ONE, TWO};
 pub struct MeanForce<T> {
     /// The place.
     pub place: Place,
-    /// The probability that a sphere is there.
+    /// The probability that a sphere is at the place.
     pub probability: T,
-    /// The mean normal force on the floor, in mg, the sphere's own weight included.
+    /// The mean normal force on the floor, in mg. It includes the weight of the sphere itself.
     pub normal: T,
     /// The mean shear along x, in mg·tanθ.
     pub shear_x: T,
@@ -52,7 +52,8 @@ pub struct MeanForce<T> {
 }
 
 impl<T> MeanForce<T> {
-    /// Returns the row for sums of a probability and three forces. `over` divides them by the scales of both.
+    /// Returns the row for sums of a probability and three forces. `over` divides a sum by a scale, and the scales are
+    /// those of probabilities and of forces.
     pub(super) fn of<U, D>(
         place: Place,
         [probability, normal, shear_x, shear_y]: [U; 4],
@@ -70,10 +71,10 @@ impl<T> MeanForce<T> {
         })
     }
 
-    /// Returns the row with `f` applied to each number.
+    /// Returns the row with `f` applied to each value.
     ///
     /// # Errors
-    /// Those of `f`.
+    /// The first error of `f`.
     ///
     /// # Examples
     /// ```
@@ -95,9 +96,10 @@ impl<T> MeanForce<T> {
     }
 }
 
-/// What the bottom layer bears in the mean over all stackings, by place.
+/// The mean forces on the floor over all stackings, by place.
 ///
-/// The rows are those places at which some stacking has a sphere, and in the plane a load may be felt; in order of b, then a.
+/// There is a row for each place at which some stacking has a sphere. In the plane some load must also reach that
+/// sphere. The rows are sorted by b, then a.
 ///
 /// # Examples
 /// ```
@@ -108,7 +110,7 @@ impl<T> MeanForce<T> {
 /// let plane = RandomPiles::plane(RandomStackings::new(5, FirstSign::Plus)?).weightless();
 /// let mean = plane.with_load(Site::APEX, BigRational::from_integer(1.into()))?.mean(&0.5_f64)?;
 /// assert_eq!(mean.rows().len(), 61);
-/// // Far down one of the three straight lines of contacts nothing but FCC has a load: (1−q)³/3.
+/// // At the end of each straight line of contacts only FCC has a load: (1−q)³/3.
 /// let corner = mean.at(Place { a: 4, b: 0 }).unwrap();
 /// assert!((corner.normal - 1.0 / 24.0).abs() < 1e-15);
 /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -119,7 +121,7 @@ pub struct Mean<T> {
 }
 
 impl<T> Mean<T> {
-    /// Puts rows in their order.
+    /// Sorts the rows.
     pub(super) fn of(mut rows: Vec<MeanForce<T>>) -> Self {
         rows.sort_by_key(|row| row.place);
         Self { rows }
@@ -133,7 +135,7 @@ impl<T> Mean<T> {
     /// use cannonpile::lattice::Region;
     ///
     /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus)?);
-    /// // Six places of FCC, seven of HCP.
+    /// // Six places of FCC, seven places of HCP.
     /// assert_eq!(piles.mean(&0.5)?.rows().len(), 13);
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
@@ -142,7 +144,7 @@ impl<T> Mean<T> {
         &self.rows
     }
 
-    /// Returns the rows themselves.
+    /// Converts the mean into its rows.
     ///
     /// # Examples
     /// ```
@@ -159,7 +161,7 @@ impl<T> Mean<T> {
         self.rows
     }
 
-    /// Returns the row of a place, if there is one.
+    /// Returns the row of a place, if it exists.
     ///
     /// # Examples
     /// ```
@@ -178,8 +180,8 @@ impl<T> Mean<T> {
 }
 
 impl<T: Field> Mean<T> {
-    /// Returns the mean over those stackings that have a sphere at the place: normal and shears over the probability. Places
-    /// where the probability is 0 are left out.
+    /// Returns the mean over the stackings that have a sphere at the place. Forces are divided by the probability, and
+    /// rows with probability 0 are omitted.
     ///
     /// # Examples
     /// ```
@@ -190,7 +192,7 @@ impl<T: Field> Mean<T> {
     /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus)?);
     /// let q = BigRational::new(1.into(), 3.into());
     /// let given = piles.exact(&q)?.given_sphere();
-    /// // One sphere of three layers of HCP.
+    /// // In three layers of HCP this sphere has the normal force 5/3.
     /// assert_eq!(given.at(Place { a: 0, b: 0 }).unwrap().normal.to_string(), "5/3");
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
@@ -213,15 +215,19 @@ impl<T: Field> Mean<T> {
 }
 
 impl RandomPiles {
-    /// Returns the mean over all stackings at the fault probability `q`, in any scalar; all of its operations are in that scalar.
+    /// Returns the mean over all stackings at the fault probability `q`, in any scalar. All operations are in that
+    /// scalar.
     ///
-    /// Takes about 40 n³ operations for a single load or sphere on top, n = L − 1; of a base about n times the square of its
-    /// number of sites. A step is orthogonal, so that nothing is amplified: `f64` errs in its last digits only. 0 ≤ `q` ≤ 1 is not
-    /// asked of a scalar that may have no order.
+    /// The cost is about 40 n³ operations for a single load or a single sphere on top, with n = L − 1. For piles on a
+    /// base it is about n times the square of the number of base sites. A step is orthogonal, so rounding errors are
+    /// not amplified, and `f64` is accurate to its last digits. The scalar may have no order, so 0 ≤ `q` ≤ 1 is not
+    /// checked.
     ///
     /// # Errors
-    /// [`TooLarge`](cannonpile::Error::TooLarge) of what would not fit in memory; [`Error::OnlyOfLoads`] for a plane with weight or without loads;
-    /// [`Error::NoStacking`] for a base that carries no stacking; [`Overflow`](cannonpile::Error::Overflow) of a scalar.
+    /// * [`TooLarge`](cannonpile::Error::TooLarge) if the forces do not fit in memory.
+    /// * [`Error::NotAResponse`] for a plane with weight or without loads.
+    /// * [`Error::NoStacking`] for a base that supports no stacking of this height.
+    /// * [`Overflow`](cannonpile::Error::Overflow) of the scalar.
     ///
     /// # Examples
     /// ```
@@ -254,13 +260,14 @@ impl RandomPiles {
         Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
     }
 
-    /// Returns the mean over all stackings at a rational fault probability, exactly.
+    /// Returns the exact mean over all stackings at a rational fault probability.
     ///
-    /// With q = a/b the forces after k steps are integers over (3b)^k times the denominator of the loads: 64 or 128 bits, or as many as they get, by a bound that is
-    /// computed beforehand; each is reduced once.
+    /// With q = a/b the forces after k steps are integers over (3b)^k times the denominator of the loads. A bound
+    /// computed beforehand decides between 64-bit, 128-bit and big integers. Each result is reduced to lowest terms
+    /// once.
     ///
     /// # Errors
-    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1; others as for [`mean`](Self::mean).
+    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1. Otherwise as for [`mean`](Self::mean).
     ///
     /// # Examples
     /// ```
@@ -277,9 +284,9 @@ impl RandomPiles {
         check_fault_probability(q)?;
         let denominator = self.denominator();
         let tripled: BigInt = q.denom() * 3;
-        // Each step but the first and the last multiplies by 3b.
+        // Each step except the first and the last multiplies the denominator by 3b.
         let choices = self.stackings.most_faults();
-        // Not a default: what has no such number of steps is refused for its size.
+        // A larger number of steps exceeds the memory limit anyway.
         let steps = u64::try_from(choices.max(1)).unwrap_or(u64::MAX);
         let growth = tripled.bits().saturating_mul(steps);
         let domain = Domain::new(self, 1, Width::of(growth).words(growth))?;
@@ -296,7 +303,7 @@ impl RandomPiles {
         Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
     }
 
-    /// How many signs the first step can have: each begins with a share of one.
+    /// Returns the number of possible first signs. Each of them starts with a total probability of 1.
     pub(super) fn firsts(&self) -> NonZeroI64 {
         match self.stackings.first_signs() {
             [_, _] => TWO,
@@ -305,13 +312,13 @@ impl RandomPiles {
     }
 }
 
-/// The one class of a recursion by probability.
+/// Returns the only class of a recursion by probability.
 fn one_class<C>(classes: Vec<C>) -> Result<C, Error> {
     let class = classes.into_iter().next();
     class.ok_or_else(|| bug("there is one class"))
 }
 
-/// Refuses what is no number.
+/// Returns an overflow error for an undefined value.
 pub(super) fn defined<T: Algebra>(value: T) -> Result<T, Error> {
     if value.is_defined() {
         return Ok(value);

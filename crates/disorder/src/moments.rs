@@ -1,4 +1,4 @@
-//! How far a load spreads: moments in one stacking and in the mean, and the waves that the mean is made of.
+//! Moments of the response to a load, and the waves of the mean response.
 
 use cannonpile::engine::refuse_beyond;
 use cannonpile::scalar::{Algebra, Field, Ring};
@@ -14,17 +14,18 @@ use crate::formula::{
     third_moment, wave,
 };
 
-/// Moments of the loads v that a unit load on a wide flat top makes on the bottom layer: Σv = 1, Σv r = 0, and these, in
-/// powers of ρ = 2R sinθ, the horizontal part of a contact.
+/// The moments of the loads v that a unit load on a wide flat top layer causes on the bottom layer, in powers of ρ = 2R
+/// sinθ.
 ///
-/// r is the horizontal distance from the load's line, φ the azimuth from α under a + step. Exact. Theorems `point-load`,
-/// `third-moment` and `fourth-moment` prove them, of every stacking and of the mean.
+/// ρ is the horizontal part of a contact, r the horizontal distance from the line of the load, and φ the azimuth from α
+/// under a + step. The moments of orders 0 and 1 are Σv = 1 and Σv r = 0. All values are exact. Theorems `point-load`,
+/// `third-moment` and `fourth-moment` prove them for every stacking and for the mean.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::Moments;
 ///
-/// // FCC: three loads of 1/3 at r = n. HCP spreads as far, to no side, and with fewer far off.
+/// // FCC has three loads of 1/3 at r = n. HCP has the same second moment, but is more symmetric and more compact.
 /// let fcc = Moments::of(&"+++".parse()?)?;
 /// assert_eq!([fcc.second, fcc.third, fcc.fourth].map(|m| m.to_string()), ["9", "27", "81"]);
 /// let hcp = Moments::of(&"+-+".parse()?)?;
@@ -34,16 +35,16 @@ use crate::formula::{
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Moments {
-    /// Σ v r² = n², n the number of steps, in every stacking: also Σ v r_i r_j = δ_ij n²/2.
+    /// Σ v r² = n² in every stacking, with n the number of steps. Also Σ v r_i r_j = δ_ij n²/2.
     pub second: BigRational,
-    /// Σ v r³cos3φ: to which of the corners of a triangle the response points.
+    /// Σ v r³cos3φ, the threefold asymmetry of the response.
     pub third: BigRational,
     /// Σ v r⁴.
     pub fourth: BigRational,
 }
 
 impl Moments {
-    /// Returns the moments in one stacking, by formulas in its signs.
+    /// Returns the moments of the response in one stacking.
     ///
     /// # Errors
     /// [`TooLarge`](cannonpile::Error::TooLarge) for more than 10⁴ layers.
@@ -60,7 +61,7 @@ impl Moments {
             t += BigRational::one();
             let sigma = BigRational::from_i128(sign.factor().into());
             third += third_moment(&n, &t) * &sigma;
-            // It is linear in 2s−1, so the sum may stand for it.
+            // The formula is linear in 2s−1, so it applies to the sum.
             let s = (before.clone() + BigRational::one()).div_int(TWO);
             fourth += fourth_moment_of_pair(&n, &s, &t) * &sigma;
             before += (BigRational::from_i128(2) * &t - BigRational::one()) * sigma;
@@ -76,10 +77,11 @@ impl Moments {
 impl RandomStackings {
     /// Returns the moments of the mean response at the fault probability `q`.
     ///
-    /// With a random first sign the mean points nowhere, and the third moment is 0.
+    /// With a random first sign the mean response is sixfold symmetric, and its third moment is 0.
     ///
     /// # Errors
-    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1; [`TooLarge`](cannonpile::Error::TooLarge) for more than 10⁴ layers.
+    /// * [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.
+    /// * [`TooLarge`](cannonpile::Error::TooLarge) for more than 10⁴ layers.
     ///
     /// # Examples
     /// ```
@@ -88,7 +90,7 @@ impl RandomStackings {
     ///
     /// let stackings = RandomStackings::new(4, FirstSign::Plus)?;
     /// let half = BigRational::new(1.into(), 2.into());
-    /// // Of three steps whose signs are independent: 3n − 2, and n(2n³+2n²−2n+1)/3.
+    /// // At q = 1/2 the signs are independent. The moments of three steps are 3n − 2 and n(2n³+2n²−2n+1)/3.
     /// let moments = stackings.moments(&half)?;
     /// assert_eq!([moments.third, moments.fourth].map(|m| m.to_string()), ["7", "67"]);
     /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -116,7 +118,7 @@ impl RandomStackings {
                 fourth: fourth_moment(&n) + pairs,
             })
         };
-        // Not a default: where 1−μ is 0 no sign ever changes.
+        // For q = 0 the divisor 1−μ is 0, and no sign ever changes.
         let moments = mean().unwrap_or_else(straight);
         let third = match self.first() {
             FirstSign::Plus => moments.third,
@@ -127,13 +129,14 @@ impl RandomStackings {
     }
 }
 
-/// What becomes of waves of the mean response at great depth: a wave of the number k, κ = kρ, is multiplied by
-/// exp(±iκ/√2·(1 + bκ²) − aκ² + …) by every layer.
+/// The damping a and the dispersion b of long waves in the mean response. Each layer multiplies a wave with κ = kρ by
+/// exp(±iκ/√2·(1 + bκ²) − aκ² + …), where k is the wave number.
 ///
-/// Its speed is ρ/√2 a layer at every fault probability but 0, where forces go on along three rays. So the mean response
-/// is a ring of the radius r = nρ/√2 after n steps, as wide as [`squared_width`](Self::squared_width) says. Theorem
-/// `mean-spectrum` proves both numbers; that no other mode stays but one that changes its sign from place to place is
-/// proved, in words, in [`paper`](cannonpile::paper#random-stackings).
+/// The speed is ρ/√2 per layer at every fault probability q > 0. At q = 0 the load follows three straight rays. For q >
+/// 0 the mean response after n steps is a ring of radius r = nρ/√2, whose width follows from
+/// [`squared_width`](Self::squared_width). Theorem `mean-spectrum` proves both numbers. Only one other mode does not
+/// decay, and it alternates in sign from place to place. The proof of this statement, in words, is in
+/// the [documentation of this crate](crate#what-is-proved).
 ///
 /// # Examples
 /// ```
@@ -155,7 +158,7 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// Returns damping and dispersion at the fault probability `q`; `None` at 0, where there is no wave.
+    /// Returns damping and dispersion at the fault probability `q`. `None` for q = 0, where the response is no wave.
     ///
     /// # Errors
     /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.
@@ -165,7 +168,7 @@ impl Wave {
     /// use cannonpile_disorder::Wave;
     /// use num_rational::BigRational;
     ///
-    /// // HCP is not damped, and spreads by b = −1/96 alone.
+    /// // HCP has no damping, and the dispersion b = −1/96.
     /// let wave = Wave::at(&BigRational::from_integer(1.into()))?.unwrap();
     /// assert_eq!((wave.damping.to_string(), wave.dispersion.to_string()), ("0".into(), "-1/96".into()));
     /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -182,10 +185,10 @@ impl Wave {
         Ok(over())
     }
 
-    /// Returns w², the square of the width of the front after `n` steps, in ρ²: 2an = (1−q)n/(8q).
+    /// Returns w² = 2an = (1−q)n/(8q), the square of the width of the front after `n` steps, in ρ².
     ///
-    /// The front is the ring of a wave in two dimensions, smoothed by a Gaussian of the standard deviation w. At q = 1 it
-    /// is as narrow as dispersion leaves it.
+    /// The front is the ring of a two-dimensional wave, convolved with a Gaussian of standard deviation w. At q = 1
+    /// only dispersion widens it.
     ///
     /// # Examples
     /// ```
@@ -202,13 +205,13 @@ impl Wave {
     }
 }
 
-/// The number of steps.
+/// Returns the number of steps.
 fn steps(layers: i128) -> Result<BigRational, Error> {
     refuse_beyond(
         "moments of the response to a load",
         layers.unsigned_abs(),
         MOST_LAYERS,
-        "ask for fewer layers",
+        "use fewer layers",
     )?;
     Ok(BigRational::from_i128(layers - 1))
 }

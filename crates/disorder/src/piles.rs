@@ -1,4 +1,4 @@
-//! Piles of random stackings: what they grow from, and what acts on them.
+//! Piles of random stackings, with their geometry and loads.
 
 use std::collections::BTreeMap;
 
@@ -11,12 +11,12 @@ use num_traits::{One, Signed, Zero};
 use super::stackings::{FirstSign, RandomStackings};
 use crate::Error;
 
-/// The piles of all stackings of an ensemble, alike in what they grow from and in what acts on them.
+/// The piles of all random stackings that share a top layer or a base, and loads.
 ///
-/// Every sphere weighs mg, unless the piles are [`weightless`](Self::weightless), and loads are on spheres of the top layer.
-/// Contacts are those of the [paper](cannonpile::paper), without horizontal ones and without regard to signs: stackings that
-/// cannot stand count like any other, and the answers are those of piles whose contacts can pull, be it that they
-/// are glued, or pressed together by more than these forces.
+/// Every sphere weighs mg, unless the piles are [`weightless`](Self::weightless). Loads act on spheres of the top
+/// layer. Contacts are those of the [paper](cannonpile::paper), without horizontal ones. Unstable stackings count like
+/// any other. So the results are those of piles whose contacts can bear tension, because the spheres are glued or the
+/// pile is prestressed.
 ///
 /// # Examples
 /// ```
@@ -28,7 +28,7 @@ use crate::Error;
 /// let piles = RandomPiles::under(Region::SITE, stackings);
 /// let mean = piles.exact(&BigRational::new(1.into(), 2.into()))?;
 /// let total: BigRational = mean.rows().iter().map(|row| row.normal.clone()).sum();
-/// // 10 spheres of FCC, 11 of HCP.
+/// // FCC has 10 spheres, HCP has 11.
 /// assert_eq!(total.to_string(), "21/2");
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
@@ -37,23 +37,23 @@ pub struct RandomPiles {
     pub(super) setting: Setting,
     pub(super) stackings: RandomStackings,
     weightless: bool,
-    /// On sites of the top layer, in mg.
+    /// By site of the top layer, in mg.
     loads: BTreeMap<[i128; 2], BigRational>,
 }
 
-/// What piles grow from.
+/// The region of the piles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Setting {
-    /// Layers without end.
+    /// Infinite layers.
     Plane,
-    /// Down from a top layer.
+    /// A top layer, from which the pile grows down.
     Under(Region),
-    /// Up from a base.
+    /// A base, from which the pile grows up.
     On(Region),
 }
 
 impl RandomPiles {
-    /// Returns the piles that grow down from a top layer, each layer all supports of the one above.
+    /// Returns the piles under a top layer. Each layer consists of all supports of the layer above.
     ///
     /// # Examples
     /// ```
@@ -70,10 +70,10 @@ impl RandomPiles {
         Self::of(Setting::Under(top), stackings)
     }
 
-    /// Returns the piles that grow up from a base, each layer all sites whose three supports are there.
+    /// Returns the piles on a base. Each layer consists of all sites whose three supports exist.
     ///
-    /// The signs are read from the top, as everywhere. A stacking that the base does not carry to this height is no pile: it
-    /// counts as one without spheres.
+    /// As everywhere, signs are listed from the top. A stacking that does not reach this height on the base counts as a
+    /// pile without spheres.
     ///
     /// # Examples
     /// ```
@@ -82,7 +82,7 @@ impl RandomPiles {
     ///
     /// let stackings = RandomStackings::new(3, FirstSign::Random)?;
     /// let piles = RandomPiles::on(Region::triangle(3)?, stackings);
-    /// // Of four stackings the triangle carries ++ alone.
+    /// // Of four stackings the triangle supports ++ only.
     /// let mean = piles.mean(&0.5)?;
     /// assert!(mean.rows().iter().all(|row| row.probability == 0.25));
     /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -92,7 +92,7 @@ impl RandomPiles {
         Self::of(Setting::On(base), stackings)
     }
 
-    /// Returns layers without end in the plane: for the response to loads, of spheres that weigh nothing.
+    /// Returns piles of infinite layers, for the response of weightless spheres to loads.
     ///
     /// # Examples
     /// ```
@@ -121,7 +121,7 @@ impl RandomPiles {
         }
     }
 
-    /// Returns the piles with spheres that weigh nothing: their response to loads alone.
+    /// Returns the piles with weightless spheres, for their response to loads.
     ///
     /// # Examples
     /// ```
@@ -139,13 +139,14 @@ impl RandomPiles {
         self
     }
 
-    /// Returns the piles with one more vertical load on a sphere of the top layer, in mg.
+    /// Returns the piles with an additional vertical load on a sphere of the top layer, in mg.
     ///
-    /// Only there is a sphere at its place in every stacking.
+    /// In other layers the position of a sphere depends on the stacking.
     ///
     /// # Errors
-    /// [`Error::PlaceOfLoad`] for a sphere of another layer, and for piles on a base; [`SiteOutside`](cannonpile::Error::SiteOutside);
-    /// [`NegativeLoad`](cannonpile::Error::NegativeLoad).
+    /// * [`Error::PlaceOfLoad`] for a sphere of another layer, and for piles on a base.
+    /// * [`SiteOutside`](cannonpile::Error::SiteOutside) for a site outside of the top layer.
+    /// * [`NegativeLoad`](cannonpile::Error::NegativeLoad).
     ///
     /// # Examples
     /// ```
@@ -166,7 +167,7 @@ impl RandomPiles {
             return Err(Error::PlaceOfLoad { site, on_base });
         }
         let at = [site.i, site.j];
-        // In the plane larger coordinates than those of regions would overflow.
+        // In the plane, coordinates beyond those of regions would overflow.
         let in_plane = at.iter().all(|n| (-MAX_LAYERS..=MAX_LAYERS).contains(n));
         let (is_inside, region) = match self.setting {
             Setting::Under(top) => (top.contains(site.i, site.j), Some(top)),
@@ -200,7 +201,7 @@ impl RandomPiles {
         self.stackings
     }
 
-    /// Returns whether the spheres weigh nothing.
+    /// Returns whether the spheres are weightless.
     ///
     /// # Examples
     /// ```
@@ -216,17 +217,17 @@ impl RandomPiles {
         self.weightless
     }
 
-    /// The loads by their sites in the top layer, in mg.
+    /// Returns the loads by site of the top layer, in mg.
     pub(super) fn loads(&self) -> &BTreeMap<[i128; 2], BigRational> {
         &self.loads
     }
 
-    /// The least common denominator of the loads.
+    /// Returns the least common denominator of the loads.
     pub(super) fn denominator(&self) -> BigInt {
         common_denominator(self.loads.values())
     }
 
-    /// What a sphere weighs, in mg.
+    /// Returns the weight of a sphere, in mg.
     pub(super) fn weight(&self) -> BigRational {
         if self.weightless {
             BigRational::zero()
@@ -235,21 +236,21 @@ impl RandomPiles {
         }
     }
 
-    /// Refuses what is asked of the response to loads alone, and other piles.
+    /// Rejects piles without loads, and spheres with weight.
     ///
     /// # Errors
-    /// [`Error::OnlyOfLoads`].
+    /// [`Error::NotAResponse`].
     pub(super) fn check_response(&self, quantity: &'static str) -> Result<(), Error> {
         if self.weightless && !self.loads.is_empty() {
             return Ok(());
         }
-        Err(Error::OnlyOfLoads {
+        Err(Error::NotAResponse {
             quantity,
             weightless: self.weightless,
         })
     }
 
-    /// The numbers of net steps of the bottom layer, whatever the stacking.
+    /// Returns the least and the greatest net number of steps of the bottom layer.
     pub(super) fn net_bounds(&self) -> (i128, i128) {
         let steps = self.stackings.steps();
         let turned = (steps - 2).max(-steps);

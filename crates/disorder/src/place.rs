@@ -1,42 +1,43 @@
-//! Places: what is the same in every stacking.
+//! Places: horizontal positions that do not depend on the stacking.
 
 use cannonpile::lattice::Sign;
 
-/// A horizontal place a·u_β + b·u_γ, the same in every stacking.
+/// A horizontal position a·u_β + b·u_γ, which is the same in every stacking.
 ///
-/// u_α, u_β, u_γ are the horizontal parts of the contacts α, β, γ below a sphere under a + step: of length ρ = 2R sinθ, at
-/// 120° to each other, with the sum 0. A + step leads a contact from a place x to x + u, a − step to x − u: so places
-/// need no stacking. The sphere (i, j) of a layer that lies s net steps (+ steps less − steps) below the top layer is at
+/// u_α, u_β, u_γ are the horizontal parts of the contacts α, β, γ below a sphere under a + step. Their length is ρ = 2R
+/// sinθ, they form angles of 120°, and their sum is 0. A contact leads from a place x to x + u under a + step, and to x
+/// − u under a − step. Let a layer lie s net steps below the top layer, that is the number of + steps minus the number
+/// of − steps. Its sphere (i, j) is at
 ///
 /// a = 2i + j − s, b = i + 2j − s,
 ///
-/// and so a place holds a sphere only in layers with s ≡ a + b (mod 3), of one registry. Of a pile on a base the same
-/// holds with −s the net steps from the layer down to the base, so that in the base itself a = 2i + j, b = i + 2j.
+/// So a layer can have a sphere at a place only if s ≡ a + b (mod 3). For a pile on a base the same holds with −s, the
+/// net number of steps from the layer down to the base. In the base itself a = 2i + j and b = i + 2j.
 ///
-/// Places are ordered as tables print them: by b, then a.
+/// Places are sorted by b, then a, as in tables.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_disorder::Place;
 ///
-/// // Three steps straight down along β, two along γ.
+/// // Three contacts along β, then two along γ.
 /// let place = Place::of([3, 2], 5).unwrap();
 /// assert_eq!(place, Place { a: 3, b: 2 });
 /// assert_eq!(place.site(5), Some([3, 2]));
-/// // After four net steps no sphere is there.
+/// // A layer of net number 4 has no sphere there.
 /// assert_eq!(place.site(4), None);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Place {
-    /// The steps along u_β.
+    /// The coefficient of u_β.
     pub a: i128,
-    /// The steps along u_γ.
+    /// The coefficient of u_γ.
     pub b: i128,
 }
 
 impl Place {
-    /// Returns the place of the sphere (i, j) of a layer `net` steps below the top, − steps counted as −1; `None` past
-    /// `i128`.
+    /// Returns the place of the sphere (i, j) of a layer `net` steps below the top. A − step counts as −1. `None` if a
+    /// coordinate exceeds `i128`.
     ///
     /// # Examples
     /// ```
@@ -56,8 +57,8 @@ impl Place {
         })
     }
 
-    /// Returns the site (i, j) of this place in a layer `net` steps below the top; `None` if that layer has none here, and
-    /// past `i128`.
+    /// Returns the site (i, j) at this place in a layer `net` steps below the top. `None` if the layer has no site
+    /// there, or if a coordinate exceeds `i128`.
     ///
     /// # Examples
     /// ```
@@ -74,7 +75,8 @@ impl Place {
         Some([of(self.a, self.b)?, of(self.b, self.a)?])
     }
 
-    /// Returns the registry, a + b modulo 3: a sphere is here only in layers whose net number of steps has it.
+    /// Returns the registry of the place, a + b modulo 3. Only layers with this net number of steps modulo 3 can have a
+    /// sphere there.
     ///
     /// # Examples
     /// ```
@@ -84,7 +86,7 @@ impl Place {
     /// ```
     #[must_use]
     pub const fn registry(self) -> usize {
-        // Remainders first: their sum is small.
+        // Reducing both terms first keeps the sum small.
         match (self.a.rem_euclid(3) + self.b.rem_euclid(3)) % 3 {
             0 => 0,
             1 => 1,
@@ -92,7 +94,7 @@ impl Place {
         }
     }
 
-    /// Returns r²/ρ² = a² − ab + b², with r the distance from the place (0, 0); `None` past `i128`.
+    /// Returns r²/ρ² = a² − ab + b², with r the distance from the place (0, 0). `None` if it exceeds `i128`.
     ///
     /// # Examples
     /// ```
@@ -107,7 +109,7 @@ impl Place {
         aa.checked_sub(ab)?.checked_add(bb)
     }
 
-    /// How a contact of each direction leads from place to place: ±u_α, ±u_β, ±u_γ.
+    /// Returns the shifts of a place by the contacts of each direction: ±u_α, ±u_β, ±u_γ.
     pub(super) const fn descents(sign: Sign) -> [[isize; 2]; 3] {
         match sign {
             Sign::Plus => [[-1, -1], [1, 0], [0, 1]],

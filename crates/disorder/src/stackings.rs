@@ -1,4 +1,4 @@
-//! Random stackings of a number of layers: how many there are, and where their bottom layers lie.
+//! Random stackings: their number, and the registry of their bottom layers.
 
 use core::fmt;
 use core::str::FromStr;
@@ -26,16 +26,16 @@ use crate::{THREE, TWO};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FirstSign {
-    /// +, in every stacking.
+    /// + in every stacking.
     Plus,
-    /// −, in every stacking.
+    /// − in every stacking.
     Minus,
-    /// + or −, each with the probability ½.
+    /// + or −, each with probability ½.
     Random,
 }
 
 impl FirstSign {
-    /// `+`, `-`, `random`.
+    /// Returns `+`, `-` or `random`.
     ///
     /// # Examples
     /// ```
@@ -52,7 +52,7 @@ impl FirstSign {
         }
     }
 
-    /// Returns the signs that the first step can have.
+    /// Returns the possible first signs.
     ///
     /// # Examples
     /// ```
@@ -73,7 +73,7 @@ impl FirstSign {
 }
 
 impl fmt::Display for FirstSign {
-    /// `+`, `-`, `random`.
+    /// Prints `+`, `-` or `random`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
@@ -82,7 +82,7 @@ impl fmt::Display for FirstSign {
 impl FromStr for FirstSign {
     type Err = Error;
 
-    /// Reads what [`name`](Self::name) prints.
+    /// Parses the output of [`name`](Self::name).
     ///
     /// # Errors
     /// [`Syntax`](cannonpile::Error::Syntax).
@@ -102,12 +102,13 @@ impl FromStr for FirstSign {
     }
 }
 
-/// All stackings of L layers, each with its probability.
+/// All stackings of L layers, with their probabilities.
 ///
-/// Of the n = L − 1 signs the first is given, or + or − with probability ½; each later one differs from the one before
-/// with the fault probability q, 0 ≤ q ≤ 1, independently. So a stacking with d changes of sign, its faults, has
-/// the probability q^d (1−q)^(n−1−d), half of that if the first sign is random: q = 0 is FCC, q = 1 is HCP, and at q = ½
-/// all stackings are equally likely. Read from the base up it is the same ensemble.
+/// A stacking has n = L − 1 signs. The first is given, or is + or − with probability ½. Each later sign differs from
+/// the previous one with the fault probability q, 0 ≤ q ≤ 1, independently. A sign change is a fault. So a stacking
+/// with d faults has the probability q^d (1−q)^(n−1−d), or half of it for a random first sign. FCC has q = 0 and HCP
+/// has q = 1. At q = ½ all stackings are equally likely. Reading the signs from the base upwards yields the same
+/// ensemble.
 ///
 /// # Examples
 /// ```
@@ -123,14 +124,15 @@ pub struct RandomStackings {
     first: FirstSign,
 }
 
-/// The most layers of which the probabilities of the registries are found: they take as many steps.
+/// The most layers for probabilities of registries and for moments. The cost is proportional to the number of layers.
 pub(super) const MOST_LAYERS: u64 = 10_000;
 
-/// The most faults, or straight steps, with which stackings are counted: it takes as many products.
+/// The limit for the smaller one of the numbers of faults and of unchanged signs. The cost of a count is proportional
+/// to it.
 const MOST_FAULTS: u64 = 10_000;
 
 impl RandomStackings {
-    /// Returns the stackings of this many layers.
+    /// Returns the stackings of this number of layers.
     ///
     /// # Errors
     /// [`Layers`](cannonpile::Error::Layers) unless 1 ≤ `layers` ≤ [`MAX_LAYERS`](cannonpile::lattice::MAX_LAYERS).
@@ -143,7 +145,7 @@ impl RandomStackings {
     /// assert!(RandomStackings::new(0, FirstSign::Random).is_err());
     /// ```
     pub fn new(layers: i128, first: FirstSign) -> Result<Self, Error> {
-        // The core refuses a number of layers that no stacking has.
+        // The core rejects an impossible number of layers.
         Stacking::fcc(layers)?;
         Ok(Self { layers, first })
     }
@@ -190,7 +192,7 @@ impl RandomStackings {
         self.layers - 1
     }
 
-    /// Returns the greatest number of faults, n − 1; 0 of one layer.
+    /// Returns the greatest number of faults: n − 1, or 0 for one layer.
     ///
     /// # Examples
     /// ```
@@ -205,14 +207,15 @@ impl RandomStackings {
         if self.layers > 2 { self.layers - 2 } else { 0 }
     }
 
-    /// Returns how many stackings have `faults` changes of sign: C(n−1, faults), twice that with a random first sign.
+    /// Returns the number of stackings with `faults` sign changes: C(n−1, faults), or twice that for a random first
+    /// sign.
     ///
-    /// A single layer has no sign: it is one stacking, whatever the first sign. It takes as many steps as there are faults,
-    /// or straight steps between them, if they are fewer.
+    /// A single layer has no sign, and counts as one stacking. The cost is proportional to the smaller one of the
+    /// numbers of faults and of unchanged signs.
     ///
     /// # Errors
-    /// [`TooLarge`](cannonpile::Error::TooLarge) for more than 10⁴ of both, faults and straight steps between them: with 10³⁶ layers that is
-    /// a number of a million bits.
+    /// [`TooLarge`](cannonpile::Error::TooLarge) if both numbers exceed 10⁴. With 10³⁶ layers the result would have
+    /// more than a million bits.
     ///
     /// # Examples
     /// ```
@@ -227,16 +230,16 @@ impl RandomStackings {
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     pub fn count_with(&self, faults: u32) -> Result<BigUint, Error> {
-        let straight = self.most_faults() - i128::from(faults);
-        if straight < 0 {
+        let unchanged = self.most_faults() - i128::from(faults);
+        if unchanged < 0 {
             return Ok(BigUint::zero());
         }
-        let fewer = straight.min(faults.into()).unsigned_abs();
+        let fewer = unchanged.min(faults.into()).unsigned_abs();
         refuse_beyond(
             "the number of stackings with so many faults",
             fewer,
             MOST_FAULTS,
-            "ask for fewer faults, or as many as leave few straight steps",
+            "use fewer faults, or so many that few signs stay unchanged",
         )?;
         let of = self.most_faults().unsigned_abs();
         // C(of, t + 1) = C(of, t)·(of − t)/(t + 1).
@@ -244,7 +247,7 @@ impl RandomStackings {
         Ok((0..fewer).fold(self.first_signs().len().into(), next))
     }
 
-    /// Returns the signs that a stacking can begin with, each as likely: of a single layer there is one stacking.
+    /// Returns the possible first signs, which are equally likely. A single layer counts as one stacking.
     pub(super) const fn first_signs(&self) -> &'static [Sign] {
         if self.layers == 1 {
             FirstSign::Plus.signs()
@@ -253,12 +256,13 @@ impl RandomStackings {
         }
     }
 
-    /// Returns the probabilities that the bottom layer has the registry 0, 1, 2 at the fault probability `q`: that s ≡ 0,
-    /// 1, 2 (mod 3), with s the number of + steps less that of − steps.
+    /// Returns the probabilities of the registries 0, 1 and 2 of the bottom layer at the fault probability `q`. The
+    /// registry is s modulo 3, with s the number of + steps minus the number of − steps.
     ///
-    /// p_n − ⅓, with n the number of steps, obeys x_(n+1) = −(1−q) x_n − (1−2q) x_(n−1) in each registry
-    /// ([`registry_excess`](formula::registry_excess)), by theorem `registry`. So it decays as the greater root λ of
-    /// λ² + (1−q)λ + 1−2q: as √(1−2q), and oscillating, for 0 < q < 2√3 − 3.
+    /// In each registry the excess x_n of the probability over ⅓ obeys x_(n+1) = −(1−q) x_n − (1−2q) x_(n−1), with n
+    /// the number of steps ([`registry_excess`](formula::registry_excess), theorem `registry`). So it decays like λⁿ,
+    /// with λ the root of λ² + (1−q)λ + 1−2q of larger modulus. For 0 < q < 2√3 − 3 the roots are complex, and |λ| =
+    /// √(1−2q).
     ///
     /// # Errors
     /// [`TooLarge`](cannonpile::Error::TooLarge) for more than 10⁴ layers.
@@ -269,7 +273,7 @@ impl RandomStackings {
     ///
     /// use cannonpile::scalar::{Polynomial, Symbol};
     ///
-    /// // The stacking ++ ends in the registry 2, and +- in 0.
+    /// // The stacking ++ ends in registry 2, and +- in registry 0.
     /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
     /// let registry = stackings.registry(&Polynomial::from(Symbol("q")))?;
     /// assert_eq!(registry.map(|p| p.to_string()), ["q", "0", "-q + 1"]);
@@ -280,7 +284,7 @@ impl RandomStackings {
             "the probabilities of the registries of random stackings",
             self.layers.unsigned_abs(),
             MOST_LAYERS,
-            "ask for fewer layers",
+            "use fewer layers",
         )?;
         let third = T::one().div_int(THREE);
         let [none, all, half] = [
@@ -288,7 +292,7 @@ impl RandomStackings {
             T::one() - &third,
             T::one().div_int(TWO) - &third,
         ];
-        // The deviations from ⅓ before and after the first step.
+        // The excess over ⅓ before and after the first step.
         let mut before = [all.clone(), none.clone(), none.clone()];
         let mut after = match self.first {
             FirstSign::Plus => [none.clone(), all, none],
@@ -305,7 +309,7 @@ impl RandomStackings {
     }
 }
 
-/// Refuses what is no probability, and so none of a change of sign: `q` outside of 0 ≤ q ≤ 1.
+/// Returns an error unless `q` is a probability, 0 ≤ `q` ≤ 1.
 ///
 /// # Errors
 /// [`Error::FaultProbability`].

@@ -1,8 +1,8 @@
-//! Theorems on stackings of any signs, and on the mean over random ones: what is kept, moments, waves, faults.
+//! Theorems on random stackings: conservation laws, moments, waves and faults.
 //!
-//! Each proof runs the formulas of this crate, and of the core, on polynomials
-//! ([how](cannonpile::theorem#kinds-of-proof)). A theorem takes its [`Formulas`] as an argument, so that a test can
-//! replace one by a wrong one and see the proof fail.
+//! Each proof evaluates the formulas of this crate and of the core on polynomials
+//! ([details](cannonpile::theorem#kinds-of-proof)). A theorem takes its [`Formulas`] as an argument. So a test can
+//! replace a formula by a wrong one, and see the proof fail.
 //!
 //! # Examples
 //! ```
@@ -37,7 +37,7 @@ use crate::{THREE, TWO};
 /// A theorem about the formulas of this crate.
 pub type Theorem = cannonpile::theorem::Theorem<Formulas>;
 
-/// Returns every theorem of this crate, in the order in which one would read them.
+/// Iterates over the theorems of this crate, in reading order.
 ///
 /// # Examples
 /// ```
@@ -52,7 +52,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
     THEOREMS.iter()
 }
 
-/// Returns the theorem of this name.
+/// Returns the theorem with this name.
 ///
 /// # Examples
 /// ```
@@ -206,12 +206,12 @@ fn power(x: &P, n: usize) -> P {
     (0..n).fold(P::one(), |power, _| power * x)
 }
 
-/// A vector along one line.
+/// Returns the unit vector of a contact direction.
 fn unit(line: usize) -> [P; 3] {
     core::array::from_fn(|other| int(i128::from(other == line)))
 }
 
-/// What a sphere makes of g where the sign is kept, or changes.
+/// Returns G g if the sign changes, and g if not.
 fn turned(f: &Formulas, changes: bool, g: &[P; 3]) -> [P; 3] {
     if changes {
         (f.core.half_turn)(g)
@@ -220,7 +220,7 @@ fn turned(f: &Formulas, changes: bool, g: &[P; 3]) -> [P; 3] {
     }
 }
 
-/// Numbers x + iy√3 of the complex plane, in ρ.
+/// A complex number x + iy√3, in units of ρ.
 type Complex = Vector<P>;
 
 fn complex(x: P, y: P) -> Complex {
@@ -238,12 +238,12 @@ fn conjugate(a: &Complex) -> Complex {
     complex(a.x.clone(), -a.y.clone())
 }
 
-/// Re(a b̄).
+/// Returns Re(a b̄).
 fn dot(a: &Complex, b: &Complex) -> P {
     times(a, &conjugate(b)).x
 }
 
-/// The horizontal steps down the three lines, under + and under −.
+/// Returns the horizontal parts of the three contacts, under + and under −.
 fn steps_down(f: &Formulas) -> [[Complex; 3]; 2] {
     let setting = Setting::equilateral(&f.core);
     [
@@ -329,7 +329,7 @@ fn faults(f: &Formulas) -> Vec<Step> {
         let claim = format!("along {direction}: −v along it, 2v along the others, of 3v");
         steps.extend(by_line(&claim, turned.clone(), expected));
         let apart = turned.iter().enumerate();
-        // What is along its own line is negative.
+        // Only the part along its own direction is negative.
         let absolute = apart.map(|(line, part)| {
             if line == l {
                 -part.clone()

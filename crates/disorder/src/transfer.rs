@@ -252,7 +252,9 @@ impl<'f, T: Number, S: Factor<T>> Transfer<'f, T, S> {
                     carry(row, from, &self.same);
                 }
             } else {
-                rows.iter_mut().for_each(|row| row.fill(T::zero()));
+                for row in &mut rows {
+                    row.fill(T::zero());
+                }
             }
             if let Some((sign, from)) = turned {
                 let from = self.above(from, &cells, sign)?;

@@ -1,12 +1,14 @@
-//! How wide the integers of a recursion have to be.
+//! The width of the integers in the recursion.
 //!
-//! A step of a stacking is orthogonal: it leads each force to another place, and a [half-turn](cannonpile::formula::half_turn)
-//! keeps the sum of squares. So the forces of one stacking, all of a layer, have a norm of at most
-//! B = Σ_j ‖w_j‖, with w_j what the spheres of layer j add: √(3 n_j) for n_j of them, and √3·W for a load of W mg on one.
-//! By faults the numerators over 3^d are a sum over at most C(k,d) beginnings, so that none is greater than 3^d C(k,d) B; by
-//! probability, over N^k, they are a mean, and none is greater than N^k B. Within 3G g no term is greater than 2√3 ‖g‖, and
-//! what the floor feels is, for two signs, at most twice the sum of three forces each, and six times its own weight: all
-//! less than 16 times these bounds.
+//! A step of a stacking is orthogonal: it moves each force to another place, and a
+//! [half-turn](cannonpile::formula::half_turn) preserves the sum of squares. So the forces below one layer of one
+//! stacking have a norm of at most B = Σ_j ‖w_j‖, with w_j the forces that loads and weights add to layer j. The norm
+//! is √(3 n_j) for n_j spheres, and √3·W for a load of W mg on one sphere.
+//!
+//! By faults the numerators over 3^d are sums over at most C(k,d) beginnings, so they are at most 3^d C(k,d) B. By
+//! probability the numerators over N^k are means, so they are at most N^k B. In 3G g no intermediate result exceeds 2√3
+//! ‖g‖. A force on the floor is the sum of twice three forces for each of two signs, and of six times the weight of the
+//! sphere. All of this is less than 16 times the bounds above.
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
@@ -15,19 +17,19 @@ use num_traits::{One, Signed};
 use super::domain::Domain;
 use crate::Error;
 
-/// The integers of a recursion.
+/// The width of the integers in the recursion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Width {
     /// `i64`.
     Narrow,
     /// `i128`.
     Wide,
-    /// As long as they get.
+    /// Big integers.
     Big,
 }
 
 impl Width {
-    /// Of numbers of so many bits, the sign aside.
+    /// Returns the width for magnitudes of this many bits.
     pub(super) const fn of(bits: u64) -> Self {
         match bits {
             0..=62 => Self::Narrow,
@@ -36,27 +38,27 @@ impl Width {
         }
     }
 
-    /// How many words a number takes.
+    /// Returns the number of 64-bit words of an integer.
     pub(super) const fn words(self, bits: u64) -> u64 {
         match self {
             Self::Narrow => 1,
             Self::Wide => 2,
-            // The list of digits, its place in memory and its sign.
+            // A big integer also stores the address and the size of its list of digits, and its sign.
             Self::Big => 6 + bits / 64,
         }
     }
 }
 
-/// The greatest 3^d C(n−1, d), in bits: at most that of 4^(n−1).
+/// Returns the bit length of the greatest 3^d C(n−1, d), which is at most that of 4^(n−1).
 pub(super) fn bits_of_counts(steps: i128) -> u64 {
     let Ok(of) = u32::try_from((steps - 1).max(0)) else {
         return u64::MAX / 4;
     };
     if of > 1000 {
-        // 4^(n−1).
+        // The bit length of 4^(n−1), minus one.
         return 2 * u64::from(of);
     }
-    // The terms grow as long as 3(n−1−d) > d+1: the greatest is at d = ⌊3n/4⌋.
+    // The terms grow as long as 3(n−1−d) > d+1. So the greatest is at d = ⌊3n/4⌋.
     let greatest =
         |d: u32| binomial(BigUint::from(of), BigUint::from(d)) * BigUint::from(3_u32).pow(d);
     let around = (3 * of) / 4;
@@ -64,15 +66,15 @@ pub(super) fn bits_of_counts(steps: i128) -> u64 {
     bits[0].max(bits[1])
 }
 
-/// The bits of B over a denominator, sixteenfold; of a frame, or before there is one as many steps as memory allows.
+/// Returns the bit length of 16 B, multiplied by the denominator.
 ///
 /// # Errors
-/// [`Error::Bug`].
+/// [`Bug`](cannonpile::Error::Bug).
 pub(super) fn bits_of_sources(domain: &Domain<'_>, denominator: &BigInt) -> Result<u64, Error> {
     let mut sum = BigUint::one();
     if !domain.piles.is_weightless() {
         for layer in 0..=domain.steps {
-            // No layer has more spheres than cells. ⌊√⌋ + 1 is above the root.
+            // No layer has more spheres than cells. ⌊√x⌋ + 1 exceeds √x.
             sum += BigUint::from(3 * domain.grid.reached(layer)?).sqrt() + 1_u32;
         }
     }
@@ -93,7 +95,7 @@ mod tests {
     use cannonpile::lattice::{Region, Site};
 
     #[test]
-    fn counts_take_the_bits_of_the_greatest() {
+    fn bits_of_counts_are_those_of_the_greatest() {
         for steps in 0..=60_u32 {
             let of = steps.saturating_sub(1);
             let count = |d: u32| {
@@ -104,16 +106,17 @@ mod tests {
             assert_eq!(Some(bits_of_counts(steps.into())), greatest, "{steps}");
         }
         assert_eq!(bits_of_counts(1001), 1995);
-        // From there on those of 4^(n−1), that is two for each step but one, and never fewer.
+        // Further terms have the bit length of 4^(n−1) minus one, two bits per step.
         for steps in [1002, 5000, 1 << 32] {
             assert_eq!(i128::from(bits_of_counts(steps)), 2 * (steps - 1));
         }
         assert!(i128::from(bits_of_counts(1 << 40)) >= 2 * ((1 << 40) - 1));
     }
 
-    /// 1, the roots of three times the cells of each layer, rounded up, and twice each load: over the denominator, and sixteenfold.
+    /// The bound is 1, plus the roots of three times the cells of each layer, rounded up, plus twice each load. It is
+    /// multiplied by the denominator and by 16.
     #[test]
-    fn sources_take_the_bits_of_their_bound() {
+    fn bits_of_sources_are_those_of_the_bound() {
         let load = |piles: RandomPiles| {
             let load = BigRational::new(199.into(), 2.into());
             piles.with_load(Site::APEX, load).unwrap()
@@ -136,9 +139,9 @@ mod tests {
         }
     }
 
-    /// The sign aside: 62 bits leave one of 63 free.
+    /// A 64-bit integer has 63 bits for the magnitude. One of them stays free.
     #[test]
-    fn words_of_each_width() {
+    fn words_cover_the_bits() {
         for (bits, words) in [
             (0, 1),
             (62, 1),

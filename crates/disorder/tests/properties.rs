@@ -1,15 +1,16 @@
-//! The claims about random stackings on random input: deterministic, from the generators that fuzzing shares.
+//! Claims about random stackings on random input. The input is deterministic, from the generators that the fuzz targets
+//! share.
 //!
-//! Each claim is a function of bytes; its planted faults stand beside it in `cannonpile_testkit`. A failure prints the
-//! shortest bytes that proptest could find, and the claim's own witness.
+//! Each claim is a function of bytes. Its planted faults are in `cannonpile_testkit`. A failure prints the shortest
+//! bytes that proptest found, and the description of the case.
 
 use cannonpile_testkit::{claims, properties};
 
 properties! {
-    means_are_those_of_all_stackings: claims::disorder::small, 256;
-    means_of_any_size_are_found_or_refused: claims::disorder::any_size, 512;
-    words_are_read_as_they_are_printed: claims::disorder::any_word, 2048;
-    ensembles_are_counted_one_by_one: claims::ensemble::counts, 96;
-    parts_in_any_order_make_the_whole: claims::ensemble::parts, 96;
-    damaged_tallies_are_refused_or_valid: claims::ensemble::damaged, 512;
+    means_agree_with_enumeration: claims::disorder::small, 256;
+    means_of_any_size_succeed_or_are_rejected: claims::disorder::any_size, 512;
+    words_round_trip: claims::disorder::any_word, 2048;
+    ensembles_agree_with_enumeration: claims::ensemble::counts, 96;
+    shards_merge_in_any_order: claims::ensemble::parts, 96;
+    damaged_tallies_are_rejected_or_valid: claims::ensemble::damaged, 512;
 }

@@ -42,7 +42,7 @@ pub fn distribution(
     let Some(weights) = tally.weights(q)? else {
         return Ok(None);
     };
-    let width = tally.ensemble.bins();
+    let width = tally.ensemble.bin_width();
     let mut curves = Vec::new();
     for (n, name) in ["all stackings", "stable stackings"]
         .into_iter()

@@ -145,7 +145,8 @@ impl Scene {
     /// The ensemble in the library's type.
     pub fn ensemble(&self, steps: u32) -> Result<Ensemble, Error> {
         let stackings = RandomStackings::new(i128::from(steps) + 1, self.first)?;
-        let mut ensemble = Ensemble::under(self.top, stackings)?.with_bins(self.width.clone())?;
+        let mut ensemble =
+            Ensemble::under(self.top, stackings)?.with_bin_width(self.width.clone())?;
         for (at, load) in &self.loads {
             ensemble = ensemble.with_load(*at, load.clone())?;
         }

@@ -205,7 +205,7 @@ impl RunEnsemble {
         let layers = scene.layers.unwrap_or(Scene::LAYERS);
         let stackings = RandomStackings::new(layers, self.first)?;
         let mut ensemble = Ensemble::under(top, stackings)?
-            .with_bins(self.bins.clone())
+            .with_bin_width(self.bins.clone())
             .map_err(of_option("bins"))?;
         for (at, load) in &scene.loads {
             let loaded = ensemble.with_load([at.i, at.j], load.clone());

@@ -148,7 +148,7 @@ pub(crate) fn histogram<'t>(
         })
     };
     let standing = mean(&|with| with.standing.stackings.clone().into());
-    let width = tally.ensemble.bins();
+    let width = tally.ensemble.bin_width();
     let row = move |bin: i128| -> Row {
         let end = |bin: i128| Cell::from(width * BigInt::from(bin));
         let [all, stand] =
@@ -219,7 +219,7 @@ mod tests {
         }
         let table = histogram(&tally, Binned::Forces, &ratio(1, 3)).unwrap();
         let csv = csv(table.expect("a whole ensemble"));
-        let width = tally.ensemble.bins();
+        let width = tally.ensemble.bin_width();
         let ends = [0, 1, 2].map(|n| width * BigInt::from(i128::from(i64::MAX) + n));
         let [first, middle, last] = ends.map(|end| end.to_string());
         let rows: Vec<&str> = csv.lines().skip(1).collect();

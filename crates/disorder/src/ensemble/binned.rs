@@ -1,4 +1,4 @@
-//! Selection of a histogram: of contact forces, or of normal forces on the floor.
+//! Selection of a histogram: contact forces or normal forces.
 
 use super::{Histogram, WithFaults};
 
@@ -15,7 +15,8 @@ pub enum Binned {
 }
 
 impl Binned {
-    /// Returns the histograms of these forces: of all stackings with some number of faults, and of those that stand.
+    /// Returns the histograms of these forces, of all stackings and of the standing ones with the same number of
+    /// faults.
     ///
     /// # Examples
     /// ```
@@ -25,7 +26,7 @@ impl Binned {
     /// let stackings = RandomStackings::new(2, FirstSign::Plus)?;
     /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
     /// let [all, standing] = Binned::Normals.histograms(&tally.faults[0]);
-    /// // Three bottom spheres bear 4/3, the fifth bin of a third.
+    /// // The normal force of the three bottom spheres is 4/3, in the fifth bin of width 1/3.
     /// assert_eq!((all.count(4), standing.count(4)), (3_u32.into(), 3_u32.into()));
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```

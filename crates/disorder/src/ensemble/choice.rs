@@ -1,4 +1,4 @@
-//! Which stackings are looked at, and which part of them.
+//! Selection of stackings: all or samples, and shards of them.
 
 use core::fmt;
 use core::ops::Range;
@@ -13,7 +13,7 @@ use super::written::SamplesParts;
 use crate::Error;
 use crate::check_fault_probability;
 
-/// Which stackings are looked at: all of them, or some drawn at random.
+/// The selection of stackings: all of them, or random samples.
 ///
 /// # Examples
 /// ```
@@ -30,16 +30,17 @@ use crate::check_fault_probability;
 pub enum Choice {
     /// Each stacking once.
     All,
-    /// Stackings drawn with their probabilities, each as often as it is drawn.
+    /// Random samples. A stacking that is drawn several times counts several times.
     Drawn(Samples),
 }
 
-/// How stackings are drawn: sample n depends on the seed, the fault probability and n, and on nothing else.
+/// The parameters of random samples. Sample n depends on the seed, the fault probability and n only.
 ///
-/// The samples are numbered from 0. Sample n reads the keystream of ChaCha with eight rounds whose key is the seed (its
-/// eight bytes, the least first, and 24 zeros) and whose nonce is n, in words of 64 bits, the least byte first. A word x
-/// below b⌊2⁶⁴/b⌋ is the integer x mod b, which is as likely as any below b; another word is passed over. With q = a/b in
-/// lowest terms a sign differs from the one before if that integer is below a; a random first sign is + if it is 0 with b = 2.
+/// The samples are numbered from 0. Sample n reads the keystream of ChaCha with eight rounds. The key is the seed
+/// (eight bytes, least significant first) followed by 24 zeros, and the nonce is n. The keystream is read in words of
+/// 64 bits, least significant byte first. A word x below b⌊2⁶⁴/b⌋ yields the integer x mod b, which is uniform below b.
+/// Any other word is discarded. Let q = a/b in lowest terms. A sign differs from the previous one if its integer is
+/// below a. A random first sign is + if its integer is 0, for b = 2.
 ///
 /// # Examples
 /// ```
@@ -64,10 +65,11 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Returns `count` samples with this seed, whose signs change with the probability `fault_probability`.
+    /// Returns the parameters of `count` samples with this seed and fault probability.
     ///
     /// # Errors
-    /// [`Syntax`](cannonpile::Error::Syntax) for no sample at all, and for a denominator of 2⁶⁴ or more; [`Error::FaultProbability`].
+    /// [`Syntax`](cannonpile::Error::Syntax) for a count of 0, and for a denominator of 2⁶⁴ or more.
+    /// [`Error::FaultProbability`] unless 0 ≤ `fault_probability` ≤ 1.
     ///
     /// # Examples
     /// ```
@@ -81,13 +83,13 @@ impl Samples {
     /// ```
     pub fn new(count: u64, seed: u64, fault_probability: BigRational) -> Result<Self, Error> {
         if count == 0 {
-            return Err(Error::syntax("0", "a number of samples, 1 at least"));
+            return Err(Error::syntax("0", "a number of samples, at least 1"));
         }
         check_fault_probability(&fault_probability)?;
         if fault_probability.denom().to_u64().is_none() {
             return Err(Error::syntax(
                 &fault_probability.to_string(),
-                "a fault probability to draw with, whose denominator is below 2^64",
+                "a fault probability whose denominator is below 2^64",
             ));
         }
         Ok(Self {
@@ -115,7 +117,7 @@ impl Samples {
         self.seed
     }
 
-    /// Returns the probability q that a sign differs from the one before.
+    /// Returns the fault probability q: the probability that a sign differs from the previous one.
     ///
     /// # Examples
     /// See [`Samples`].
@@ -125,9 +127,9 @@ impl Samples {
     }
 }
 
-/// A part I of N, counted from 1: what one of N machines looks at.
+/// The part I of N, counted from 1, of the stackings or samples of an ensemble.
 ///
-/// Of T stackings, or samples, it has those from ⌊T(I−1)/N⌋ to before ⌊TI/N⌋, in their order.
+/// Of T stackings or samples the shard contains the indices from ⌊T(I−1)/N⌋ up to but not including ⌊TI/N⌋.
 ///
 /// # Examples
 /// ```
@@ -146,10 +148,10 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All of it, 1/1.
+    /// The whole ensemble, 1/1.
     pub const WHOLE: Self = Self { index: 1, of: 1 };
 
-    /// Returns the part `index` of `of`.
+    /// Returns the part `index` of `of` parts.
     ///
     /// # Errors
     /// [`Syntax`](cannonpile::Error::Syntax) unless 1 ≤ `index` ≤ `of`.
@@ -169,7 +171,7 @@ impl Shard {
         Err(Error::syntax(&text, EXPECTED))
     }
 
-    /// Returns which part it is, from 1.
+    /// Returns the index I of the part, from 1.
     ///
     /// # Examples
     /// See [`Shard`].
@@ -178,7 +180,7 @@ impl Shard {
         self.index
     }
 
-    /// Returns how many parts there are.
+    /// Returns the number N of parts.
     ///
     /// # Examples
     /// See [`Shard`].
@@ -187,11 +189,11 @@ impl Shard {
         self.of
     }
 
-    /// Its range of this many stackings.
+    /// Returns the indices of this part of `total` stackings.
     pub(super) fn range(self, total: u64) -> Range<u64> {
         let end = |part: u64| {
             let end = u128::from(total) * u128::from(part) / u128::from(self.of);
-            // Not a default: it is at most the total, which is a u64.
+            // The quotient is at most the total, so the conversion does not fail.
             u64::try_from(end).unwrap_or(total)
         };
         end(self.index - 1)..end(self.index)
@@ -232,7 +234,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_follow_one_another() -> Result<(), Error> {
+    fn shards_are_consecutive() -> Result<(), Error> {
         for (total, of) in [(7, 3), (2, 5), (0, 2), (u64::MAX, 7)] {
             let mut end = 0;
             for index in 1..=of {

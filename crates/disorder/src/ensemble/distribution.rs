@@ -1,4 +1,4 @@
-//! How the forces of some piles are distributed: in all, by bins, and at their extremes.
+//! Distributions of forces: totals, histograms and extremes.
 
 use core::cmp::Ordering;
 
@@ -11,8 +11,8 @@ use super::layer::Numerator;
 use super::setup::Setup;
 use crate::Error;
 
-/// The forces of some piles: in all, by bins, and at their extremes. Contact forces are in f₀ = mg/(3cosθ), normal forces
-/// of bottom spheres in mg.
+/// The distribution of forces in some piles: totals, histograms and extremes. Contact forces are in f₀ = mg/(3cosθ),
+/// and normal forces on the floor are in mg.
 ///
 /// # Examples
 /// ```
@@ -22,7 +22,7 @@ use crate::Error;
 /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
 /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
 /// let hcp = &tally.faults[1].all;
-/// // Three of 1, and of each of three spheres 1 + 2/3, 1 + 2/3, 1 − 1/3.
+/// // Three forces of 1 below the apex. Each sphere of the second layer has forces of 1 + 2/3, 1 + 2/3 and 1 − 1/3.
 /// assert_eq!((hcp.contacts.to_string(), hcp.sum.to_string()), ("12".into(), "15".into()));
 /// assert_eq!(hcp.least.as_ref().unwrap().force.to_string(), "2/3");
 /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -31,33 +31,33 @@ use crate::Error;
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Distribution {
-    /// How many piles they are.
+    /// The number of piles.
     #[serde(with = "cannonpile::data::number")]
     pub stackings: BigUint,
-    /// How many contacts these have between spheres.
+    /// The number of contacts between spheres, in all these piles.
     #[serde(with = "cannonpile::data::number")]
     pub contacts: BigUint,
-    /// Σf over all these contacts.
+    /// The sum of the forces of all these contacts.
     #[serde(with = "cannonpile::data::number")]
     pub sum: BigRational,
-    /// Σf².
+    /// The sum of the squares of these forces.
     #[serde(with = "cannonpile::data::number")]
     pub sum_of_squares: BigRational,
-    /// How many contacts there are by their force.
+    /// The histogram of the contact forces.
     pub forces: Histogram,
     /// The least contact force.
     pub least: Option<Extreme>,
-    /// The greatest.
+    /// The greatest contact force.
     pub greatest: Option<Extreme>,
-    /// How many bottom spheres there are by their normal force.
+    /// The histogram of the normal forces of bottom spheres.
     pub normals: Histogram,
     /// The least normal force.
     pub least_normal: Option<Extreme>,
-    /// The greatest.
+    /// The greatest normal force.
     pub greatest_normal: Option<Extreme>,
 }
 
-/// How many numbers x lie in which bin, ⌊x/w⌋ with w the [width](super::Ensemble::bins).
+/// A histogram. The bin of a number x is ⌊x/w⌋, with w the [width](super::Ensemble::bin_width) of the bins.
 ///
 /// # Examples
 /// ```
@@ -66,7 +66,7 @@ pub struct Distribution {
 ///
 /// let stackings = RandomStackings::new(4, FirstSign::Plus)?;
 /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
-/// // 18 contacts of f₀, 9 of 2 f₀, 3 of 3 f₀; bins are f₀/3 wide.
+/// // 18 contacts of f₀, 9 of 2 f₀, 3 of 3 f₀. The bins have the width f₀/3.
 /// let straight = &tally.faults[0].all.forces;
 /// assert_eq!((straight.first, straight.total()), (3, 30_u32.into()));
 /// assert_eq!(straight.counts.iter().map(|n| n.to_string()).collect::<Vec<_>>().join(" "), "18 0 0 9 0 0 3");
@@ -78,13 +78,13 @@ pub struct Distribution {
 pub struct Histogram {
     /// The bin of the first count.
     pub first: i64,
-    /// The counts, bin after bin; the first and the last are not 0.
+    /// The counts of consecutive bins. The first and the last count are not 0.
     #[serde(with = "cannonpile::data::number")]
     pub counts: Vec<BigUint>,
 }
 
-/// A force that no other is less, or greater, than, and the first stacking that has it, in the order of signs from the top, +
-/// before −.
+/// The least or the greatest force, and the first stacking in which it occurs. Stackings are sorted by their signs from
+/// the top, with + before −.
 ///
 /// # Examples
 /// See [`Distribution`].
@@ -92,7 +92,7 @@ pub struct Histogram {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Extreme {
-    /// The force, in f₀, or in mg on the floor.
+    /// The force: a contact force in f₀, or a normal force in mg.
     #[serde(with = "cannonpile::data::number")]
     pub force: BigRational,
     /// The stacking.
@@ -100,7 +100,7 @@ pub struct Extreme {
 }
 
 impl Histogram {
-    /// Returns how many numbers there are in all bins.
+    /// Returns the total count of all bins.
     ///
     /// # Examples
     /// See [`Histogram`].
@@ -109,7 +109,7 @@ impl Histogram {
         self.counts.iter().sum()
     }
 
-    /// Returns the count of a bin, 0 beyond the first and the last. A bin may lie beyond `i64`.
+    /// Returns the count of a bin. It is 0 outside of the stored range.
     ///
     /// # Examples
     /// ```
@@ -122,7 +122,7 @@ impl Histogram {
         let place = bin.into().checked_sub(self.first.into());
         let place = place.and_then(|place| usize::try_from(place).ok());
         let count = place.and_then(|place| self.counts.get(place));
-        // Not a default: beyond the ends nothing was counted.
+        // Bins outside of the stored range have the count 0.
         count.cloned().unwrap_or_default()
     }
 
@@ -147,7 +147,8 @@ impl Histogram {
         let first = self.first.min(other.first);
         let last = end(self).max(end(other));
         let bins = i128::from(first)..last;
-        // Both are within, and what lies between is no longer than what the two were read or counted from.
+        // The range of both histograms is no longer than the lists that were read or counted. All its bins fit in
+        // `i64`.
         let bins = bins.filter_map(|bin| i64::try_from(bin).ok());
         let counts = bins.map(|bin| self.count(bin) + other.count(bin)).collect();
         *self = Self { first, counts };

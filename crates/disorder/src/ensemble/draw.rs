@@ -1,4 +1,4 @@
-//! Stackings drawn at random.
+//! Random stackings.
 
 use core::iter::successors;
 
@@ -12,12 +12,12 @@ use crate::Error;
 use crate::FirstSign;
 use crate::error::bug;
 
-/// What draws the samples of a seed.
+/// A generator of samples, for one seed.
 pub(super) struct Sampler {
     key: [u8; 32],
     first: FirstSign,
     steps: usize,
-    /// The fault probability, a/b.
+    /// The fault probability is `faults`/`of`.
     faults: u64,
     of: u64,
 }
@@ -42,7 +42,7 @@ impl Sampler {
         })
     }
 
-    /// The signs of sample n, from the top.
+    /// Returns the signs of sample n, from the top.
     pub(super) fn sample(&self, n: u64) -> Vec<Sign> {
         let mut words = ChaCha8Rng::from_seed(self.key);
         words.set_stream(n);
@@ -59,9 +59,10 @@ impl Sampler {
     }
 }
 
-/// An integer below `of`, each as likely.
+/// Returns a uniform random integer below `of`.
 fn below(words: &mut impl Rng, of: u64) -> u64 {
-    // The words beyond the greatest multiple of it, 2⁶⁴ mod `of`, would favour some.
+    // A word beyond the greatest multiple of `of` would make small integers more likely. There are 2⁶⁴ mod `of` such
+    // words.
     let beyond = (u64::MAX % of + 1) % of;
     loop {
         let word = words.next_u64();
@@ -77,7 +78,7 @@ mod tests {
 
     use super::*;
 
-    /// Words one after the other.
+    /// A generator that returns given words.
     struct Given(Vec<u64>);
 
     impl rand_chacha::rand_core::TryRng for Given {
@@ -97,8 +98,8 @@ mod tests {
     }
 
     #[test]
-    fn what_would_favour_some_is_passed_over() {
-        // 2⁶⁴ = 3·(2⁶⁴−1)/3 + 1: one word too many.
+    fn biased_words_are_discarded() {
+        // 2⁶⁴ = 3·(2⁶⁴−1)/3 + 1, so one word has to be discarded.
         assert_eq!(below(&mut Given([u64::MAX, 5].into()), 3), 2);
         assert_eq!(below(&mut Given([u64::MAX - 1].into()), 3), 2);
         assert_eq!(below(&mut Given([u64::MAX].into()), 4), 3);
@@ -108,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_depend_on_their_number_and_the_seed() -> Result<(), Error> {
+    fn samples_depend_on_index_and_seed() -> Result<(), Error> {
         let drawn = |seed, q: (i64, i64), n| {
             let samples = Samples::new(9, seed, BigRational::new(q.0.into(), q.1.into()))?;
             Ok::<_, Error>(Sampler::new(&samples, FirstSign::Random, 12)?.sample(n))

@@ -1,4 +1,4 @@
-//! Tallies of parts, put together.
+//! Merging of the tallies of shards.
 
 use core::fmt;
 
@@ -11,7 +11,7 @@ use num_traits::Zero;
 use super::setup::{MOST_BINS, stackings_of};
 use super::{Choice, Distribution, Ensemble, Extreme, Histogram, Shard, Tally, WithFaults};
 
-/// Why tallies do not make one.
+/// The reason why tallies do not merge into one.
 ///
 /// # Examples
 /// ```
@@ -22,36 +22,36 @@ use super::{Choice, Distribution, Ensemble, Extreme, Histogram, Shard, Tally, Wi
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unmergeable {
-    /// There is no tally at all.
+    /// The list of tallies is empty.
     Nothing,
-    /// One is of something else than the first.
+    /// A tally belongs to another run than the first one.
     Other {
-        /// Its place among those given, from 0.
+        /// The index of the tally in the list, from 0.
         place: usize,
-        /// What differs: `layers`, `top`, `seed` and so on.
+        /// The property that differs: `number of layers`, `top`, `seed` and so on.
         what: &'static str,
-        /// What it has.
+        /// The value in this tally.
         found: String,
-        /// What the first has.
+        /// The value in the first tally.
         expected: String,
     },
-    /// Two are of the same part.
+    /// Two tallies have the same shard.
     Twice {
-        /// The place of the second among those given, from 0.
+        /// The index of the second tally in the list, from 0.
         place: usize,
-        /// The part.
+        /// The shard.
         shard: Shard,
     },
-    /// Parts are missing.
+    /// Shards are missing.
     Missing {
-        /// Which, in order; of many the first.
+        /// The first missing shards, in order.
         shards: Vec<Shard>,
-        /// How many.
+        /// The number of missing shards.
         count: u64,
     },
-    /// A tally that no run can have made.
+    /// No run can produce this tally.
     Impossible {
-        /// Its place among those given, from 0.
+        /// The index of the tally in the list, from 0.
         place: usize,
     },
 }
@@ -59,7 +59,9 @@ pub enum Unmergeable {
 impl fmt::Display for Unmergeable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Nothing => f.write_str("there is nothing to merge: give the parts"),
+            Self::Nothing => {
+                f.write_str("there are no tallies to merge; give the tally of each part")
+            }
             Self::Other {
                 what,
                 found,
@@ -67,13 +69,10 @@ impl fmt::Display for Unmergeable {
                 ..
             } => write!(
                 f,
-                "another {what} than that of the first part, {found} and not {expected}: leave it out, or run it again"
+                "the {what} is {found}, but {expected} in the first part; remove this part or run it again"
             ),
             Self::Twice { shard, .. } => {
-                write!(
-                    f,
-                    "the part {shard} is there already: leave one of them out"
-                )
+                write!(f, "part {shard} occurs twice; remove one of the two")
             }
             Self::Missing { shards, count } => {
                 let names: Vec<_> = shards.iter().map(Shard::to_string).collect();
@@ -85,12 +84,12 @@ impl fmt::Display for Unmergeable {
                 let parts = if *count == 1 { "part is" } else { "parts are" };
                 write!(
                     f,
-                    "{count} {parts} missing, {}{more}: run ensemble with --shard for each, and give its file too",
+                    "{count} {parts} missing, {}{more}: run ensemble with --shard for each, and add its file",
                     names.join(", ")
                 )
             }
             Self::Impossible { .. } => {
-                f.write_str("its counts are not those of its stackings: run it again")
+                f.write_str("the counts do not match the stackings; run it again")
             }
         }
     }
@@ -98,14 +97,14 @@ impl fmt::Display for Unmergeable {
 
 impl core::error::Error for Unmergeable {}
 
-/// How many missing parts are named.
+/// The most missing shards that an error names.
 const NAMED: usize = 20;
 
 impl Tally {
-    /// Returns the tally of the whole, of those of all its parts, in any order.
+    /// Returns the tally of the whole, given the tallies of all shards in any order.
     ///
     /// # Errors
-    /// [`Unmergeable`].
+    /// [`Unmergeable`] if tallies are missing, occur twice, belong to different runs, or are damaged.
     ///
     /// # Examples
     /// ```
@@ -160,13 +159,13 @@ impl Tally {
         Ok(whole)
     }
 
-    /// Adds what was counted of others of the same ensemble.
+    /// Adds the counts of another tally of the same run.
     pub(super) fn add(&mut self, other: &Self) {
         let faults = self.faults.iter_mut().zip(&other.faults);
         faults.for_each(|(ours, theirs)| ours.add(theirs));
     }
 
-    /// What makes it a part of another whole: the name of it, and both values.
+    /// Returns the first property that differs from the run of another tally: its name and both values.
     fn difference(&self, first: &Self) -> Option<(&'static str, String, String)> {
         let described = |tally: &Self| {
             let Self {
@@ -201,7 +200,7 @@ impl Tally {
                 ("load", loads),
                 ("weight of spheres", weight.to_string()),
                 ("spacing", spacing.to_owned()),
-                ("width of bins", ensemble.bins().to_string()),
+                ("width of bins", ensemble.bin_width().to_string()),
                 ("number of samples", samples),
                 ("seed", seed),
                 ("fault probability", q),
@@ -213,10 +212,11 @@ impl Tally {
         Some((ours.0, ours.1, theirs.1))
     }
 
-    /// Whether it has the stackings of its part, each number of faults once, and bins that a run can have.
+    /// Returns whether a run can produce this tally. The number of stackings has to match the shard, each number of
+    /// faults has to occur once, and the histograms have to be consistent.
     pub(super) fn is_possible(&self) -> bool {
         let stackings = self.ensemble.stackings();
-        // First, since layers beyond number are not gone into.
+        // This comparison comes first, because the others take time proportional to the number of layers.
         if self.faults.len() as i128 != stackings.most_faults() + 1 {
             return false;
         }
@@ -228,7 +228,7 @@ impl Tally {
                 standing,
                 held,
             } = with;
-            // What stands does so with horizontal contacts too.
+            // A stacking that is stable without horizontal contacts is stable with them.
             let is_between =
                 |held: &BigUint| (&standing.stackings..=&all.stackings).contains(&held);
             *faults as usize == d
@@ -250,7 +250,7 @@ impl Tally {
 }
 
 impl Distribution {
-    /// Whether piles of an ensemble with so many faults can have it.
+    /// Returns whether piles of this ensemble with this number of faults can have this distribution.
     fn is_possible(&self, ensemble: &Ensemble, faults: usize) -> bool {
         let layers = ensemble.stackings().layers();
         let ends = [
@@ -263,7 +263,7 @@ impl Distribution {
             })
         };
         let are_possible = |(histogram, ends): &(&Histogram, [&Option<Extreme>; 2])| {
-            histogram.is_possible(*ends, ensemble.bins())
+            histogram.is_possible(*ends, ensemble.bin_width())
                 && ends.iter().all(|end| is_of_ensemble(end))
         };
         self.forces.total() == self.contacts
@@ -273,7 +273,7 @@ impl Distribution {
 }
 
 impl Histogram {
-    /// Whether its bins are those of a run: they begin and end with a count, that of the least and the greatest number.
+    /// Returns whether the first and the last bin contain the least and the greatest number.
     fn is_possible(&self, [least, greatest]: [&Option<Extreme>; 2], width: &BigRational) -> bool {
         let (Some(begin), Some(end)) = (self.counts.first(), self.counts.last()) else {
             return self.first == 0 && least.is_none() && greatest.is_none();

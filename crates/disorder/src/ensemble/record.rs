@@ -1,4 +1,4 @@
-//! Tallies of ensembles as JSON files.
+//! Tallies as JSON files.
 
 use std::io::{self, BufReader, Read, Write};
 
@@ -11,16 +11,16 @@ use serde::{Deserialize, Serialize};
 use super::{By, Choice, Ensemble, Shard, Tally, Unmergeable, WithFaults};
 use crate::Error;
 
-/// The most bytes of a tally that is read: 512 MiB.
-const MAX_BYTES: u64 = 512 << 20;
+/// The size limit of a file to read: 512 MiB.
+const MOST_BYTES: u64 = 512 << 20;
 
-/// A number of stackings, as the records of this crate write it.
+/// A number of stackings, in the serialised form of this crate.
 #[derive(Serialize)]
 #[serde(transparent)]
 struct Count(#[serde(with = "number")] BigUint);
 
-/// A tally, with what its file says of it: the version of this crate that has counted, and the fault probability at which
-/// probabilities are given.
+/// A tally with the metadata of its file: the version of this crate, and the fault probability of the reported
+/// probabilities.
 ///
 /// # Examples
 /// ```
@@ -40,7 +40,7 @@ struct Count(#[serde(with = "number")] BigUint);
 /// merged.write(&mut text)?;
 /// assert_eq!(TallyRecord::read(&*text)?, merged);
 ///
-/// // Word for word what the whole says.
+/// // The bytes are those of the whole.
 /// let whole = TallyRecord::new(ensemble.run(&Choice::All, Shard::WHOLE)?, third)?;
 /// let mut of_whole = Vec::new();
 /// whole.write(&mut of_whole)?;
@@ -55,7 +55,7 @@ pub struct TallyRecord {
     tally: Tally,
 }
 
-/// What is read of a file; what follows from the counts is not.
+/// The fields of a file. Fields that follow from the counts are not read.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parts {
@@ -83,10 +83,11 @@ struct Parts {
 }
 
 impl TallyRecord {
-    /// Returns the record of a tally that was counted here; of samples `fault_probability` is that which they were drawn with.
+    /// Returns the record of a tally of this version. For samples their own fault probability replaces
+    /// `fault_probability`.
     ///
     /// # Errors
-    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
+    /// [`Error::FaultProbability`] unless 0 ≤ `fault_probability` ≤ 1.
     ///
     /// # Examples
     /// See [`TallyRecord`].
@@ -103,7 +104,7 @@ impl TallyRecord {
         })
     }
 
-    /// Returns what was counted.
+    /// Returns the tally.
     ///
     /// # Examples
     /// See [`TallyRecord`].
@@ -112,7 +113,7 @@ impl TallyRecord {
         &self.tally
     }
 
-    /// Returns the fault probability at which probabilities are given.
+    /// Returns the fault probability of the reported probabilities.
     ///
     /// # Examples
     /// See [`TallyRecord`].
@@ -121,21 +122,21 @@ impl TallyRecord {
         &self.fault_probability
     }
 
-    /// Returns the record of the whole, of those of all its parts, in any order.
+    /// Returns the record of the whole, given the records of all shards in any order.
     ///
     /// # Errors
-    /// [`Unmergeable`], also for parts of another version and at another fault probability.
+    /// [`Unmergeable`]. It is also returned for records of different versions or fault probabilities.
     ///
     /// # Examples
     /// See [`TallyRecord`].
     pub fn merge(parts: &[Self]) -> Result<Self, Unmergeable> {
         let first = parts.first().ok_or(Unmergeable::Nothing)?;
-        let said = |part: &Self| {
+        let metadata = |part: &Self| {
             let q = part.fault_probability.to_string();
             [("version", part.version.clone()), ("fault probability", q)]
         };
         for (place, part) in parts.iter().enumerate() {
-            let pairs = said(part).into_iter().zip(said(first));
+            let pairs = metadata(part).into_iter().zip(metadata(first));
             for ((what, found), (_, expected)) in pairs {
                 if found != expected {
                     return Err(Unmergeable::Other {
@@ -154,10 +155,10 @@ impl TallyRecord {
         })
     }
 
-    /// Writes the record as JSON, with a line for each number of faults; the same bytes for the same record.
+    /// Writes the record as JSON, with a line for each number of faults. Equal records yield equal bytes.
     ///
     /// # Errors
-    /// Those of the output.
+    /// Any error of the output.
     ///
     /// # Examples
     /// See [`TallyRecord`].
@@ -203,11 +204,12 @@ impl TallyRecord {
         out.write_all(b"\n}\n")
     }
 
-    /// Reads what [`write`](Self::write) has written. What follows from the counts is not read but found again.
+    /// Reads a record that [`write`](Self::write) has written. Fields that follow from the counts are computed again.
     ///
     /// # Errors
-    /// Those of the input; of the kind [`InvalidData`](io::ErrorKind::InvalidData) or
-    /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line, what is no such record, or has more than 512 MiB.
+    /// Any error of the input. The kind is [`InvalidData`](io::ErrorKind::InvalidData) or
+    /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line in the message, if the input is no valid record
+    /// or has more than 512 MiB.
     ///
     /// # Examples
     /// ```
@@ -233,7 +235,7 @@ impl TallyRecord {
             shard,
             faults,
         };
-        let refused = |said: String| io::Error::new(io::ErrorKind::InvalidData, said);
+        let refused = |message: String| io::Error::new(io::ErrorKind::InvalidData, message);
         if !tally.is_possible() {
             return Err(refused(Unmergeable::Impossible { place: 0 }.to_string()));
         }
@@ -241,7 +243,7 @@ impl TallyRecord {
         let record = record.map_err(|error| refused(error.to_string()))?;
         if record.fault_probability != fault_probability {
             return Err(refused(format!(
-                "its samples were drawn with another fault probability, {}: run it again",
+                "the samples were drawn with the fault probability {}, not {fault_probability}; run it again",
                 record.fault_probability
             )));
         }
@@ -249,7 +251,7 @@ impl TallyRecord {
     }
 }
 
-/// An object whose entries have a line each.
+/// A writer of a JSON object with a line for each entry.
 struct Object<'w, W> {
     out: &'w mut W,
     gap: &'static str,
@@ -263,7 +265,7 @@ impl<W: Write> Object<'_, W> {
     }
 }
 
-/// Writes a list, with a line for each entry.
+/// Writes a JSON list with a line for each entry.
 fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut impl Write) -> io::Result<()> {
     let mut gap = "[\n    ";
     for entry in entries {

@@ -1,4 +1,4 @@
-//! A part, walked in pieces: on all cores, with the feature `rayon`.
+//! A run over one shard, in pieces. With the feature `rayon` it uses all cores.
 
 use core::ops::Range;
 
@@ -13,28 +13,28 @@ use super::walk::walk;
 use super::{Choice, Ensemble, Shard, Tally, WithFaults};
 use crate::Error;
 
-/// A walk through the stackings of a part, piece by piece.
+/// A run over the stackings or samples of one shard.
 pub(super) struct Run<'r, E> {
     pub(super) ensemble: &'r Ensemble,
     pub(super) choice: &'r Choice,
     pub(super) shard: Shard,
     pub(super) task: &'r Task,
     pub(super) observer: &'r (dyn Fn(u64) + Sync),
-    /// Decides which stackings stand with horizontal contacts, if the ensemble counts them.
+    /// The function that decides stability with horizontal contacts, if the ensemble counts it.
     pub(super) judge: Option<&'r Judge<'r, E>>,
 }
 
-/// How many samples are drawn before they are sorted and walked.
+/// The number of samples that are sorted and walked together.
 const DRAWN: u64 = 1 << 13;
 
-/// The pieces that all stackings are cut into, at most, where they are many.
+/// The most pieces of a large enumeration.
 const PIECES: u64 = 1 << 7;
 
-/// How many pieces are counted before they are put together.
+/// The number of pieces that are counted before their tallies are added.
 const AT_ONCE: usize = 1 << 6;
 
 impl<E: From<Error> + Send> Run<'_, E> {
-    /// What is counted, in numbers that are as wide as they must be.
+    /// Returns the tally. The integers are as wide as the bound requires.
     pub(super) fn tally(&self) -> Result<Tally, E> {
         if self.task.fits(64) {
             self.in_numbers::<i64>()
@@ -74,11 +74,11 @@ impl<E: From<Error> + Send> Run<'_, E> {
         }
     }
 
-    /// The part, cut up.
+    /// Returns the indices of the pieces.
     fn pieces(&self) -> impl Iterator<Item = Range<u64>> + use<E> {
         let Range { start, end } = self.task.range;
         let length = match self.choice {
-            // Beginnings of which all stackings are walked, if there are many.
+            // Pieces start at multiples of a power of two, so that few beginnings occur in two pieces.
             Choice::All => ((end - start) / PIECES).max(1 << 8).next_power_of_two(),
             Choice::Drawn(_) => DRAWN,
         };
@@ -86,14 +86,14 @@ impl<E: From<Error> + Send> Run<'_, E> {
         let after = end.div_ceil(length);
         let pieces = (first..after).map(move |piece| {
             let from = piece * length;
-            // The last piece of all 2⁶⁴ − 1 samples would end beyond the last number.
+            // With 2⁶⁴ − 1 samples the end of the last piece would overflow.
             from.max(start)..from.saturating_add(length).min(end)
         });
-        // Of nothing, which is in the middle of a piece, there is no piece.
+        // An empty range would yield one empty piece.
         pieces.filter(|piece| !piece.is_empty())
     }
 
-    /// Counts a piece.
+    /// Counts one piece.
     fn count<T: Numerator>(
         &self,
         setup: &Setup<T>,

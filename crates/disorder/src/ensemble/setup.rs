@@ -81,14 +81,18 @@ impl Task {
         let span = BigRational::from_integer(greatest.clone() + &greatest);
         refuse_beyond(
             "the histogram of contact forces",
-            (span / ensemble.bins()).ceil().to_integer().into_parts().1,
+            (span / ensemble.bin_width())
+                .ceil()
+                .to_integer()
+                .into_parts()
+                .1,
             MOST_BINS,
             "use wider bins, or fewer layers",
         )?;
         let own = formula::force(weight, &increment);
-        let scale = common_denominator(top_own.iter().chain([&own, ensemble.bins()]));
+        let scale = common_denominator(top_own.iter().chain([&own, ensemble.bin_width()]));
         let times = |number: &BigRational| (number * &scale).to_integer();
-        let width = times(ensemble.bins());
+        let width = times(ensemble.bin_width());
         // The factor 16 covers sums of three forces and the tripled half-turn. Normal forces have bins of three widths.
         let bound = (greatest * &scale * 16_u32).max(width.clone() * 3_u32);
         let bound = bound * power_of_three(steps.saturating_sub(1));

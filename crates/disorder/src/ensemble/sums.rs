@@ -1,21 +1,23 @@
-//! Sums of forces, which depend on the weights only.
+//! Sums of forces and of their squares, which depend on the weights only.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::count::Level;
 
-/// The sums of forces of layers, in f₀: the same whatever the stacking, for layers of given sizes.
+/// The sums of the forces below layers and of their squares, in f₀. They are the same for all stackings whose layers
+/// have the same sizes.
 ///
-/// With n_k spheres of the weight w in layer k and S_k, Q_k the sums of the contact forces below it and of their squares,
-/// S_k = S_(k−1) + 3w n_k and Q_k = Q_(k−1) + 2w S_(k−1) + 3w² n_k. *Proof.* Each force f arrives at one sphere as one of
-/// its three g, so the sums of g and g² are those of the layer above. The half-turn G keeps both, as it is orthogonal and
-/// G(1, 1, 1) = (1, 1, 1). What is passed on is g or Gg, and w more on each line. ∎
+/// Let n_k be the number of spheres of weight w in layer k, and S_k and Q_k the sums of the contact forces below it and
+/// of their squares. Then S_k = S_(k−1) + 3w n_k and Q_k = Q_(k−1) + 2w S_(k−1) + 3w² n_k. *Proof.* Each force below
+/// layer k−1 acts on one sphere of layer k, as one of its three forces g from above. So the sums of g and g² are those
+/// of the layer above. The half-turn G preserves both, because it is orthogonal and G(1, 1, 1) = (1, 1, 1). The forces
+/// below the sphere are g or Gg, plus w on each contact. ∎
 #[derive(Clone, Debug)]
 pub(super) struct Sums {
-    /// S_0, Q_0.
+    /// S_0 and Q_0.
     top: [BigRational; 2],
-    /// w, which is 0 or 1.
+    /// w, in mg: 0 or 1.
     weight: BigRational,
 }
 
@@ -30,14 +32,14 @@ impl Sums {
         }
     }
 
-    /// The sum of the forces below some layers, by what lies above them in all.
+    /// Returns the sum of the forces, for the totals of some layers.
     pub(super) fn sum(&self, level: &Level) -> BigRational {
         let [top, _] = &self.top;
         let below = BigRational::from_integer(BigInt::from(level.under_top) * 3_u32);
         top * BigInt::from(level.layers) + below * &self.weight
     }
 
-    /// The sum of their squares.
+    /// Returns the sum of the squares of the forces, for the totals of some layers.
     pub(super) fn squares(&self, level: &Level) -> BigRational {
         let [sum, squares] = &self.top;
         let mixed = sum * BigInt::from(level.depth) * BigInt::from(2_u32);

@@ -1,4 +1,4 @@
-//! What was counted of an ensemble, in exact numbers.
+//! The result of a run, in exact numbers.
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -13,8 +13,8 @@ use crate::Error;
 use crate::check_fault_probability;
 use crate::error::bug;
 
-/// What was counted of an ensemble, or of a part of it: exact numbers only, so that it is the same however the work was
-/// cut up.
+/// The result of a run over an ensemble or one shard. It contains exact numbers only, so it does not depend on the
+/// division of the work.
 ///
 /// # Examples
 /// ```
@@ -23,7 +23,7 @@ use crate::error::bug;
 ///
 /// let stackings = RandomStackings::new(6, FirstSign::Plus)?;
 /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
-/// // Of six layers under one sphere the straight pile stands, three stackings with one fault, and so on.
+/// // Six layers under one sphere: the straight pile stands, three stackings with one fault stand, and so on.
 /// let standing = tally.faults.iter().map(|with| with.standing.stackings.to_string());
 /// assert_eq!(standing.collect::<Vec<_>>(), ["1", "3", "4", "3", "0"]);
 /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -33,15 +33,15 @@ use crate::error::bug;
 pub struct Tally {
     /// The ensemble.
     pub ensemble: Ensemble,
-    /// Which stackings were looked at.
+    /// The selected stackings.
     pub choice: Choice,
-    /// Which part of them.
+    /// The shard.
     pub shard: Shard,
-    /// What was counted of those with d changes of sign, d = 0, 1, …, the most there can be.
+    /// The counts by the number d of faults, from d = 0 to the greatest possible number.
     pub faults: Vec<WithFaults>,
 }
 
-/// What was counted of the stackings with one number of faults.
+/// The counts of the stackings with one number of faults.
 ///
 /// # Examples
 /// See [`Tally`].
@@ -49,13 +49,14 @@ pub struct Tally {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct WithFaults {
-    /// The number d of changes of sign.
+    /// The number d of sign changes.
     pub faults: u32,
-    /// Of all of them, those included that only a prestressed pile can have.
+    /// All these stackings. The unstable ones need a prestressed pile.
     pub all: Distribution,
-    /// Of those that stand: no contact pulls.
+    /// The standing stackings: no contact is in tension.
     pub standing: Distribution,
-    /// How many stand at a = R with horizontal contacts; `None` where that was not asked.
+    /// The number of stackings that are stable with horizontal contacts, at a = R. `None` if the run did not count
+    /// them.
     #[serde(with = "cannonpile::data::number")]
     pub held: Option<BigUint>,
 }
@@ -84,20 +85,20 @@ impl WithFaults {
     }
 }
 
-/// Which piles are meant where it is asked how many stand.
+/// The contacts that can make a pile stable.
 ///
 /// # Examples
 /// See [`Tally::standing`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum By {
-    /// Those that stand by α, β and γ alone.
+    /// The sloping contacts α, β and γ only.
     Sloping,
-    /// Those that stand at a = R, with horizontal contacts.
+    /// Sloping and horizontal contacts, at a = R.
     Horizontal,
 }
 
 impl Tally {
-    /// Nothing counted yet, of a whole ensemble.
+    /// Returns a tally without any stacking.
     pub(super) fn nothing(ensemble: Ensemble, choice: Choice, shard: Shard) -> Result<Self, Error> {
         let most = ensemble.stackings().most_faults();
         let most = u32::try_from(most).map_err(|_| bug("layers that fit in memory are few"))?;
@@ -116,7 +117,7 @@ impl Tally {
         })
     }
 
-    /// Returns how many stackings were looked at, of samples with repetitions.
+    /// Returns the number of stackings. Repeated samples count repeatedly.
     ///
     /// # Examples
     /// See [`standing`](Self::standing).
@@ -125,7 +126,7 @@ impl Tally {
         self.faults.iter().map(|with| &with.all.stackings).sum()
     }
 
-    /// Returns how many of them stand; `None` with horizontal contacts, where that was not asked.
+    /// Returns the number of standing stackings. `None` with horizontal contacts, if the run did not count them.
     ///
     /// # Examples
     /// ```
@@ -135,24 +136,25 @@ impl Tally {
     /// let stackings = RandomStackings::new(8, FirstSign::Random)?;
     /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
     /// assert_eq!(tally.stackings(), 128_u32.into());
-    /// // Eleven, and their mirror images.
+    /// // Eleven stackings and their mirror images.
     /// assert_eq!(tally.standing(By::Sloping), Some(22_u32.into()));
     /// assert_eq!(tally.standing(By::Horizontal), None);
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     #[must_use]
     pub fn standing(&self, by: By) -> Option<BigUint> {
-        self.faults.iter().map(|with| with.that_stand(by)).sum()
+        self.faults.iter().map(|with| with.standing_count(by)).sum()
     }
 
-    /// Returns the weights of means, by number of faults: what each stacking that was looked at counts for. Of all stackings
-    /// it is the probability of one with d faults, q^d (1−q)^(n−1−d) with n steps, half of it with a random first sign; of
-    /// samples it is one over their number, whatever `q`. `None` of a part.
+    /// Returns the weight of each stacking in a mean, by number of faults. `None` for a shard of several.
     ///
-    /// So the mean number of contacts of a bin in a pile is the sum over d of the weight times the count.
+    /// For all stackings the weight is the probability of a stacking with d faults: q^d (1−q)^(n−1−d) with n steps, and
+    /// half of it for a random first sign. For samples the weight is one over their number, for every `q`.
+    ///
+    /// For example, the mean number of contacts of one pile in a bin is the sum over d of the weight times the count.
     ///
     /// # Errors
-    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
+    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.
     ///
     /// # Examples
     /// ```
@@ -183,12 +185,14 @@ impl Tally {
         Ok(Some((0..self.faults.len()).map(weight).collect()))
     }
 
-    /// Returns the probability that a stacking stands at the fault probability q, Σ_d c_d q^d (1−q)^(n−1−d), half of it with
-    /// a random first sign: exact, with c_d the number of those that stand among all with d faults and n the number of
-    /// steps. `None` of samples, of a part, and with horizontal contacts where that was not asked.
+    /// Returns the probability that a random stacking stands, at the fault probability `q`. `None` for samples, for a
+    /// shard of several, and with horizontal contacts if the run did not count them.
+    ///
+    /// The value is exact: Σ_d c_d q^d (1−q)^(n−1−d), and half of it for a random first sign. Here c_d is the number of
+    /// standing stackings with d faults, and n is the number of steps.
     ///
     /// # Errors
-    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
+    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.
     ///
     /// # Examples
     /// ```
@@ -202,7 +206,7 @@ impl Tally {
     ///     let q = BigRational::new(q.0.into(), q.1.into());
     ///     Ok::<_, cannonpile_disorder::Error>(tally.standing_probability(By::Sloping, &q)?.unwrap().to_string())
     /// };
-    /// // 11 of 16; FCC, which stands; HCP, which does not.
+    /// // RHCP: 11 of 16 stand. FCC stands. HCP does not.
     /// assert_eq!([probability((1, 2))?, probability((0, 1))?, probability((1, 1))?], ["11/16", "1", "0"]);
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
@@ -215,18 +219,19 @@ impl Tally {
             return Ok(None);
         };
         let terms = self.faults.iter().zip(weights);
-        let terms = terms.map(|(with, weight)| Some(weight * BigInt::from(with.that_stand(by)?)));
+        let terms =
+            terms.map(|(with, weight)| Some(weight * BigInt::from(with.standing_count(by)?)));
         Ok(terms.sum())
     }
 }
 
 impl WithFaults {
-    /// Returns how many of these stackings stand; `None` with horizontal contacts, where that was not asked.
+    /// Returns the number of standing stackings. `None` with horizontal contacts, if the run did not count them.
     ///
     /// # Examples
     /// See [`Tally::standing`].
     #[must_use]
-    pub fn that_stand(&self, by: By) -> Option<BigUint> {
+    pub fn standing_count(&self, by: By) -> Option<BigUint> {
         match by {
             By::Sloping => Some(self.standing.stackings.clone()),
             By::Horizontal => self.held.clone(),

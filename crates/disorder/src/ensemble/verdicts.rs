@@ -1,4 +1,4 @@
-//! Stackings that stand with horizontal contacts, as the caller's judge decides.
+//! Verdicts of the caller's judge on stability with horizontal contacts.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -10,10 +10,10 @@ use cannonpile::stacking::Stacking;
 use super::Ensemble;
 use crate::Error;
 
-/// Decides whether a pile stands with horizontal contacts.
+/// A function that decides whether a pile is stable with horizontal contacts.
 pub(super) type Judge<'j, E> = dyn Fn(&Pile) -> Result<bool, E> + Sync + 'j;
 
-/// The verdicts so far, by the signs from the top. The judge is called once for each stacking, unless two threads need
+/// A cache of verdicts, by the signs from the top. The judge is called once for each stacking, unless two threads need
 /// the same verdict at the same time.
 pub(super) struct Verdicts<'j, E> {
     ensemble: &'j Ensemble,
@@ -30,9 +30,9 @@ impl<'j, E: From<Error>> Verdicts<'j, E> {
         }
     }
 
-    /// Returns whether the stacking of these signs stands with horizontal contacts.
+    /// Returns whether the stacking with these signs is stable with horizontal contacts.
     pub(super) fn is_stable(&self, signs: &[Sign]) -> Result<bool, E> {
-        // A thread that panics leaves the map complete, since one insertion is all that it does under the lock.
+        // A thread that panics leaves the map intact, because it only inserts under the lock.
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let found = known().get(signs).copied();
         if let Some(found) = found {
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_is_requested_once() -> Result<(), Error> {
+    fn the_judge_is_called_once_for_a_stacking() -> Result<(), Error> {
         let calls = AtomicUsize::new(0);
         let judge = |_: &Pile| {
             calls.fetch_add(1, Ordering::Relaxed);
@@ -102,7 +102,7 @@ mod tests {
             refused,
             Err(Failure::Run(Error::TooManyStackings { .. }))
         ));
-        // Without horizontal contacts the judge is not called.
+        // Without horizontal contacts the run does not call the judge.
         let stackings = RandomStackings::new(7, FirstSign::Plus)?;
         let sloping = Ensemble::under(Region::SITE, stackings)?;
         assert!(run(sloping, &Choice::All).is_ok());

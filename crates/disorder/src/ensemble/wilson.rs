@@ -1,4 +1,4 @@
-//! What samples say of a probability.
+//! Confidence intervals of probabilities from samples.
 
 use cannonpile::scalar::Algebra;
 use num_bigint::{BigInt, BigUint};
@@ -7,19 +7,20 @@ use num_traits::Zero;
 
 use super::{By, Choice, Tally};
 
-/// 1.96², in 10⁻⁴: the square of what a normal variable exceeds in 2.5 % of cases.
+/// z² = 1.96², in units of 10⁻⁴. A standard normal variable exceeds z with probability 2.5 %.
 const SQUARE: u32 = 38_416;
 
-/// 10⁻¹⁸, of what is under the root; its own root is a power of ten.
+/// The number of decimal digits of the root.
 const DIGITS: u32 = 18;
 
 impl Tally {
-    /// Returns bounds of the probability that a stacking stands, at the fault probability that the samples were drawn with:
-    /// Wilson's interval, which holds the true value in about 95 % of cases. `None` of all stackings, where the probability
-    /// [is known](Self::standing_probability), and with horizontal contacts where that was not asked.
+    /// Returns a confidence interval for the probability that a random stacking stands, at the fault probability of the
+    /// samples. It is Wilson's interval, which contains the true value in about 95 % of cases. `None` for all
+    /// stackings, whose probability [is known](Self::standing_probability), and with horizontal contacts if the run did
+    /// not count them.
     ///
-    /// With k of n samples standing and z = 1.96 it is (k + z²/2 ± z√(k(n−k)/n + z²/4))/(n + z²). Rounded: the floats are those
-    /// nearest to the bounds, but for errors of 10⁻⁹/n in the root.
+    /// With k of n samples standing and z = 1.96 the bounds are (k + z²/2 ± z√(k(n−k)/n + z²/4))/(n + z²). The root has
+    /// an error of at most 10⁻⁹/n. The bounds are then correctly rounded.
     ///
     /// # Examples
     /// ```
@@ -32,7 +33,7 @@ impl Tally {
     /// let drawn = Choice::Drawn(Samples::new(1000, 1, half)?);
     /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&drawn, Shard::WHOLE)?;
     /// let [lower, upper] = tally.standing_interval(By::Sloping).unwrap();
-    /// // 11 of 16.
+    /// // The probability is 11/16.
     /// assert!(lower < 0.6875 && 0.6875 < upper && upper - lower < 0.06);
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
@@ -45,12 +46,13 @@ impl Tally {
     }
 }
 
-/// Wilson's interval for k of n; none of none.
+/// Returns Wilson's interval for k of n samples, or `None` for n = 0.
 fn interval(k: &BigUint, n: &BigUint) -> Option<[f64; 2]> {
     if n.is_zero() || k > n {
         return None;
     }
-    // All over 2n(n + z²): n(2k + z²) ± z√(n(4k(n−k) + z²n)), with z² and the square of z in 10⁻⁴.
+    // The common denominator is 2n(n + z²), and the numerators are n(2k + z²) ± z√(n(4k(n−k) + z²n)). Both z² are in
+    // units of 10⁻⁴.
     let unit = BigUint::from(10_000_u32);
     let others = n - k;
     let radicand = n * (k * others * 4_u32 * &unit + n * SQUARE) * SQUARE;
@@ -67,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn intervals_are_those_of_the_formula() {
+    fn bounds_solve_the_equation_of_wilson() {
         for (k, n) in [
             (0_u32, 10_u32),
             (10, 10),
@@ -77,7 +79,7 @@ mod tests {
         ] {
             let [lower, upper] = interval(&k.into(), &n.into()).unwrap();
             let (x, m, z) = (f64::from(k), f64::from(n), 1.96_f64);
-            // Within the interval and nowhere else |k − np|² ≤ z² n p(1−p).
+            // The bounds p solve (k − np)² = z² n p(1−p).
             for p in [lower, upper] {
                 let left = (x - m * p) * (x - m * p);
                 let right = z * z * m * p * (1.0 - p);

@@ -62,7 +62,7 @@ impl TryFrom<EnsembleParts> for Ensemble {
 
     fn try_from(parts: EnsembleParts) -> Result<Self, Error> {
         let stackings = RandomStackings::new(parts.layers, parts.first)?;
-        let mut ensemble = Self::under(parts.top, stackings)?.with_bins(parts.bins)?;
+        let mut ensemble = Self::under(parts.top, stackings)?.with_bin_width(parts.bins)?;
         for Load { i, j, weight } in parts.loads {
             ensemble = ensemble.with_load([i, j], weight)?;
         }

@@ -1,13 +1,14 @@
-//! The formulas of the theorems of this crate, each replaceable by a wrong one.
+//! The formulas that the theorems of this crate take as arguments.
 
 use cannonpile::scalar::{Algebra, Polynomial};
 use cannonpile::theorem::Library;
 
 use crate::formula;
 
-/// The formulas that the theorems of this crate are about: those of the core, and those of this crate.
+/// The formulas in the theorems of this crate: those of the core, and those of this crate.
 ///
-/// With polynomials as numbers they prove the theorems. They are the functions that the rest of this crate calls.
+/// The proofs evaluate them with polynomials. [`LIBRARY`](Self::LIBRARY) contains the functions that the rest of this
+/// crate calls.
 #[derive(Debug)]
 pub struct Formulas<P = Polynomial> {
     /// The formulas of the core.
@@ -28,7 +29,7 @@ pub struct Formulas<P = Polynomial> {
     pub registry_excess: fn(&P, &P, &P) -> P,
 }
 
-// Derived implementations would require them of `P`.
+// A derived implementation would require `P: Clone`.
 impl<P> Clone for Formulas<P> {
     fn clone(&self) -> Self {
         *self

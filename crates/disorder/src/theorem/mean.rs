@@ -1,4 +1,4 @@
-//! What a step makes of the mean over random stackings.
+//! The mean over random stackings: its modes, and its spectrum.
 
 use core::num::NonZeroI64;
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use num_traits::{One, Zero};
 use super::{Formulas, power, square, sum, symbols};
 use crate::{THREE, TWO};
 
-/// M, of f₊ and f₋: what a step makes of the mean where D_l are factors of f₊, and their inverses of f₋.
+/// Returns M applied to f₊ and f₋. The caller has multiplied f₊ by the factors D_l, and f₋ by their inverses.
 fn mean_step(f: &Formulas, q: &P, shifted: &[[P; 3]; 2]) -> [[P; 3]; 2] {
     let stay = P::one() - q;
     core::array::from_fn(|sign| {
@@ -42,7 +42,7 @@ pub(super) fn mean_modes(f: &Formulas) -> Vec<Step> {
     }
     let across = |sign: i128| [sign, -sign, 0].map(int);
     let mode = [across(1), across(-1)];
-    // Along α and β the factors are −1, along γ 1.
+    // The factors are −1 along α and β, and 1 along γ.
     let shifted = mode.clone().map(|[a, b, c]| [-a, -b, c]);
     let after = mean_step(f, &q, &shifted);
     for (after, mode) in after.into_iter().zip(mode) {
@@ -51,7 +51,8 @@ pub(super) fn mean_modes(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-/// The determinant, by the columns that are left to the first rows.
+/// Returns the determinant, by expansion along the rows. The minors of the first rows are indexed by the set of their
+/// columns.
 fn determinant(rows: &[[P; 6]; 6]) -> P {
     let mut minors = BTreeMap::from([(0_u32, P::one())]);
     for row in rows {
@@ -60,7 +61,7 @@ fn determinant(rows: &[[P; 6]; 6]) -> P {
             for (column, entry) in row.iter().enumerate() {
                 let bit = 1 << column;
                 if taken & bit == 0 && !entry.is_zero() {
-                    // As many inversions as columns to the right are taken.
+                    // The number of inversions is the number of taken columns to the right.
                     let inversions = (taken >> column).count_ones();
                     let sign = int(if inversions % 2 == 0 { 1 } else { -1 });
                     let term = minor.clone() * entry * &sign;
@@ -78,7 +79,8 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     let (q, lambda) = (symbol("q"), symbol("λ"));
     let d = symbols(["a", "b", "c"]);
     let none = || [P::zero(), P::zero(), P::zero()];
-    // The columns: what M makes of each of six units, those of f₋ times D_l; and λ on the diagonal.
+    // Column by column, the entries are those of λ − M for the six unit vectors. The columns of f₋ are multiplied by
+    // D_l.
     let mut rows: [[P; 6]; 6] = core::array::from_fn(|_| core::array::from_fn(|_| P::zero()));
     for sign in [0, 1] {
         for line in 0..3 {
@@ -96,7 +98,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     }
     let [a, b, c] = &d;
     let product = a.clone() * b * c;
-    // The inverses are the products of the other two.
+    // Each inverse is the product of the other two factors.
     let inverse = [b.clone() * c, a.clone() * c, a.clone() * b];
     let half = |sum: P| sum.div_int(TWO);
     let t1 = half(sum(d.clone()) + &sum(inverse.clone()));
@@ -106,18 +108,18 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
         others.map(move |j| (i, j))
     });
     let s = half(sum(ratios.map(|(i, j)| d[i].clone() * &inverse[j])));
-    // λ³Q(λ+μ/λ), with λ times y = λ² + μ.
+    // λ³Q(λ+μ/λ), with λy = λ² + μ.
     let mu = P::one() - &(int(2) * &q);
     let q_of = cubic(&q, [&t1, &t2, &s], &(square(&lambda) + &mu), &lambda);
     let left = determinant(&rows) - &q_of;
     let relation = product - &P::one();
-    // Not a default: what is no multiple is not equal to none.
+    // If the division leaves a remainder, the equation below fails.
     let multiple = left.divide_exactly(&relation).unwrap_or_else(P::zero);
     let mut steps = equations! {
         "det(λ−M) − λ³Q(λ+μ/λ) is a multiple of abc − 1": left => multiple * &relation,
     };
-    // Great waves: κ² in t, and θ_l = κ cos of three angles 120° apart, of which sums of even powers up to the fourth are
-    // those of any direction; S has √3κ.
+    // Long waves: κ² is a polynomial in t, and θ_l = κ cos(φ + 120°l). The sums of even powers up to the fourth do not
+    // depend on the direction φ. The differences in S have the wave number √3κ.
     let of_angle = |square_of: &P| {
         let fourth = (int(3) * &square(square_of)).div_int(SIXTY_FOUR);
         int(3) - &(int(3) * square_of).div_int(FOUR) + &fourth
@@ -132,7 +134,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
         let claim = format!("{what}: nothing is left of Q");
         steps.push(Step::equal(claim, lowest(&q_of, order), P::zero()));
     };
-    // iκ = √2qt: the wave runs at ρ/√2, and κ² = −2q²t².
+    // With iκ = √2qt the speed is ρ/√2, and κ² = −2q²t².
     let [damping, dispersion] = (f.wave)(&q);
     let exponent = q.clone()
         * &(t.clone() + &(int(2) * &damping * &square(&t))
@@ -145,11 +147,11 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-// Unwrapped by the compiler: zero would not build.
+// The compiler evaluates the `unwrap`, and rejects zero.
 const FOUR: NonZeroI64 = NonZeroI64::new(4).unwrap();
 const SIXTY_FOUR: NonZeroI64 = NonZeroI64::new(64).unwrap();
 
-/// e^x of an x without constant, below the power of t of this order.
+/// Returns the terms of e^x below this power of t, for an x without constant term.
 fn exponential(x: &P, order: usize) -> P {
     let mut term = P::one();
     let mut series = P::one();
@@ -160,7 +162,7 @@ fn exponential(x: &P, order: usize) -> P {
     series
 }
 
-/// What a polynomial has below the power of t of this order.
+/// Returns the terms of a polynomial below this power of t.
 fn lowest(p: &P, order: usize) -> P {
     let coefficients = p.coefficients(Symbol("t"));
     let terms = (0..order)
@@ -169,7 +171,7 @@ fn lowest(p: &P, order: usize) -> P {
     sum(terms.map(|(n, coefficient)| coefficient.clone() * &power(&symbol("t"), n)))
 }
 
-/// Q of y/λ, times λ³, with the sums T₁, T₂ and S.
+/// Returns λ³Q(y/λ), for the sums T₁, T₂ and S.
 fn cubic(q: &P, [t1, t2, s]: [&P; 3], y: &P, lambda: &P) -> P {
     let stay = P::one() - q;
     let ninth = |p: P| p.div_int(THREE).div_int(THREE);

@@ -1,4 +1,4 @@
-//! Moments of the response to a load.
+//! Proofs of the moments of the response to a load.
 
 use cannonpile::scalar::Symbol;
 use cannonpile::theorem::Step;
@@ -10,17 +10,18 @@ use super::{
     times, turned,
 };
 
-/// What the moments of forces on contacts are made of, of one sphere: Σ over its contacts of products of place and step.
+/// The contributions of the contact forces of one sphere to moments. Each is a sum over its contacts, with z the end of
+/// the contact.
 struct Moments {
     /// Σf.
     load: P,
     /// Σf|z|².
     second: P,
-    /// Σf Re(z̄³E), E the cube of the steps under +.
+    /// Σf Re(z̄³E), with E the cube of a step under +.
     third: P,
     /// Σf|z|⁴.
     fourth: P,
-    /// Σf Re(z d̄), d the step.
+    /// Σf Re(z d̄), with d the horizontal part of the contact.
     along: P,
     /// Σf Re(z̄²d̄E).
     across: P,
@@ -29,7 +30,7 @@ struct Moments {
 }
 
 impl Moments {
-    /// Of forces f along steps d that end at these places.
+    /// Returns the moments of forces f along contacts d that end at these places.
     fn of(f: &[P; 3], d: &[Complex; 3], places: &[Complex; 3], cube: &Complex) -> Self {
         let over = |term: &dyn Fn(&Complex, &Complex) -> P| {
             let contacts = f.iter().zip(d).zip(places);
@@ -50,8 +51,8 @@ impl Moments {
     }
 }
 
-/// The moments of what a sphere at z receives, and of what it passes on, for any signs above and below: with them the name
-/// of the case and σ of the step below.
+/// Returns the moments of the forces on a sphere at z and of the forces below it, for all four pairs of signs above and
+/// below. Each entry contains the name of the case, and the sign σ of the step below.
 fn at_a_sphere(f: &Formulas) -> Vec<(String, P, Moments, Moments)> {
     let (g, down) = (symbols(["g_1", "g_2", "g_3"]), steps_down(f));
     let z = complex(symbol("x"), symbol("y"));
@@ -74,18 +75,18 @@ fn at_a_sphere(f: &Formulas) -> Vec<(String, P, Moments, Moments)> {
     cases
 }
 
-/// The next polynomial in n, with X = μⁿ.
+/// Returns the polynomial at n + 1, with X = μⁿ.
 fn next(of_n: &P) -> P {
     let n = of_n.substitute(Symbol("n"), &(symbol("n") + &P::one()));
     n.substitute(Symbol("X"), &(symbol("X") * &symbol("μ")))
 }
 
-/// What a step more adds.
+/// Returns the difference between n + 1 and n.
 fn growth(of_n: &P) -> P {
     next(of_n) - of_n
 }
 
-/// A polynomial in n for no steps, where X = 1.
+/// Returns the polynomial at n = 0, where X = 1.
 fn at_first(of_n: &P) -> P {
     of_n.substitute(Symbol("n"), &P::zero())
         .substitute(Symbol("X"), &P::one())
@@ -118,7 +119,8 @@ pub(super) fn third_moment(f: &Formulas) -> Vec<Step> {
             share(&after, &s) - &share(&n, &s) => int(3) * &(int(2) * &s - &one),
         "and 3n+1 for the step itself": share(&after, &after) => int(3) * &n + &one,
     });
-    // Eσ_s = μ^(s−1): a step more adds 3Σ(2s−1)μ^(s−1) + (3n+1)μⁿ, and that sum grows by (2n+1)μⁿ. All is times (1−μ)³.
+    // Eσ_s = μ^(s−1). So a step adds 3Σ(2s−1)μ^(s−1) + (3n+1)μⁿ to the mean, and that sum grows by (2n+1)μⁿ. All terms
+    // are multiplied by (1−μ)³.
     let mean = (f.mean_third_moment)(&n, &mu, &x);
     let gap = power(&(one.clone() - &mu), 3);
     let last = |n: &P| int(3) * n + &one;
@@ -168,8 +170,8 @@ pub(super) fn fourth_moment(f: &Formulas) -> Vec<Step> {
         "and 2(2s−1) with the sign of the step itself":
             pair(&after, &s, &after) => int(2) * &odd,
     });
-    // Eσ_sσ_t = μ^(t−s): with D_n = Σ(2s−1)μ^(n+1−s), s ≤ n, the growth of the mean of pairs grows by 2(D_n + D_{n+1}), and
-    // D_{n+1} = μ(D_n + 2n+1). All is times (1−μ)⁴.
+    // Eσ_sσ_t = μ^(t−s). Let D_n = Σ(2s−1)μ^(n+1−s), s ≤ n. Then the second difference of the mean of pairs is 2(D_n +
+    // D_{n+1}), and D_{n+1} = μ(D_n + 2n+1). All terms are multiplied by (1−μ)⁴.
     let mean = (f.mean_fourth_moment_of_pairs)(&n, &mu, &x);
     let gap = power(&(one - &mu), 4);
     let second = growth(&growth(&mean));

@@ -1,4 +1,4 @@
-//! In which registry a layer lies.
+//! Proof of the recursion of registries.
 
 use core::array;
 
@@ -10,10 +10,10 @@ use num_traits::{One, Zero};
 use super::{Formulas, sum, symbols};
 use crate::THREE;
 
-/// Of stackings that come to a registry by a + step, and by a − step.
+/// The probabilities of each registry after a + step, and after a − step.
 type Shares = [[P; 3]; 2];
 
-/// What one step more makes of them.
+/// Returns the probabilities after one more step.
 fn stepped([plus, minus]: &Shares, q: &P) -> Shares {
     let straight = P::one() - q;
     let chosen = |same: &P, other: &P| same.clone() * &straight + &(other.clone() * q);
@@ -23,7 +23,7 @@ fn stepped([plus, minus]: &Shares, q: &P) -> Shares {
     ]
 }
 
-/// By how much each registry exceeds a third of all.
+/// Returns the excess of each registry over a third of the total.
 fn excesses([plus, minus]: &Shares) -> [P; 3] {
     let third = sum(plus.iter().chain(minus).cloned()).div_int(THREE);
     array::from_fn(|r| plus[r].clone() + &minus[r] - &third)
@@ -37,7 +37,7 @@ pub(super) fn registry(f: &Formulas) -> Vec<Step> {
     ];
     let once = stepped(&shares, &q);
     let twice = stepped(&once, &q);
-    // A single layer has no sign: its share may stand with either.
+    // A single layer has no sign. So its probability can be assigned to either sign.
     let [u, v] = ["u", "v"].map(symbol);
     let nothing = || [(); 3].map(|()| P::zero());
     let begun = [[u.clone() + &v, P::zero(), P::zero()], nothing()];

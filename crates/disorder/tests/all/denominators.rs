@@ -1,4 +1,5 @@
-//! What the coefficients of means have for denominators: 3^(j+1) with q^j, times those of the loads; twice that in shears.
+//! Denominators of the coefficients of means: at most 3^(j+1) for q^j times the denominator of the loads, and twice
+//! that for shears.
 
 use cannonpile::lattice::Region;
 use cannonpile::scalar::{Polynomial, Symbol};
@@ -13,7 +14,7 @@ use cannonpile_testkit::disorder::{Anchor, Piles};
 
 const Q: Symbol = Symbol("q");
 
-/// The coefficients of the powers of q.
+/// Returns the coefficients of the powers of q.
 fn coefficients(polynomial: &Polynomial) -> Vec<BigRational> {
     let mut rest = polynomial.clone();
     let mut coefficients = Vec::new();
@@ -27,7 +28,7 @@ fn coefficients(polynomial: &Polynomial) -> Vec<BigRational> {
     coefficients
 }
 
-/// By the power of q, the least common denominators of the coefficients of normal forces, and of shears.
+/// Returns the least common denominators of the coefficients of normal forces and of shears, by power of q.
 fn denominators(described: &Piles) -> Vec<[BigInt; 2]> {
     let polynomials = described
         .piles()
@@ -57,7 +58,7 @@ fn denominators(described: &Piles) -> Vec<[BigInt; 2]> {
 }
 
 #[test]
-fn of_every_power_of_q() {
+fn denominators_of_every_power_of_q() {
     let tops = [Region::SITE, Region::triangle(3).unwrap()];
     for steps in 0..=7 {
         for (first, firsts) in [(FirstSign::Plus, 1), (FirstSign::Random, 2)] {
@@ -85,10 +86,10 @@ fn of_every_power_of_q() {
     }
 }
 
-/// No less would do for the normal forces under a load of 1, but in one place of up to seven steps, nor for the shears
-/// without a change of sign.
+/// For a unit load the bound is attained by all normal forces of up to seven steps with one exception, and by the
+/// shears without sign changes.
 #[test]
-fn no_less_would_do() {
+fn bounds_of_denominators_are_attained() {
     for steps in 1..=7_usize {
         let found = denominators(&Piles::response(steps, FirstSign::Plus));
         assert_eq!(found[0][1], BigInt::from(6));
@@ -101,9 +102,10 @@ fn no_less_would_do() {
     }
 }
 
-/// Over 3^(d+1) times the least common denominator of the loads the sums of normal forces are whole, over twice that the shears.
+/// The sums of normal forces are integers over 3^(d+1) times the least common denominator of the loads, and the shears
+/// over twice that.
 #[test]
-fn of_sums_by_faults() {
+fn denominators_of_sums_by_faults() {
     let mut described = Piles::response(4, FirstSign::Plus);
     described.loads = vec![([0, 0], ratio(2, 15)), ([1, 1], ratio(3, 10))];
     let by_faults = described.piles().unwrap().by_faults().unwrap();

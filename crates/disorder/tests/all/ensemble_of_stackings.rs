@@ -1,4 +1,4 @@
-//! How many stackings there are, with which probability, and in which registry they end: counted one by one.
+//! The numbers, probabilities and registries of stackings, compared with enumeration.
 
 use cannonpile::lattice::{MAX_LAYERS, Sign};
 use cannonpile::scalar::{Polynomial, Symbol};
@@ -14,7 +14,7 @@ use cannonpile_testkit::oracles::one_by_one::{faults, of_site};
 const FIRSTS: [FirstSign; 3] = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
 
 #[test]
-fn counts_and_registries_of_all_stackings() {
+fn counts_and_registries_agree_with_enumeration() {
     for first in FIRSTS {
         for steps in 0..=9_usize {
             let stackings = RandomStackings::new(steps as i128 + 1, first).unwrap();
@@ -55,7 +55,7 @@ fn counts_and_registries_of_all_stackings() {
 }
 
 #[test]
-fn at_a_half_the_registries_even_out_by_halves() {
+fn registries_converge_by_halves_at_one_half() {
     // ρ_n = ω (−½)^(n−1).
     let stackings = RandomStackings::new(12, FirstSign::Plus).unwrap();
     let registry = stackings.registry(&ratio(1, 2)).unwrap();
@@ -64,7 +64,7 @@ fn at_a_half_the_registries_even_out_by_halves() {
     assert_eq!(registry, expected);
 }
 
-/// As many layers as registries are found of: 9999 steps of FCC lead to the registry of the top layer.
+/// The limit of layers: 9999 steps of FCC lead to the registry of the top layer.
 #[test]
 fn registries_of_ten_thousand_layers() {
     let stackings = RandomStackings::new(10_000, FirstSign::Plus).unwrap();
@@ -72,10 +72,10 @@ fn registries_of_ten_thousand_layers() {
     assert_eq!(registry, [1, 0, 0].map(|share| ratio(share, 1)));
 }
 
-/// Of few faults or few straight steps, and no further. In the highest piles the last is C(10³⁶ − 2, 10⁴), its first digits those
-/// of (10³⁶)^10000/10000!.
+/// Few faults or few unchanged signs are allowed in high piles. The greatest count is C(10³⁶ − 2, 10⁴), whose first
+/// digits are those of (10³⁶)^10000/10000!.
 #[test]
-fn counts_in_high_piles() {
+fn counts_of_high_piles_are_limited() {
     let highest = RandomStackings::new(MAX_LAYERS, FirstSign::Plus).unwrap();
     assert_eq!(
         highest.count_with(1),
@@ -90,7 +90,7 @@ fn counts_in_high_piles() {
         "5·10^7 of 10^36"
     );
     assert!(count.bits() > 1_000_000);
-    // Straight but for two steps.
+    // All signs but two are unchanged.
     let layers = i128::from(u32::MAX) + 4;
     let many = RandomStackings::new(layers, FirstSign::Random).unwrap();
     let two = BigUint::from(layers.unsigned_abs() - 2) * (layers.unsigned_abs() - 3);
@@ -98,14 +98,14 @@ fn counts_in_high_piles() {
     for (stackings, faults) in [(highest, 10_001), (highest, u32::MAX), (many, u32::MAX / 2)] {
         let refused = stackings.count_with(faults).unwrap_err();
         assert!(
-            refused.to_string().ends_with("leave few straight steps"),
+            refused.to_string().ends_with("few signs stay unchanged"),
             "{refused}"
         );
     }
 }
 
 #[test]
-fn first_signs_are_read_as_printed() {
+fn first_signs_round_trip() {
     for first in FIRSTS {
         assert_eq!(first.to_string().parse(), Ok(first));
         assert_eq!(first.name(), first.to_string());
@@ -117,7 +117,7 @@ fn first_signs_are_read_as_printed() {
 }
 
 #[test]
-fn a_place_is_a_site_of_one_registry() {
+fn places_and_sites_agree() {
     for net in -5..=5_i128 {
         for (i, j) in (-4..=4).flat_map(|i| (-4..=4).map(move |j| (i, j))) {
             let place = Place::of([i, j], net).unwrap();
@@ -126,7 +126,8 @@ fn a_place_is_a_site_of_one_registry() {
             for other in (-5..=5).filter(|other| (other - net) % 3 != 0) {
                 assert_eq!(place.site(other), None);
             }
-            // Three times the place in lattice vectors at 60°: x² + xy + y², three of which are ρ².
+            // In lattice vectors at 60°, three times the place is (x, y), and x² + xy + y² is three times the square of
+            // the distance in ρ.
             let [x, y] = [3 * i - net, 3 * j - net];
             assert_eq!(3 * place.distance_squared().unwrap(), x * x + x * y + y * y);
             if net == 0 {

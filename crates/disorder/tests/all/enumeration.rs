@@ -1,4 +1,4 @@
-//! Means are those over all stackings, looked at one by one; and these are what piles of single stackings say.
+//! Comparison of means with enumeration over all stackings, and of the enumeration with piles of single stackings.
 
 use std::collections::BTreeMap;
 
@@ -46,7 +46,7 @@ fn hold(described: &Piles) {
 }
 
 #[test]
-fn one_load_on_the_plane() {
+fn means_of_one_load_agree() {
     for steps in 0..=8 {
         for first in FIRSTS {
             if first != FirstSign::Minus || steps < 6 {
@@ -57,7 +57,7 @@ fn one_load_on_the_plane() {
 }
 
 #[test]
-fn several_loads_on_the_plane() {
+fn means_of_several_loads_agree() {
     for steps in 0..=4 {
         for first in FIRSTS {
             let mut described = Piles::response(steps, first);
@@ -70,7 +70,7 @@ fn several_loads_on_the_plane() {
 }
 
 #[test]
-fn under_one_sphere() {
+fn means_under_one_sphere_agree() {
     for steps in 0..=7 {
         hold(&Piles::heavy(
             Anchor::Top(Region::SITE),
@@ -86,7 +86,7 @@ fn under_one_sphere() {
 }
 
 #[test]
-fn under_other_tops_with_loads_and_without() {
+fn means_under_other_tops_agree() {
     for top in tops() {
         for (steps, first) in [
             (1, FirstSign::Plus),
@@ -105,7 +105,7 @@ fn under_other_tops_with_loads_and_without() {
 }
 
 #[test]
-fn on_bases() {
+fn means_on_bases_agree() {
     for base in bases() {
         for steps in 0..=5 {
             let first = FIRSTS[steps % 3];
@@ -119,9 +119,10 @@ fn on_bases() {
     ));
 }
 
-/// A triangle of L carries as many layers in FCC alone, which presses with (L+2)/3 everywhere; in order of b, then a.
+/// A triangle of side L supports L layers only in FCC. Its normal forces are all (L+2)/3. The rows are sorted by b,
+/// then a.
 #[test]
-fn triangles_as_high_as_they_go() {
+fn complete_triangles_are_fcc() {
     for layers in 1..=6_usize {
         let side = layers as i128;
         let base = Anchor::Base(Region::triangle(side).unwrap());
@@ -144,7 +145,7 @@ fn triangles_as_high_as_they_go() {
     }
 }
 
-/// The sums over all piles that are asked themselves.
+/// Returns the sums over all stackings, computed from piles.
 fn of_piles(anchor: Anchor, steps: usize, load: Option<Site>) -> Sums {
     let described = Piles::heavy(anchor, steps, FirstSign::Plus);
     let mut sums = Sums::new();
@@ -156,7 +157,7 @@ fn of_piles(anchor: Anchor, steps: usize, load: Option<Site>) -> Sums {
             Anchor::Base(base) => (Pile::on(base, stacking), 0),
             Anchor::Plane => unreachable!("a pile has an end"),
         };
-        // A base does not carry every stacking.
+        // A base does not support every stacking.
         let Ok(mut pile) = pile else { continue };
         if let Some(site) = load {
             pile = pile.with_load(site, ratio(5, 2)).unwrap();
@@ -180,7 +181,7 @@ fn of_piles(anchor: Anchor, steps: usize, load: Option<Site>) -> Sums {
 }
 
 #[test]
-fn piles_of_single_stackings_say_the_same() {
+fn enumeration_agrees_with_piles() {
     for (top, steps) in tops().into_iter().zip([7, 4, 4, 4, 4]) {
         let [i, j] = top.corners()[0];
         for load in [None, Some(Site { i, j, k: 0 })] {
@@ -203,9 +204,9 @@ fn piles_of_single_stackings_say_the_same() {
     }
 }
 
-/// FCC and HCP by name.
+/// q = 0 is FCC, and q = 1 is HCP.
 #[test]
-fn the_ends_are_fcc_and_hcp() {
+fn probabilities_0_and_1_are_fcc_and_hcp() {
     for top in tops() {
         let piles = Piles::heavy(Anchor::Top(top), 6, FirstSign::Plus)
             .piles()
@@ -235,9 +236,10 @@ fn the_ends_are_fcc_and_hcp() {
     }
 }
 
-/// The direct recursion in every scalar: rationals and polynomials exactly, double-doubles far beyond floats.
+/// The recursion by probability in every scalar: rationals and polynomials are exact, and double-doubles are far more
+/// accurate than floats.
 #[test]
-fn every_scalar_says_the_same() {
+fn all_scalars_agree() {
     let described = [
         Piles::response(5, FirstSign::Random),
         Piles::heavy(
@@ -277,7 +279,7 @@ fn every_scalar_says_the_same() {
 }
 
 #[test]
-fn given_a_sphere_the_mean_is_over_those_that_have_one() {
+fn conditional_means_agree() {
     let described = Piles::heavy(Anchor::Top(Region::SITE), 5, FirstSign::Plus);
     let half = ratio(1, 2);
     let given = described
@@ -299,9 +301,9 @@ fn given_a_sphere_the_mean_is_over_those_that_have_one() {
     }
 }
 
-/// What is wrong by as little as can be, is found.
+/// The comparison detects minimal errors.
 #[test]
-fn planted_faults_are_found() {
+fn planted_faults_are_detected() {
     let described = Piles::heavy(Anchor::Top(Region::SITE), 4, FirstSign::Plus);
     let piles = described.piles().unwrap();
     let expected = described.sums();

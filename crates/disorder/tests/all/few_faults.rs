@@ -11,7 +11,8 @@ use cannonpile_testkit::oracles::one_by_one::Place;
 
 type Loads = BTreeMap<Place, BigRational>;
 
-/// The place that runs of so many steps along these directions lead to, with signs in turn: α, β, γ are 0, 1, 2.
+/// Returns the place after runs of these lengths along these directions, with alternating signs. The directions α, β, γ
+/// are 0, 1, 2.
 fn place(runs: &[i64], labels: &[usize]) -> Place {
     let mut steps = [0; 3];
     let signs = [1, -1].into_iter().cycle();
@@ -22,7 +23,7 @@ fn place(runs: &[i64], labels: &[usize]) -> Place {
     [b - a, c - a]
 }
 
-/// ⅓ Π over the changes of direction: −⅓ for one that is none, else ⅔.
+/// Returns ⅓ Π over the sign changes: −⅓ if the force keeps its direction, and ⅔ if not.
 fn amplitude(labels: &[usize]) -> BigRational {
     let factor = |pair: &[usize]| {
         if pair[0] == pair[1] {
@@ -37,7 +38,7 @@ fn amplitude(labels: &[usize]) -> BigRational {
         .fold(ratio(1, 3), |product, factor| product * factor)
 }
 
-/// All sequences of as many directions as there are runs.
+/// Returns all sequences with one direction for each run.
 fn labels(runs: usize) -> Vec<Vec<usize>> {
     let mut all = vec![Vec::new()];
     for _ in 0..runs {
@@ -48,7 +49,7 @@ fn labels(runs: usize) -> Vec<Vec<usize>> {
     all
 }
 
-/// The response below runs of so many steps.
+/// Returns the response below runs of these lengths.
 fn response(runs: &[i64]) -> Loads {
     let mut loads = Loads::new();
     for labels in labels(runs.len()) {
@@ -57,7 +58,7 @@ fn response(runs: &[i64]) -> Loads {
     loads
 }
 
-/// All ways to cut n steps into so many runs.
+/// Returns all divisions of n steps into this number of runs.
 fn compositions(n: i64, runs: usize) -> Vec<Vec<i64>> {
     if runs == 1 {
         return vec![vec![n]];
@@ -71,7 +72,7 @@ fn compositions(n: i64, runs: usize) -> Vec<Vec<i64>> {
     first.flat_map(cut).collect()
 }
 
-/// By faults, from the closed form alone.
+/// Returns the response by number of faults, from the closed form only.
 fn closed(n: i64, faults: usize) -> Loads {
     let mut sums = Loads::new();
     for runs in compositions(n, faults + 1) {
@@ -90,7 +91,7 @@ fn of_library(sums: &Sums, of: usize) -> Loads {
 }
 
 #[test]
-fn sums_over_runs_and_their_directions() {
+fn closed_form_agrees_with_the_library() {
     for (n, steps) in (1..=8).zip(1..) {
         let piles = Piles::response(n, FirstSign::Plus).piles().unwrap();
         let sums = by_faults(&piles).unwrap();
@@ -102,7 +103,7 @@ fn sums_over_runs_and_their_directions() {
             );
         }
     }
-    // Few faults of many steps.
+    // Many steps with few faults.
     let piles = Piles::response(20, FirstSign::Plus).piles().unwrap();
     let sums = by_faults(&piles).unwrap();
     for faults in 0..=2 {
@@ -110,7 +111,7 @@ fn sums_over_runs_and_their_directions() {
     }
 }
 
-/// How often each load occurs.
+/// Counts the occurrences of each load.
 fn spots(loads: &Loads) -> BTreeMap<BigRational, usize> {
     let mut counts = BTreeMap::new();
     for load in loads.values() {
@@ -119,20 +120,21 @@ fn spots(loads: &Loads) -> BTreeMap<BigRational, usize> {
     counts
 }
 
-/// The sum over stackings with one fault, of which one is left: the others have their own places, or are taken away.
+/// The response to one fault is found from the sum over all stackings with one fault. The other terms are at other
+/// places, or are subtracted.
 #[test]
-fn one_fault_has_nine_spots_or_seven() {
+fn one_fault_has_9_or_7_spots() {
     let spots_of = |runs: &[i64]| spots(&response(runs));
     let nine = BTreeMap::from([(ratio(2, 9), 6), (ratio(-1, 9), 3)]);
     assert_eq!(spots_of(&[2, 3]), nine);
     assert_eq!(spots_of(&[5, 1]), nine);
-    // Under the load, where the fault is in the middle.
+    // At the place below the load, for a fault in the middle.
     let seven = BTreeMap::from([(ratio(2, 9), 6), (ratio(-1, 3), 1)]);
     for half in 1..=4 {
         assert_eq!(spots_of(&[half, half]), seven);
         assert_eq!(response(&[half, half])[&[0, 0]], ratio(-1, 3));
     }
-    // Of two steps there is one way, and the library says it.
+    // With two steps there is only one such stacking, so the library returns its response.
     let piles = Piles::response(2, FirstSign::Plus).piles().unwrap();
     assert_eq!(
         of_library(&by_faults(&piles).unwrap(), 1),
@@ -141,7 +143,7 @@ fn one_fault_has_nine_spots_or_seven() {
 }
 
 #[test]
-fn two_faults_have_27_spots_or_21_or_18() {
+fn two_faults_have_27_or_21_or_18_spots() {
     let general = BTreeMap::from([(ratio(1, 27), 3), (ratio(-2, 27), 12), (ratio(4, 27), 12)]);
     assert_eq!(spots(&response(&[2, 7, 3])), general);
     let two_alike = spots(&response(&[3, 3, 7]));
@@ -157,9 +159,9 @@ fn two_faults_have_27_spots_or_21_or_18() {
     assert_eq!(ends_alike, BTreeMap::from(expected));
 }
 
-/// The slope at q = 0 is the sum over one fault, less n − 1 times FCC.
+/// The slope at q = 0 is the sum over one fault, minus n − 1 times FCC.
 #[test]
-fn the_slope_at_fcc() {
+fn slope_at_fcc() {
     for n in 1..=9 {
         let piles = Piles::response(n, FirstSign::Plus).piles().unwrap();
         let polynomials = piles.by_faults().unwrap().polynomial().unwrap();
@@ -169,7 +171,7 @@ fn the_slope_at_fcc() {
             |row| {
                 let q = cannonpile::scalar::Symbol("q");
                 let at = |x: BigRational| row.normal.evaluate(&[(q, x)]).unwrap();
-                // Exact in the end: a difference quotient of polynomials, for smaller and smaller steps.
+                // The limit is exact: it is a difference quotient of polynomials for decreasing steps.
                 let step = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(40));
                 let quotient = (at(step.clone()) - at(ratio(0, 1))) / &step;
                 (quotient * ratio(9, 1)).round() / ratio(9, 1)
@@ -184,9 +186,9 @@ fn the_slope_at_fcc() {
     }
 }
 
-/// A wrong factor, a wrong place or a wrong sign of a run is another response.
+/// A wrong factor, place or sign of a run changes the response.
 #[test]
-fn planted_faults_are_found() {
+fn planted_faults_are_detected() {
     let piles = Piles::response(4, FirstSign::Plus).piles().unwrap();
     let sums = by_faults(&piles).unwrap();
     let right = closed(4, 2);

@@ -1,14 +1,14 @@
-//! The fixed and the exhaustive tests of random stackings, a file for each subject.
+//! Fixed and exhaustive tests of random stackings, with a file for each subject.
 //!
-//! Random tests are in `tests/properties.rs`. The oracles are those of `cannonpile_testkit`.
+//! Random tests are in `tests/properties.rs`. The oracles are in `cannonpile_testkit`.
 
 mod denominators;
 mod ensemble_of_stackings;
 mod enumeration;
+mod errors;
 mod few_faults;
-mod moments;
-mod refused;
-mod spread;
+mod mean_squares;
+mod response_moments;
 mod squares;
 mod sums;
 mod widths;
@@ -31,7 +31,7 @@ mod ensemble {
         BigRational::new(n.into(), d.into())
     }
 
-    /// The tally of an ensemble with horizontal contacts: for each pile a certificate says whether they hold it.
+    /// Returns the tally of an ensemble with horizontal contacts. A certificate decides the stability of each pile.
     fn held(ensemble: &Ensemble, choice: &Choice, shard: Shard) -> Result<Tally, AnyError> {
         let judge = |pile: &Pile| Ok(equilibrium(pile)?.claim == Claim::Stands);
         ensemble.run_judged(choice, shard, &|_| {}, &judge)

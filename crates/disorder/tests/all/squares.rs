@@ -1,4 +1,4 @@
-//! Σf and Σf², which hang on weights alone: in the mean they are those of the mean sizes and weights of layers.
+//! Σf and Σf² depend on the weights only. Their means follow from the mean sizes and weights of the layers.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Region, Sign, Site};
@@ -20,7 +20,8 @@ fn square(x: &BigRational) -> BigRational {
     x * x
 }
 
-/// The mean of Σf and Σf² over the contacts below layer k: each stacking as a pile, with its probability.
+/// Returns the means of Σf and Σf² over the contacts below layer k. Each stacking is computed as a pile, and weighted
+/// with its probability.
 fn enumerated(described: &Piles, q: &BigRational, k: i128) -> [BigRational; 2] {
     let Anchor::Top(top) = described.anchor else {
         unreachable!("only tops are asked");
@@ -55,7 +56,8 @@ fn enumerated(described: &Piles, q: &BigRational, k: i128) -> [BigRational; 2] {
     [sum, squares].map(|sum| sum / whole(firsts))
 }
 
-/// Of the means of the first layers alone: Σf = 3W_k and Σf² = Σ_j (3n_j + 6W_(j−1)), j ≤ k, with what lies on the top layer.
+/// From the mean sizes of the layers only: Σf = 3W_k and Σf² = Σ_j (3n_j + 6W_(j−1)) over j ≤ k, including the loads on
+/// the top layer.
 fn of_means(described: &Piles, q: &BigRational, k: usize) -> [BigRational; 2] {
     let weight = whole(i64::from(!described.weightless));
     let mean = |steps: usize| {
@@ -95,7 +97,7 @@ fn of_means(described: &Piles, q: &BigRational, k: usize) -> [BigRational; 2] {
 }
 
 #[test]
-fn of_gravity_and_loads() {
+fn sums_under_gravity_and_loads() {
     let tops = [
         Region::SITE,
         Region::triangle(2).unwrap(),
@@ -120,10 +122,9 @@ fn of_gravity_and_loads() {
     }
 }
 
-/// Of the response Σg² of all forces on the bottom layer is three times that of the loads, at every depth and q, while the
-/// square of the mean gets less.
+/// The square of the mean response is less than the mean of the square, unless there is only one stacking.
 #[test]
-fn of_a_response() {
+fn squares_of_the_mean_are_less_than_mean_squares() {
     for steps in 1..=6 {
         let stackings = RandomStackings::new(steps + 1, FirstSign::Plus).unwrap();
         let plane = RandomPiles::plane(stackings).weightless();

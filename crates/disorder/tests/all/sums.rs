@@ -1,4 +1,4 @@
-//! What holds of all stackings of any number of layers: moments, symmetries, ends, totals.
+//! Properties for any number of layers: moments, symmetries, limiting stackings and totals.
 
 use std::collections::BTreeMap;
 
@@ -19,13 +19,13 @@ fn whole(n: i64) -> BigRational {
     BigRational::from_integer(n.into())
 }
 
-/// r² and r³ cos 3φ of a place, φ from u_α, in units of ρ.
+/// Returns r² and r³ cos 3φ of a place, with φ measured from u_α, in units of ρ.
 fn powers([a, b]: Place) -> (i64, BigRational) {
     let cube = whole(a * a * a + b * b * b) - ratio(3, 2) * whole(a * b * (a + b));
     (a * a - a * b + b * b, cube)
 }
 
-/// Σ of the normals, along u_β and u_γ, times r², r⁴ and r³ cos 3φ.
+/// Returns the sum of the normal forces, their moments along u_β and u_γ, and those with r², r⁴ and r³ cos 3φ.
 fn moments(normals: &BTreeMap<Place, BigRational>) -> [BigRational; 6] {
     let mut sums = [(); 6].map(|()| BigRational::zero());
     for (place, normal) in normals {
@@ -46,7 +46,7 @@ fn moments(normals: &BTreeMap<Place, BigRational>) -> [BigRational; 6] {
     sums
 }
 
-/// r³ cos 3φ and r⁴ of one stacking: which no one else sees.
+/// Returns the third and the fourth moment of one stacking, which no other test computes.
 fn third_and_fourth(signs: &[i64]) -> [BigRational; 2] {
     let n = i64::try_from(signs.len()).unwrap();
     let mut third = 0;
@@ -105,11 +105,11 @@ fn moments_of_every_number_of_faults() {
 }
 
 #[test]
-fn a_load_moved_or_lost_changes_the_moments() {
+fn planted_faults_change_the_moments() {
     let piles = Piles::response(5, FirstSign::Plus).piles().unwrap();
     let answer = by_faults(&piles).unwrap();
     let keys = [([1, 0], 2), ([-1, -1], 2)];
-    // A little more here and as much less there.
+    // A small error that keeps the sum.
     let mut wrong = answer.clone();
     for (key, by) in keys.into_iter().zip([ratio(1, 27), ratio(-1, 27)]) {
         wrong.get_mut(&key).unwrap().1[0] += by;
@@ -154,12 +154,13 @@ fn moments_of_the_mean() {
     }
 }
 
-/// What each place bears after a third of a turn, or in the mirror: normal, and shear as a vector.
+/// Returns the forces at each place after a rotation by 120° or a reflection: the normal force, and the shear as a
+/// vector.
 fn image(mean: &Means, place: fn(Place) -> Place) -> Means {
     let rows = mean.iter().map(|(at, [probability, normal, x, y])| {
         // Along u_β and u_γ, in twice the unit.
         let along = [y + y, x + y];
-        // The turn is linear: the images of both unit vectors say it.
+        // The rotation is linear, so the images of both unit vectors determine it.
         let [[ba, bb], [ca, cb]] = [place([1, 0]), place([0, 1])];
         let [b, c] = [
             &along[0] * whole(ba) + &along[1] * whole(ca),
@@ -201,7 +202,7 @@ fn symmetries() {
         all.push(Piles::heavy(Anchor::Base(base), 3, first));
     }
     for described in all {
-        // The triangle has its middle elsewhere, and is no mirror image of itself turned round.
+        // The triangle has its centre elsewhere, and differs from its image under a rotation by 180°.
         let triangle = described.anchor == Anchor::Top(Region::triangle(2).unwrap());
         let q = ratio(1, 3);
         let mean = by_place(described.piles().unwrap().exact(&q).unwrap());
@@ -220,9 +221,9 @@ fn symmetries() {
     }
 }
 
-/// A − first is a + first, turned round.
+/// Piles with the first sign − are those with + after a rotation by 180°.
 #[test]
-fn the_other_first_sign_is_the_opposite() {
+fn other_first_sign_rotates_the_pile() {
     let mean = |first| {
         let piles = Piles::response(6, first).piles().unwrap();
         by_place(piles.exact(&ratio(2, 5)).unwrap())
@@ -231,7 +232,7 @@ fn the_other_first_sign_is_the_opposite() {
     let opposite = image(&minus, opposite);
     assert_eq!(opposite, plus);
     for (place, [probability, normal, _, _]) in &random {
-        // Where one of the two has no row it has no sphere.
+        // A missing row stands for a place without sphere.
         let of = |means: &Means, n: usize| {
             means
                 .get(place)
@@ -242,9 +243,9 @@ fn the_other_first_sign_is_the_opposite() {
     }
 }
 
-/// Far out on the three straight lines nothing but FCC has a load: (1−q)^(n−1)/3.
+/// At the ends of the three straight lines only FCC has a load: (1−q)^(n−1)/3.
 #[test]
-fn the_spots_of_fcc() {
+fn ends_of_straight_lines_are_fcc() {
     let q = Polynomial::from(Symbol("q"));
     for steps in 1..=12 {
         let piles = Piles::response(steps, FirstSign::Plus).piles().unwrap();
@@ -261,9 +262,9 @@ fn the_spots_of_fcc() {
     }
 }
 
-/// v_(n+1) = 2P v_n − v_(n−1) on the honeycomb: the cosine of n times an angle whose cosine is P.
+/// v_(n+1) = 2P v_n − v_(n−1) on the honeycomb lattice, the recursion of Chebyshev polynomials.
 #[test]
-fn hcp_is_a_polynomial_of_chebyshev() {
+fn hcp_is_a_chebyshev_polynomial() {
     let mean_of_neighbours = |loads: &BTreeMap<Place, BigRational>, sign: i64| {
         let mut sums: BTreeMap<Place, BigRational> = BTreeMap::new();
         for ([a, b], load) in loads {
@@ -297,9 +298,9 @@ fn hcp_is_a_polynomial_of_chebyshev() {
     }
 }
 
-/// The floor bears, in the mean, what the piles weigh in the mean, and their loads.
+/// The normal forces sum to the mean weight of the piles and their loads.
 #[test]
-fn the_floor_bears_all_weight() {
+fn normal_forces_sum_to_the_weight() {
     let top = Region::hexagon(2, 3).unwrap();
     let base = Region::hexagon(3, 3).unwrap();
     for (anchor, load) in [(Anchor::Top(top), true), (Anchor::Base(base), false)] {
@@ -331,7 +332,7 @@ fn the_floor_bears_all_weight() {
     }
 }
 
-/// How many spheres the pile of a stacking has, counted by regions; none if there is no such pile.
+/// Returns the number of spheres of the pile of a stacking, from its regions. `None` if there is no such pile.
 fn spheres(anchor: Anchor, signs: &[i64]) -> Option<BigUint> {
     let sign = |sign: &i64| if *sign > 0 { Sign::Plus } else { Sign::Minus };
     let mut layers = match anchor {
@@ -356,7 +357,7 @@ fn spheres(anchor: Anchor, signs: &[i64]) -> Option<BigUint> {
 }
 
 #[test]
-fn a_base_carries_those_stackings_of_which_a_top_is_left() {
+fn bases_support_stackings_with_a_top_layer() {
     let bases = [(5, 1), (6, 1), (3, 3), (4, 2)].map(|(p, q)| Region::hexagon(p, q).unwrap());
     for base in bases {
         for steps in 0..=5 {
@@ -379,7 +380,7 @@ fn a_base_carries_those_stackings_of_which_a_top_is_left() {
     }
 }
 
-/// Where there are millions of stackings and no list of them.
+/// A number of stackings that is too large to enumerate.
 #[test]
 fn many_layers() {
     let stackings = RandomStackings::new(41, FirstSign::Plus).unwrap();

@@ -1,4 +1,4 @@
-//! Every theorem on random stackings holds of the crate's formulas, says what it is about, and refuses wrong formulas.
+//! Tests of the theorems: each holds for the formulas of this crate, names its subject, and rejects wrong formulas.
 
 mod faults;
 
@@ -10,7 +10,7 @@ use cannonpile_disorder::theorem::{Formulas, Theorem};
 use cannonpile_testkit::proofs;
 use cannonpile_testkit::proofs::Attempts;
 
-/// Every theorem with what becomes of its proof, for each fault: for all tests once.
+/// Every theorem with the result of its proof for each fault, computed once for all tests.
 static ATTEMPTS: LazyLock<Attempts<Formulas>> =
     LazyLock::new(|| Attempts::new(theorem::all(), faults::all()));
 
@@ -33,7 +33,7 @@ fn names_are_unique_and_found() {
     assert!(theorem::find("").is_none());
 }
 
-/// What each statement must name.
+/// The text that each statement must contain.
 const SUBJECTS: [(&str, &str); 10] = [
     ("resultant-form", "do without the signs"),
     ("squares", "Σf² = Σg² + 2nΣg + 3n²"),
@@ -52,18 +52,18 @@ fn statements_name_their_subject_and_method() {
     proofs::name_subject_and_method(&theorems(), &SUBJECTS);
 }
 
-/// A fault is refused by the theorems it is said to break, and by no others.
+/// Each fault is rejected by exactly the listed theorems.
 #[test]
-fn faults_are_refused() {
-    ATTEMPTS.fail_as_listed();
+fn faults_are_rejected() {
+    ATTEMPTS.are_refused_as_said();
 }
 
 #[test]
-fn every_theorem_refuses_a_fault() {
-    ATTEMPTS.every_theorem_has_a_fault();
+fn every_theorem_rejects_a_fault() {
+    ATTEMPTS.every_theorem_refuses_one();
 }
 
-/// Fields by name; one that is missing does not compile.
+/// Lists the fields by name. A missing field is a compile error.
 macro_rules! fields {
     ($($field:ident)*) => {{
         let Formulas { core: _, $($field: _),* } = Formulas::<cannonpile::scalar::Polynomial>::LIBRARY;
@@ -73,7 +73,7 @@ macro_rules! fields {
 
 /// The formulas of the core have their own test.
 #[test]
-fn every_formula_is_put_wrong() {
+fn every_formula_has_a_fault() {
     let fields = fields! {
         third_moment fourth_moment fourth_moment_of_pair mean_third_moment mean_fourth_moment_of_pairs wave registry_excess
     };
@@ -81,19 +81,19 @@ fn every_formula_is_put_wrong() {
     assert_eq!(wrong, BTreeSet::from(fields));
 }
 
-/// No step is idle: each is broken by some fault.
+/// Each step of each proof is broken by some fault.
 #[test]
-fn every_step_refuses_a_fault() {
-    ATTEMPTS.every_step_has_a_fault();
+fn every_step_rejects_a_fault() {
+    ATTEMPTS.every_step_refuses_one();
 }
 
-/// The printed proof says that it fails, where it does.
+/// The printed proof reports its failure.
 #[test]
-fn a_refuted_proof_is_listed_as_such() {
-    ATTEMPTS.report_failures();
+fn refuted_proofs_are_reported() {
+    ATTEMPTS.are_listed_as_refuted();
 }
 
-/// How many steps each proof has, counted by cases.
+/// The number of steps of each proof, counted by cases.
 const STEPS: [(&str, usize); 10] = [
     ("resultant-form", 6),
     ("squares", 5),
@@ -107,9 +107,9 @@ const STEPS: [(&str, usize); 10] = [
     ("registry", 6),
 ];
 
-/// As many steps as there are cases: none is passed over.
+/// The number of steps equals the number of cases.
 #[test]
-fn no_case_is_left_out() {
+fn proofs_cover_all_cases() {
     proofs::have_steps(&theorems(), &STEPS);
 }
 

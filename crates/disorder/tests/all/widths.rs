@@ -1,4 +1,4 @@
-//! The integers are as wide as they have to be: 64 bits, 128 bits or any number, with one answer.
+//! The width of the integers: 64 bits, 128 bits and big integers give the same results.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
@@ -13,9 +13,9 @@ fn power(bits: usize) -> BigRational {
     BigRational::from_integer(BigInt::one() << bits)
 }
 
-/// A load as heavy or as fine as this makes the numbers longer, and changes nothing else.
+/// A very large or very small load leads to longer integers, and scales the results.
 #[test]
-fn answers_scale_with_the_load() {
+fn results_scale_with_the_load() {
     let stackings = RandomStackings::new(10, FirstSign::Random).unwrap();
     let loaded = |load: &BigRational| {
         let plane = RandomPiles::plane(stackings).weightless();
@@ -27,7 +27,7 @@ fn answers_scale_with_the_load() {
     let one = ratio(1, 1);
     let by_one = by_faults(&loaded(&one)).unwrap();
     let exact = by_place(loaded(&one).exact(&ratio(3, 7)).unwrap());
-    // Sums of 9 steps take some 25 bits: every width, and both sides of where the next one is needed.
+    // Sums of 9 steps have about 25 bits. The loads cover every width, and both sides of each limit.
     for bits in (1..=130).chain([300]) {
         for load in [power(bits), power(bits).recip() * ratio(1, 3)] {
             let piles = loaded(&load);
@@ -50,9 +50,9 @@ fn answers_scale_with_the_load() {
     }
 }
 
-/// Probabilities with long denominators make the same means as polynomials.
+/// Probabilities with long denominators agree with the polynomials.
 #[test]
-fn fine_probabilities() {
+fn long_denominators_agree() {
     let piles = Piles::heavy(Anchor::Top(Region::SITE), 6, FirstSign::Plus)
         .piles()
         .unwrap();
@@ -67,9 +67,9 @@ fn fine_probabilities() {
     }
 }
 
-/// At the depths where the widths change the sums are whole.
+/// At the depths where the width changes the sums are still correct.
 #[test]
-fn deep_enough_for_each_width() {
+fn sums_are_correct_for_each_width() {
     for steps in [25, 26, 27, 28, 29, 30] {
         let piles = Piles::response(steps, FirstSign::Plus).piles().unwrap();
         let answer = piles.by_faults().unwrap();

@@ -1,4 +1,5 @@
-//! Tallies against plain enumeration: every stacking made as a pile, its forces asked for one by one, and counted.
+//! Comparison of tallies with plain enumeration: each stacking is built as a pile, and its forces are computed one by
+//! one.
 
 use cannonpile::census;
 use cannonpile::lattice::Region;
@@ -12,7 +13,7 @@ use num_traits::Zero;
 use super::{AnyError, held, ratio};
 use cannonpile_testkit::tally::{Counted, Scene, all_signs, counted, text};
 
-fn is_as_enumerated(case: &Scene, steps: u32) -> Result<(), Error> {
+fn agrees_with_enumeration(case: &Scene, steps: u32) -> Result<(), Error> {
     let tally = case.ensemble(steps)?.run(&Choice::All, Shard::WHOLE)?;
     let expected = case.counted(steps)?;
     assert_eq!(counted(&tally), expected, "{} {steps}", case.top);
@@ -22,59 +23,59 @@ fn is_as_enumerated(case: &Scene, steps: u32) -> Result<(), Error> {
 const FIRST: [FirstSign; 3] = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
 
 #[test]
-fn of_tops_under_their_weight() -> Result<(), Error> {
+fn tallies_under_gravity_agree() -> Result<(), Error> {
     for (top, most) in [("hexagon:1", 7), ("hexagon:3", 5), ("triangle:3", 6)] {
         for first in FIRST {
             for steps in 0..=most {
-                is_as_enumerated(&Scene::of(top, first), steps)?;
+                agrees_with_enumeration(&Scene::of(top, first), steps)?;
             }
         }
     }
-    // Bounds of another corner, of no symmetry.
+    // The bounds are those of another corner, without symmetry.
     for first in FIRST {
-        is_as_enumerated(&Scene::of("region:-2..1,3..5,2..5", first), 4)?;
+        agrees_with_enumeration(&Scene::of("region:-2..1,3..5,2..5", first), 4)?;
     }
     Ok(())
 }
 
 #[test]
-fn of_loads() -> Result<(), Error> {
+fn tallies_with_loads_agree() -> Result<(), Error> {
     for first in FIRST {
         let mut case = Scene::of("hexagon:2", first);
-        // In the middle, where they are their own mirror image, and then not.
+        // A load in the middle is its own mirror image, and other loads are not.
         case.loads.push(([0, 0], ratio(5, 7)));
         case.width = ratio(2, 5);
-        is_as_enumerated(&case, 5)?;
+        agrees_with_enumeration(&case, 5)?;
         case.loads.push(([1, 0], ratio(1, 4)));
-        is_as_enumerated(&case, 5)?;
+        agrees_with_enumeration(&case, 5)?;
         case.loads.push(([-1, 0], ratio(1, 4)));
-        is_as_enumerated(&case, 4)?;
+        agrees_with_enumeration(&case, 4)?;
         case.weightless = true;
         case.width = ratio(1, 24);
-        is_as_enumerated(&case, 5)?;
-        // No turn leads these two to their mirror image.
+        agrees_with_enumeration(&case, 5)?;
+        // No rotation maps these two to their mirror image.
         let mut case = Scene::of("hexagon:2", first);
         case.loads = [[1, 0], [0, 1]].map(|at| (at, ratio(1, 4))).into();
-        is_as_enumerated(&case, 4)?;
+        agrees_with_enumeration(&case, 4)?;
     }
     Ok(())
 }
 
-/// Numerators of a load with a great denominator take 128 bits, and of a greater one any number.
+/// A load with a large denominator leads to 128-bit numerators, and a larger one to big integers.
 #[test]
-fn in_wide_numbers() -> Result<(), Error> {
+fn tallies_in_wide_integers_agree() -> Result<(), Error> {
     for digits in [9, 18, 60] {
         let mut case = Scene::of("triangle:2", FirstSign::Random);
         let great = num_traits::pow(ratio(10, 1), digits) + ratio(1, 1);
         case.loads.push(([1, 0], ratio(3, 1) / great));
-        is_as_enumerated(&case, 5)?;
+        agrees_with_enumeration(&case, 5)?;
     }
     Ok(())
 }
 
-/// Of long stackings: some of the shard are enough.
+/// For long stackings some stackings of the shard are checked.
 #[test]
-fn of_parts() -> Result<(), Error> {
+fn tallies_of_shards_agree() -> Result<(), Error> {
     let case = Scene::of("hexagon:1", FirstSign::Plus);
     let ensemble = case.ensemble(9)?;
     let (mut from, of) = (0, 7);
@@ -99,10 +100,10 @@ fn of_parts() -> Result<(), Error> {
     Ok(())
 }
 
-/// Of a response the greatest force is below the top layer, and no other is as great if the sign changes at once. So of parts that begin so it
-/// is the beginning that has it, and the first stacking that goes on from it is named.
+/// In the response to a load the greatest force is directly below the top layer, and it occurs only in stackings with
+/// that beginning. So its first stacking is the first one of the shard with that beginning.
 #[test]
-fn of_parts_of_a_response() -> Result<(), Error> {
+fn tallies_of_shards_of_a_response_agree() -> Result<(), Error> {
     let mut scene = Scene::of("hexagon:1", FirstSign::Plus);
     scene.loads.push(([0, 0], ratio(1, 1)));
     scene.weightless = true;
@@ -122,7 +123,7 @@ fn of_parts_of_a_response() -> Result<(), Error> {
 }
 
 #[test]
-fn as_many_stand_as_in_the_census() -> Result<(), Error> {
+fn standing_counts_agree_with_the_census() -> Result<(), Error> {
     for layers in 1..=12 {
         let census = census::under_one_sphere(layers, false)?.count();
         for (first, pairs) in [
@@ -137,7 +138,7 @@ fn as_many_stand_as_in_the_census() -> Result<(), Error> {
             for (d, with) in (0..).zip(&tally.faults) {
                 assert_eq!(with.all.stackings, stackings.count_with(d)?);
             }
-            // At q = ½ all are equally likely.
+            // At q = ½ all stackings are equally likely.
             let probability = tally.standing_probability(By::Sloping, &ratio(1, 2))?;
             let standing = BigRational::from_integer((census * pairs).into());
             let all = BigRational::from_integer(tally.stackings().into());
@@ -148,7 +149,7 @@ fn as_many_stand_as_in_the_census() -> Result<(), Error> {
 }
 
 #[test]
-fn probabilities_are_sums_over_stackings() -> Result<(), Error> {
+fn standing_probabilities_agree() -> Result<(), Error> {
     let q = ratio(2, 7);
     for first in FIRST {
         let case = Scene::of("triangle:3", first);
@@ -174,7 +175,7 @@ fn probabilities_are_sums_over_stackings() -> Result<(), Error> {
 }
 
 #[test]
-fn as_many_stand_with_horizontal_contacts() -> Result<(), AnyError> {
+fn counts_with_horizontal_contacts_agree() -> Result<(), AnyError> {
     for layers in 1..=9 {
         let stackings = RandomStackings::new(layers, FirstSign::Random)?;
         let ensemble = Ensemble::under(Region::SITE, stackings)?.with_horizontal_contacts()?;
@@ -186,7 +187,7 @@ fn as_many_stand_with_horizontal_contacts() -> Result<(), AnyError> {
             Some((census * pairs).into())
         );
     }
-    // Another top, each pile for itself; a load that is not its own mirror image.
+    // For another top layer each pile is computed on its own. The load is not its own mirror image.
     let mut case = Scene::of("triangle:2", FirstSign::Random);
     case.loads.push(([0, 0], ratio(1, 2)));
     let ensemble = case.ensemble(5)?.with_horizontal_contacts()?;
@@ -203,10 +204,10 @@ fn as_many_stand_with_horizontal_contacts() -> Result<(), AnyError> {
     Ok(())
 }
 
-/// Two layers have three forces of 1 and three normal forces of 4/3, all in the bin of 0; three widths must fit into a
-/// number.
+/// Two layers have three contact forces of 1 and three normal forces of 4/3, all in bin 0. Three widths have to fit in
+/// an integer.
 #[test]
-fn of_bins_as_wide_as_numbers_hold() -> Result<(), Error> {
+fn widths_of_bins_at_the_integer_limits() -> Result<(), Error> {
     for (width, exponent) in [
         (3, 18),
         (4, 18),
@@ -218,7 +219,7 @@ fn of_bins_as_wide_as_numbers_hold() -> Result<(), Error> {
     ] {
         let width = num_traits::pow(ratio(10, 1), exponent) * ratio(width, 1);
         let stackings = RandomStackings::new(2, FirstSign::Plus)?;
-        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bins(width.clone())?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bin_width(width.clone())?;
         let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
         let all = &tally.faults[0].all;
         for histogram in [&all.forces, &all.normals] {
@@ -229,41 +230,43 @@ fn of_bins_as_wide_as_numbers_hold() -> Result<(), Error> {
     Ok(())
 }
 
-/// What a single sphere bears is the sum of three forces, and so three times as great.
+/// The normal force of a single sphere has the numerator of three forces.
 #[test]
-fn of_loads_as_great_as_numbers_hold() -> Result<(), Error> {
+fn loads_at_the_integer_limits() -> Result<(), Error> {
     for (load, exponent) in [(29, 17), (32, 17), (5, 37), (6, 37)] {
         let unit = num_traits::pow(ratio(10, 1), exponent);
         let stackings = RandomStackings::new(1, FirstSign::Plus)?;
         let ensemble = Ensemble::under(Region::SITE, stackings)?.weightless();
         let ensemble = ensemble.with_load([0, 0], &unit * ratio(load, 1))?;
-        let tally = ensemble.with_bins(unit)?.run(&Choice::All, Shard::WHOLE)?;
+        let tally = ensemble
+            .with_bin_width(unit)?
+            .run(&Choice::All, Shard::WHOLE)?;
         let normals = &tally.faults[0].all.normals;
         assert_eq!((normals.first, normals.counts.len()), (load, 1));
     }
     Ok(())
 }
 
-/// In units of its denominator it is greater than a machine integer.
+/// In units of its denominator the force exceeds a machine integer.
 #[test]
-fn of_a_load_with_a_great_denominator() -> Result<(), Error> {
+fn load_with_a_large_denominator() -> Result<(), Error> {
     let stackings = RandomStackings::new(1, FirstSign::Plus)?;
     let ensemble = Ensemble::under(Region::SITE, stackings)?.weightless();
     let load = ratio(3_000_000_000, 1) + ratio(1, 10_000_000_019);
     let ensemble = ensemble.with_load([0, 0], load)?;
-    let bins = ensemble.with_bins(ratio(1_000_000, 1))?;
+    let bins = ensemble.with_bin_width(ratio(1_000_000, 1))?;
     let tally = bins.run(&Choice::All, Shard::WHOLE)?;
     let normals = &tally.faults[0].all.normals;
     assert_eq!((normals.first, normals.counts.len()), (3_000, 1));
     Ok(())
 }
 
-/// No force of a single sphere is greater than 2, so that 10⁵ bins from −2 to 2 are 1/25000 wide; it bears 1.
+/// No force of a single sphere exceeds 2. So 10⁵ bins from −2 to 2 have the width 1/25000. The normal force is 1.
 #[test]
-fn as_many_bins_as_there_may_be() -> Result<(), Error> {
+fn bins_are_limited() -> Result<(), Error> {
     let of = |width| {
         let stackings = RandomStackings::new(1, FirstSign::Plus)?;
-        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bins(width)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bin_width(width)?;
         ensemble.run(&Choice::All, Shard::WHOLE)
     };
     let tally = of(ratio(1, 25_000))?;
@@ -277,16 +280,17 @@ fn as_many_bins_as_there_may_be() -> Result<(), Error> {
     Ok(())
 }
 
-/// The most spheres of each of so many layers under one: after p + steps and m − steps a hexagon of p + 1 and m + 1 spheres.
+/// Returns the greatest number of spheres of each layer under one sphere. After p + steps and m − steps the layer is a
+/// hexagon with sides of p + 1 and m + 1 spheres.
 fn spheres(layers: u64) -> u64 {
     let hexagon = |p: u64, q: u64| (p * p + q * q + 4 * p * q + 2 - 3 * p - 3 * q) / 2;
     let most = |k: u64| (0..=k).map(|plus| hexagon(plus + 1, k - plus + 1)).max();
     (0..layers).map(|k| most(k).unwrap()).sum()
 }
 
-/// Six numbers for each sphere, each as long as the forces can get.
+/// Each sphere stores six numbers, each as long as the bound of the forces.
 #[test]
-fn what_is_too_large_says_how_large() -> Result<(), Error> {
+fn size_errors_state_the_size() -> Result<(), Error> {
     let one = Choice::Drawn(Samples::new(1, 1, ratio(1, 2))?);
     let needed = |ensemble: &Ensemble| match ensemble.size(&one, Shard::WHOLE) {
         Err(Error::Core(cannonpile::Error::TooLarge { needed, limit, .. })) => {
@@ -295,11 +299,12 @@ fn what_is_too_large_says_how_large() -> Result<(), Error> {
         }
         other => panic!("{other:?}"),
     };
-    // A hexagon of 4000 has 3·4000·3999 + 1 spheres.
+    // A hexagon of side 4000 has 3·4000·3999 + 1 spheres.
     let stackings = RandomStackings::new(3, FirstSign::Plus)?;
     let wide = Ensemble::under("hexagon:4000".parse()?, stackings)?;
     assert_eq!(needed(&wide), 6 * (3 * 4000 * 3999 + 1));
-    // A load of 2^−1640, 17 bits for forces, and 3^108 for changes of sign: 28 words and a half, and five to keep them.
+    // The load is 2^−1640, the forces have 17 bits, and the sign changes need a factor of 3^108. This makes 28.5 words,
+    // and five more to store them.
     let stackings = RandomStackings::new(110, FirstSign::Plus)?;
     let load = num_traits::pow(ratio(1, 2), 1640);
     let fine = Ensemble::under(Region::SITE, stackings)?.with_load([0, 0], load)?;
@@ -308,10 +313,10 @@ fn what_is_too_large_says_how_large() -> Result<(), Error> {
 }
 
 #[test]
-fn what_is_too_much_is_refused() -> Result<(), Error> {
+fn large_ensembles_are_rejected() -> Result<(), Error> {
     let run = |top: &str, layers, width, shard| {
         let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
-        let ensemble = Ensemble::under(top.parse()?, stackings)?.with_bins(width)?;
+        let ensemble = Ensemble::under(top.parse()?, stackings)?.with_bin_width(width)?;
         ensemble.run(&Choice::All, shard)
     };
     for (top, layers, width, expected) in [
@@ -319,9 +324,9 @@ fn what_is_too_much_is_refused() -> Result<(), Error> {
             "hexagon:1",
             27,
             ratio(1, 3),
-            "33554432 stackings are too many to go through at a time, at most 16777216: draw samples, take a smaller shard, or fewer layers",
+            "33554432 stackings exceed the limit of 16777216 for one run; draw samples, or use a smaller shard or fewer layers",
         ),
-        ("hexagon:1", 200, ratio(1, 3), "stackings are too many"),
+        ("hexagon:1", 200, ratio(1, 3), "stackings exceed the limit"),
         (
             "hexagon:1",
             10_i128.pow(30),
@@ -346,7 +351,7 @@ fn what_is_too_much_is_refused() -> Result<(), Error> {
             .to_string();
         assert!(error.contains(expected), "{error}");
     }
-    // A part of them is no more than the whole of fewer layers.
+    // A shard has the same limit as the whole of fewer layers.
     let part = run("hexagon:1", 30, ratio(1, 3), Shard::new(1, 1 << 22)?)?;
     assert_eq!(part.stackings(), 64_u32.into());
     assert_eq!(part.standing_probability(By::Sloping, &ratio(1, 2))?, None);

@@ -1,4 +1,4 @@
-//! Parts: cut up in any way they come to the whole, and what is no part of it is refused by name.
+//! Shards: any division merges into the whole, and errors name the tally that does not belong to it.
 
 use cannonpile_disorder::{
     Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard, Tally, TallyRecord,
@@ -21,7 +21,7 @@ fn drawn(count: u64, seed: u64, q: BigRational) -> Result<Choice, Error> {
 }
 
 #[test]
-fn cut_up_in_any_way() -> Result<(), Error> {
+fn all_divisions_merge_into_the_whole() -> Result<(), Error> {
     let choices = [Choice::All, drawn(9000, 1, ratio(1, 3))?];
     for (top, layers) in [("hexagon:1", 10), ("triangle:2", 6), ("hexagon:1", 1)] {
         let ensemble = ensemble(top, layers)?;
@@ -30,7 +30,7 @@ fn cut_up_in_any_way() -> Result<(), Error> {
             for of in [1, 2, 3, 5, 64, 700] {
                 let parts = (1..=of).map(|index| ensemble.run(choice, Shard::new(index, of)?));
                 let mut parts = parts.collect::<Result<Vec<_>, _>>()?;
-                // In another order than that of their numbers.
+                // Merging accepts the shards in any order.
                 parts.sort_by_key(|part| part.shard.index() * 389 % of);
                 assert_eq!(Tally::merge(&parts).as_ref(), Ok(&whole), "{top} {of}");
             }
@@ -39,9 +39,9 @@ fn cut_up_in_any_way() -> Result<(), Error> {
     Ok(())
 }
 
-/// More parts than samples: some have none, of a single layer too.
+/// If there are more shards than samples, some shards are empty. A single layer works too.
 #[test]
-fn parts_of_nothing() -> Result<(), Error> {
+fn empty_shards_merge() -> Result<(), Error> {
     for layers in [1, 2, 4] {
         let ensemble = ensemble("hexagon:1", layers)?;
         for choice in [Choice::All, drawn(2, 1, ratio(1, 3))?] {
@@ -60,7 +60,7 @@ fn parts_of_nothing() -> Result<(), Error> {
 }
 
 #[test]
-fn what_is_no_part_is_refused() -> Result<(), Error> {
+fn foreign_tallies_are_rejected() -> Result<(), Error> {
     let load = |ensemble: Ensemble| ensemble.with_load([0, 0], ratio(1, 2));
     let this = || load(ensemble("hexagon:2", 4)?);
     let choice = drawn(90, 7, ratio(1, 3))?;
@@ -102,7 +102,7 @@ fn what_is_no_part_is_refused() -> Result<(), Error> {
             ["weight of spheres", "0", "1"],
         ),
         (
-            this()?.with_bins(ratio(1, 2))?,
+            this()?.with_bin_width(ratio(1, 2))?,
             choice.clone(),
             second,
             ["width of bins", "1/2", "1/3"],
@@ -153,9 +153,10 @@ fn what_is_no_part_is_refused() -> Result<(), Error> {
     Ok(())
 }
 
-/// ⌊128 I/3⌋ and so on; one of two mirror images is looked at where both have the same forces, and every sample.
+/// A shard starts at ⌊128 I/3⌋. If mirror images have the same forces, one of each pair is computed. All samples are
+/// computed.
 #[test]
-fn a_part_is_as_large_as_it_says() -> Result<(), Error> {
+fn sizes_of_shards() -> Result<(), Error> {
     let sizes = |top: &str, choice: &Choice, of: u64| -> Result<Vec<u64>, Error> {
         let ensemble = ensemble(top, 9)?;
         let size = |index| ensemble.size(choice, Shard::new(index, of)?);
@@ -173,9 +174,10 @@ fn a_part_is_as_large_as_it_says() -> Result<(), Error> {
     Ok(())
 }
 
-/// A load on each of these sites of a top layer, and whether the whole is its own mirror image: then of 16 stackings 8 are looked at.
+/// For each list of sites with a load: whether the top layer is its own mirror image. Then 8 of 16 stackings are
+/// computed.
 #[test]
-fn loads_are_their_own_mirror_image_or_not() -> Result<(), Error> {
+fn mirror_symmetry_of_loads() -> Result<(), Error> {
     let hexagon = "hexagon:2";
     let elsewhere = "region:1..3,-6..-4,-4..-2";
     let same: [(&str, &[[i128; 2]]); 6] = [
@@ -206,7 +208,7 @@ fn loads_are_their_own_mirror_image_or_not() -> Result<(), Error> {
     };
     for (top, sites) in same {
         assert_eq!(looked_at((top, sites), ratio(1, 2))?, 8, "{top} {sites:?}");
-        // As many loads, of which one is another.
+        // The same number of loads, one of which differs.
         let expected = if sites.len() > 1 { 16 } else { 8 };
         let found = looked_at((top, sites), ratio(1, 3))?;
         assert_eq!(found, expected, "{top} {sites:?}");
@@ -217,9 +219,9 @@ fn loads_are_their_own_mirror_image_or_not() -> Result<(), Error> {
     Ok(())
 }
 
-/// Places of stackings are counted in 62 bits; beyond that not even a small part of them has any.
+/// Indices of stackings are limited to 62 bits. Beyond that even a small shard is rejected.
 #[test]
-fn a_part_of_more_stackings_than_are_counted_is_refused() {
+fn size_of_shards_is_limited() {
     let size = |layers, of| {
         let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
         let ensemble = Ensemble::under("hexagon:1".parse()?, stackings)?;
@@ -238,16 +240,16 @@ fn a_part_of_more_stackings_than_are_counted_is_refused() {
     };
     refused(64, 1 << 45, 1 << 62);
     refused(80, 1 << 63, 1 << 78);
-    // As large as a part may be, and one larger.
+    // The largest possible shard, and one that is larger by one.
     assert_eq!(size(26, 1), Ok(1 << 24));
     assert_eq!(size(27, 2), Ok(1 << 24));
     refused(27, 1, 1 << 25);
     refused(31, 31, (1 << 29) / 31);
 }
 
-/// The first twenty are named.
+/// The message names the first twenty.
 #[test]
-fn many_missing_parts_are_named_as_far_as_twenty() -> Result<(), Error> {
+fn errors_name_twenty_missing_parts() -> Result<(), Error> {
     for (of, names) in [(2, 1), (3, 2), (21, 20), (22, 20), (40, 20)] {
         let part = ensemble("hexagon:1", 3)?.run(&Choice::All, Shard::new(1, of)?)?;
         let missing = Tally::merge(&[part]).unwrap_err();
@@ -266,7 +268,7 @@ fn many_missing_parts_are_named_as_far_as_twenty() -> Result<(), Error> {
 }
 
 #[test]
-fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
+fn missing_and_repeated_parts_are_named() -> Result<(), Error> {
     let part = |index| ensemble("hexagon:2", 4)?.run(&Choice::All, Shard::new(index, 3)?);
     let begin = part(1)?;
     let third = part(3)?;
@@ -292,7 +294,7 @@ fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
         }
     );
     assert_eq!(Tally::merge(&[]), Err(Unmergeable::Nothing));
-    // As a file would have it that was cut, or changed.
+    // Tallies as from a truncated or edited file.
     let mut cut = begin;
     cut.faults.pop();
     assert_eq!(
@@ -302,13 +304,13 @@ fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
     Ok(())
 }
 
-/// What is changed in the counts of a number of faults.
+/// An edit of the counts of one number of faults.
 type Change = fn(&mut WithFaults);
 
-/// Bins as far out as a run may have them, of a number that is there; not one further, and none without the number it begins or ends
-/// with.
+/// Bins at the limit are accepted if the extremes match. Bins beyond the limit, and bins without matching extremes, are
+/// rejected.
 #[test]
-fn bins_that_no_run_can_have_are_refused() -> Result<(), Error> {
+fn impossible_bins_are_rejected() -> Result<(), Error> {
     let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
     let changed_of = |faults: usize, change: &dyn Fn(&mut WithFaults)| {
         let mut changed = whole.clone();
@@ -359,7 +361,7 @@ fn bins_that_no_run_can_have_are_refused() -> Result<(), Error> {
         let count = std::mem::take(&mut counts[last]);
         counts[last - 1] += count;
     }));
-    // With three faults none stands: without numbers there is no first bin, and no end.
+    // With three faults no stacking stands. Its empty histogram has no first bin.
     assert!(whole.faults[3].standing.normals.counts.is_empty());
     assert!(changed_of(3, &|_| {}));
     let refused: [Change; 4] = [
@@ -374,9 +376,9 @@ fn bins_that_no_run_can_have_are_refused() -> Result<(), Error> {
     Ok(())
 }
 
-/// Bins that no run has are counted as they are, though the last one ends beyond all that counts them.
+/// A histogram with impossible bins can be read without overflow.
 #[test]
-fn bins_at_the_end_of_the_numbers_are_counted() -> Result<(), Error> {
+fn bins_at_the_integer_limits() -> Result<(), Error> {
     let mut tally = ensemble("triangle:1", 2)?.run(&Choice::All, Shard::WHOLE)?;
     let bins = &mut tally.faults[0].all.forces;
     bins.first = i64::MAX;
@@ -387,9 +389,9 @@ fn bins_at_the_end_of_the_numbers_are_counted() -> Result<(), Error> {
     Ok(())
 }
 
-/// As a file would have it in which numbers were changed by hand.
+/// Tallies as from a file with edited numbers.
 #[test]
-fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
+fn impossible_counts_are_rejected() -> Result<(), Error> {
     let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
     assert_eq!(
         Tally::merge(std::slice::from_ref(&whole)).as_ref(),
@@ -429,7 +431,7 @@ fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
         change(&mut changed.faults[1]);
         refused(name, changed);
     }
-    // As many in all, but more of a number of faults than there are.
+    // The total is right, but one number of faults has too many stackings.
     let mut changed = whole;
     changed.faults[1].all.stackings += 1_u32;
     changed.faults[2].all.stackings -= 1_u32;
@@ -438,14 +440,14 @@ fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
 }
 
 #[test]
-fn a_file_of_another_fault_probability_is_refused() -> Result<(), Box<dyn std::error::Error>> {
+fn files_with_another_fault_probability_are_rejected() -> Result<(), Box<dyn std::error::Error>> {
     let q = ratio(1, 3);
     for (choice, wrong, said) in [
         (Choice::All, "7/3", "at least 0 and at most 1, not 7/3"),
         (
             drawn(9, 1, q.clone())?,
             "1/4",
-            "another fault probability, 1/3",
+            "the fault probability 1/3, not",
         ),
     ] {
         let tally = ensemble("hexagon:1", 5)?.run(&choice, Shard::WHOLE)?;
@@ -466,7 +468,7 @@ fn a_file_of_another_fault_probability_is_refused() -> Result<(), Box<dyn std::e
 }
 
 #[test]
-fn more_held_than_there_are_or_fewer_than_stand_is_refused() -> Result<(), AnyError> {
+fn impossible_counts_with_horizontal_contacts_are_rejected() -> Result<(), AnyError> {
     let touching = ensemble("hexagon:1", 6)?.with_horizontal_contacts()?;
     let whole = held(&touching, &Choice::All, Shard::WHOLE)?;
     assert_eq!(
@@ -487,7 +489,7 @@ fn more_held_than_there_are_or_fewer_than_stand_is_refused() -> Result<(), AnyEr
 }
 
 #[test]
-fn another_spacing_is_refused() -> Result<(), AnyError> {
+fn another_spacing_is_rejected() -> Result<(), AnyError> {
     let part = |index| -> Result<_, Error> {
         ensemble("hexagon:1", 5)?.run(&Choice::All, Shard::new(index, 2)?)
     };
@@ -497,7 +499,7 @@ fn another_spacing_is_refused() -> Result<(), AnyError> {
     assert!(
         refused
             .to_string()
-            .starts_with("another spacing than that of the first part, 1 and not above 1:")
+            .starts_with("the spacing is 1, but above 1 in the first part;")
     );
     let parts =
         [1, 2].map(|index| held(&touching, &Choice::All, Shard::new(index, 2).unwrap()).unwrap());

@@ -1,4 +1,4 @@
-//! Samples: which stackings they are, and that they depend on nothing but the seed and their number.
+//! Samples: which stackings they are, and their dependence on the seed and the index only.
 
 use cannonpile::lattice::{Region, Sign};
 use cannonpile_disorder::{
@@ -14,7 +14,7 @@ fn big((a, b): (u64, u64)) -> BigRational {
     BigRational::new(a.into(), b.into())
 }
 
-/// The signs of a sample of the library: it is the only one of its part.
+/// Returns the signs of a sample of the library. It is the only one of its shard.
 fn drawn(ensemble: &Ensemble, samples: &Samples, n: u64) -> Result<Vec<Sign>, Error> {
     let shard = Shard::new(n + 1, samples.count())?;
     let tally = ensemble.run(&Choice::Drawn(samples.clone()), shard)?;
@@ -29,13 +29,13 @@ fn drawn(ensemble: &Ensemble, samples: &Samples, n: u64) -> Result<Vec<Sign>, Er
 }
 
 #[test]
-fn samples_are_what_is_documented() -> Result<(), Error> {
+fn samples_follow_the_documentation() -> Result<(), Error> {
     let cases = [
         (0, (1, 2), FirstSign::Random),
         (1, (1, 3), FirstSign::Plus),
         (u64::MAX, (5, 7), FirstSign::Minus),
         (77, (u64::MAX / 3, u64::MAX - 58), FirstSign::Random),
-        // One word in four is passed over.
+        // One word in four is discarded.
         (5, (1 << 62, (3 << 62) + 1), FirstSign::Random),
         (5, (0, 1), FirstSign::Random),
         (5, (1, 1), FirstSign::Random),
@@ -50,14 +50,14 @@ fn samples_are_what_is_documented() -> Result<(), Error> {
             assert_eq!(drawn(&ensemble, &samples, n)?, expected, "{seed} {n}");
         }
     }
-    // The last sample that has a number.
+    // The last possible sample.
     let ensemble = Ensemble::under(Region::SITE, RandomStackings::new(6, FirstSign::Random)?)?;
     let samples = Samples::new(u64::MAX, 3, big((1, 3)))?;
     for n in [u64::MAX - 1, u64::MAX - 8193] {
         let expected = sample(3, n, (1, 3), FirstSign::Random, 5);
         assert_eq!(drawn(&ensemble, &samples, n)?, expected, "{n}");
     }
-    // Forty layers take more than one block of the stream.
+    // Forty layers need more than one block of the keystream.
     let ensemble = Ensemble::under(Region::SITE, RandomStackings::new(40, FirstSign::Random)?)?;
     let samples = Samples::new(9, 4, big((1, 2)))?;
     assert_eq!(
@@ -67,9 +67,9 @@ fn samples_are_what_is_documented() -> Result<(), Error> {
     Ok(())
 }
 
-/// What many samples come to is what each of them comes to, in a tally that knows all stackings with their counts.
+/// The tally of samples is the sum over the samples of the tallies of single stackings.
 #[test]
-fn samples_are_counted_as_often_as_they_are_drawn() -> Result<(), Error> {
+fn repeated_samples_count_repeatedly() -> Result<(), Error> {
     let stackings = RandomStackings::new(6, FirstSign::Random)?;
     let ensemble = Ensemble::under("hexagon:2".parse()?, stackings)?;
     let samples = Samples::new(300, 9, ratio(1, 3))?;
@@ -94,9 +94,9 @@ fn samples_are_counted_as_often_as_they_are_drawn() -> Result<(), Error> {
     Ok(())
 }
 
-/// Samples of a few thousand come near to what is known exactly; the seed is fixed.
+/// A few thousand samples approximate the exact value. The seed is fixed.
 #[test]
-fn the_interval_holds_the_probability() -> Result<(), Error> {
+fn intervals_contain_the_probability() -> Result<(), Error> {
     for (top, layers) in [("hexagon:1", 6), ("triangle:3", 7)] {
         let stackings = RandomStackings::new(layers, FirstSign::Random)?;
         let ensemble = Ensemble::under(top.parse()?, stackings)?;
@@ -116,9 +116,9 @@ fn the_interval_holds_the_probability() -> Result<(), Error> {
     Ok(())
 }
 
-/// High piles: of 60 layers the numerators take 128 bits, of 90 big integers.
+/// Numerators of 60 layers need 128 bits, and those of 90 layers need big integers.
 #[test]
-fn high_piles() -> Result<(), Error> {
+fn samples_of_high_piles() -> Result<(), Error> {
     for layers in [45, 60, 90] {
         let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
         let ensemble = Ensemble::under(Region::SITE, stackings)?;

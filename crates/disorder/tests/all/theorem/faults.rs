@@ -1,4 +1,4 @@
-//! Wrong moments and waves of the response to a load.
+//! Wrong formulas for the moments and waves of the response to a load.
 
 use cannonpile::scalar::{Polynomial, Ring};
 use cannonpile_disorder::theorem::Formulas;
@@ -15,7 +15,7 @@ fn int(n: i128) -> P {
     P::from_i128(n)
 }
 
-/// Every fault: of the formulas of the core, and of those of this crate.
+/// Returns all faults, in the formulas of the core and of this crate.
 pub(super) fn all() -> impl Iterator<Item = Fault<Formulas>> {
     let lifted = |fault: Fault| Fault {
         what: fault.what,
@@ -30,7 +30,7 @@ pub(super) fn all() -> impl Iterator<Item = Fault<Formulas>> {
     of_the_core.chain(own())
 }
 
-/// Those of the formulas of this crate.
+/// Returns the faults in the formulas of this crate.
 pub(super) fn own() -> Vec<Fault<Formulas>> {
     faults! {
         "one less for the step itself": third_moment = |n, s| (RIGHT.third_moment)(n, s) - &P::one() => ["third-moment"];

@@ -1,4 +1,4 @@
-//! How far a load spreads: the moments of every stacking and of the mean, summed place by place, and the waves of the mean.
+//! Moments of every stacking and of the mean, compared with sums over all places, and the waves of the mean.
 
 use cannonpile::lattice::Sign;
 use cannonpile::stacking::Stacking;
@@ -10,12 +10,12 @@ use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::disorder::{Piles, probabilities};
 use cannonpile_testkit::oracles::one_by_one::faults;
 
-/// Σ v r², Σ v r³cos3φ and Σ v r⁴ below one stacking, sphere by sphere.
+/// Returns Σ v r², Σ v r³cos3φ and Σ v r⁴ below one stacking, summed over the spheres.
 fn summed(described: &Piles, signs: &[i64]) -> [BigRational; 3] {
     let mut sums = [(); 3].map(|()| BigRational::zero());
     for ([a, b], [normal, ..]) in described.bottom(signs) {
         let square = a * a - a * b + b * b;
-        // φ is measured from u_α, which leads to (−1, −1).
+        // φ is measured from u_α, the place (−1, −1).
         let twice_cube = 2 * (a * a * a + b * b * b) - 3 * a * b * (a + b);
         let powers = [
             ratio(square, 1),
@@ -42,7 +42,7 @@ fn stacking(signs: &[i64]) -> Stacking {
 }
 
 #[test]
-fn the_moments_of_a_stacking_are_sums_over_its_places() {
+fn moments_of_stackings_agree_with_sums() {
     for steps in 0..=5 {
         let described = Piles::response(steps, FirstSign::Random);
         for signs in described.stackings() {
@@ -50,7 +50,7 @@ fn the_moments_of_a_stacking_are_sums_over_its_places() {
             assert_eq!(found, summed(&described, &signs), "{signs:?}");
         }
     }
-    // In FCC three loads of 1/3 are at r = n.
+    // In FCC three loads of 1/3 have r = n.
     let fcc = Moments::of(&Stacking::fcc(41).unwrap()).unwrap();
     assert_eq!(
         of_library(fcc),
@@ -59,7 +59,7 @@ fn the_moments_of_a_stacking_are_sums_over_its_places() {
 }
 
 #[test]
-fn the_moments_of_the_mean_are_the_means_of_those_of_all_stackings() {
+fn moments_of_the_mean_agree_with_enumeration() {
     for first in [FirstSign::Plus, FirstSign::Minus, FirstSign::Random] {
         for steps in 0..=4 {
             let described = Piles::response(steps, first);
@@ -87,9 +87,9 @@ fn the_moments_of_the_mean_are_the_means_of_those_of_all_stackings() {
     }
 }
 
-/// 3n − 2 and n(2n³+2n²−2n+1)/3 where signs are independent, for as many layers as there may be.
+/// At q = 1/2 the signs are independent, and the moments are 3n − 2 and n(2n³+2n²−2n+1)/3, up to the limit of layers.
 #[test]
-fn moments_are_found_of_ten_thousand_layers_and_no_more() {
+fn moments_are_limited_to_ten_thousand_layers() {
     let half = ratio(1, 2);
     let of = |layers| RandomStackings::new(layers, FirstSign::Plus).unwrap();
     let n = ratio(9999, 1);
@@ -109,9 +109,9 @@ fn moments_are_found_of_ten_thousand_layers_and_no_more() {
     }
 }
 
-/// (1−q)/(16q) and (13q²−42q+21)/(768q²).
+/// a = (1−q)/(16q) and b = (13q²−42q+21)/(768q²).
 #[test]
-fn waves_are_damped_and_dispersed() {
+fn waves_have_the_documented_constants() {
     for (q, damping, dispersion) in [
         (ratio(1, 3), ratio(1, 8), ratio(19, 192)),
         (ratio(1, 2), ratio(1, 16), ratio(13, 768)),
@@ -120,7 +120,7 @@ fn waves_are_damped_and_dispersed() {
     ] {
         let wave = Wave::at(&q).unwrap().unwrap();
         assert_eq!((&wave.damping, &wave.dispersion), (&damping, &dispersion));
-        // (1−q)n/(8q).
+        // w² = (1−q)n/(8q).
         for n in [0, 1, 30] {
             let width = (ratio(1, 1) - &q) * ratio(n, 8) / &q;
             assert_eq!(wave.squared_width(n.into()), width);
@@ -130,7 +130,7 @@ fn waves_are_damped_and_dispersed() {
 }
 
 #[test]
-fn what_is_no_probability_has_no_moments_and_no_waves() {
+fn moments_and_waves_check_the_probability() {
     let stackings = RandomStackings::new(4, FirstSign::Plus).unwrap();
     for q in [ratio(-1, 9), ratio(10, 9)] {
         for refused in [

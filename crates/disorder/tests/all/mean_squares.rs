@@ -1,4 +1,4 @@
-//! Second moments: of all stackings one by one.
+//! The mean square of the response, compared with enumeration.
 
 use cannonpile::scalar::{Polynomial, Symbol};
 use cannonpile_disorder::FirstSign;
@@ -56,9 +56,9 @@ fn mean_squares_agree_with_enumeration() {
     }
 }
 
-/// 9^(d+1) Σ v², summed over the stackings with d faults.
+/// The reference values are 9^(d+1) Σ v², summed over the stackings with d faults.
 #[test]
-fn squares_by_faults() {
+fn mean_squares_by_faults() {
     let q = Polynomial::from(Symbol("q"));
     let straight = Polynomial::one() - &q;
     for (steps, squares) in [(1, vec![3]), (2, vec![3, 33]), (3, vec![3, 54, 435])] {
@@ -73,9 +73,9 @@ fn squares_by_faults() {
     }
 }
 
-/// Deep down loads and both components of the force share the squares evenly: 1/3, but 1/2 in HCP.
+/// At great depth the load and both horizontal components contribute equally: 1/3 each, but 1/2 for the load in HCP.
 #[test]
-fn squares_deep_down() {
+fn mean_squares_at_great_depth() {
     let piles = Piles::response(60, FirstSign::Plus).piles().unwrap();
     let [fcc, half, hcp] = [0.0, 0.5, 1.0].map(|q: f64| piles.mean_square(&q).unwrap());
     assert!((fcc - 1.0 / 3.0).abs() < 1e-13);
@@ -83,9 +83,9 @@ fn squares_deep_down() {
     assert!((hcp - 0.5).abs() < 0.05, "{hcp}");
 }
 
-/// Another sign of the half-turn, one half-turn instead of two, a place off by a step: each would show.
+/// Another probability or another number of steps changes the mean square.
 #[test]
-fn planted_faults_are_found() {
+fn planted_faults_are_detected() {
     let right = Piles::response(4, FirstSign::Plus);
     let piles = right.piles().unwrap();
     let q = ratio(1, 3);
@@ -96,9 +96,9 @@ fn planted_faults_are_found() {
     assert_ne!(enumerated(&longer, &q), squares);
 }
 
-/// Loads too far apart for any sphere to feel both: the squares add up, at whatever distance.
+/// If no sphere receives forces of both loads, the squares add up at every distance.
 #[test]
-fn of_loads_that_do_not_meet() {
+fn mean_squares_of_distant_loads_add_up() {
     for steps in [1, 2] {
         let of_one = Piles::response(steps, FirstSign::Plus);
         let one = of_one.piles().unwrap().mean_square(&ratio(1, 3)).unwrap();
@@ -116,9 +116,9 @@ fn of_loads_that_do_not_meet() {
     }
 }
 
-/// Five and six steps down, where forces of beginnings that are still far apart come together.
+/// Five and six steps down, forces of beginnings with a large distance meet.
 #[test]
-fn squares_further_down() {
+fn mean_squares_of_more_steps() {
     for steps in [5, 6] {
         let described = Piles::response(steps, FirstSign::Plus);
         let squares = enumerated(&described, &ratio(1, 4));

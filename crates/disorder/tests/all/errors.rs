@@ -1,4 +1,4 @@
-//! What is refused, with the remedy.
+//! Errors and their remedies.
 
 use cannonpile::Error as Core;
 use cannonpile::lattice::{MAX_LAYERS, Region, Site};
@@ -19,7 +19,7 @@ fn site(i: i128, j: i128, k: i128) -> Site {
     Site { i, j, k }
 }
 
-/// The error is of this kind, and its message is one line that holds all of these parts.
+/// Asserts the kind of an error. Its message must be one line that contains all these parts.
 macro_rules! is_refused {
     ($error:expr, $kind:pat, $parts:expr) => {{
         let error: &Error = &$error;
@@ -29,7 +29,7 @@ macro_rules! is_refused {
 }
 
 #[test]
-fn layers() {
+fn layers_are_limited() {
     for layers in [0, -1, MAX_LAYERS + 1] {
         let error = RandomStackings::new(layers, FirstSign::Plus).unwrap_err();
         is_refused!(
@@ -47,7 +47,7 @@ fn layers() {
 }
 
 #[test]
-fn loads() {
+fn invalid_loads_are_rejected() {
     let under = RandomPiles::under(Region::SITE, stackings(4));
     let error = under.clone().with_load(site(0, 0, 1), one()).unwrap_err();
     is_refused!(
@@ -68,7 +68,7 @@ fn loads() {
     is_refused!(
         error,
         Error::PlaceOfLoad { on_base: true, .. },
-        &["leave loads out"]
+        &["remove the loads"]
     );
     let plane = RandomPiles::plane(stackings(4));
     let error = plane
@@ -78,12 +78,12 @@ fn loads() {
 }
 
 #[test]
-fn the_plane_bears_loads_alone() {
+fn responses_need_loads_and_weightless_spheres() {
     let plane = RandomPiles::plane(stackings(4));
     let loaded = plane.clone().with_load(site(0, 0, 0), one()).unwrap();
     is_refused!(
         loaded.mean(&0.5).unwrap_err(),
-        Error::OnlyOfLoads {
+        Error::NotAResponse {
             weightless: false,
             ..
         },
@@ -92,16 +92,16 @@ fn the_plane_bears_loads_alone() {
     let error = plane.weightless().by_faults().unwrap_err();
     is_refused!(
         error,
-        Error::OnlyOfLoads {
+        Error::NotAResponse {
             weightless: true,
             ..
         },
-        &["put a load"]
+        &["add a load"]
     );
     let heavy = RandomPiles::under(Region::SITE, stackings(4));
     is_refused!(
         heavy.mean_square(&0.5).unwrap_err(),
-        Error::OnlyOfLoads {
+        Error::NotAResponse {
             weightless: false,
             ..
         },
@@ -110,7 +110,7 @@ fn the_plane_bears_loads_alone() {
 }
 
 #[test]
-fn probabilities() {
+fn probabilities_are_checked() {
     let piles = RandomPiles::under(Region::SITE, stackings(4));
     let by_faults = piles.by_faults().unwrap();
     for q in [ratio(-1, 9), ratio(10, 9)] {
@@ -131,7 +131,7 @@ fn probabilities() {
 }
 
 #[test]
-fn what_no_memory_holds() {
+fn memory_is_limited() {
     let large = [
         RandomPiles::under(Region::SITE, stackings(MAX_LAYERS)),
         RandomPiles::under(Region::hexagon(MAX_LAYERS, 1).unwrap(), stackings(2)),
@@ -171,7 +171,7 @@ fn what_no_memory_holds() {
     );
 }
 
-/// The quantity, how large it would be and how large it may be.
+/// Returns the quantity, its size and the limit.
 fn too_large<T: std::fmt::Debug>(answer: Result<T, Error>) -> (&'static str, u64, u64) {
     let Error::Core(Core::TooLarge {
         quantity,
@@ -185,9 +185,10 @@ fn too_large<T: std::fmt::Debug>(answer: Result<T, Error>) -> (&'static str, u64
     (quantity, u64::try_from(needed).unwrap(), limit)
 }
 
-/// Numbers for each cell of a plane of (2n+3)² cells, and n; of words each as long as it gets.
+/// A plane has (2n+3)² cells. The size is the number of stored numbers, plus n. The limit is divided by the words of
+/// each number.
 #[test]
-fn what_is_too_large_says_how_large() {
+fn size_errors_state_the_size() {
     const MEAN: &str = "the mean over random stackings";
     let plane = |layers, first| {
         let stackings = RandomStackings::new(layers, first).unwrap();
@@ -196,14 +197,14 @@ fn what_is_too_large_says_how_large() {
     };
     let under = |layers| RandomPiles::under(Region::SITE, stackings(layers));
     let half = ratio(1, 2);
-    // Three lines, two signs and two layers, in 10001² cells.
+    // Three contacts, two signs and two layers, in 10001² cells.
     let needed = 10_001 * 10_001 * 12 + 4999;
     for piles in [plane(5000, FirstSign::Plus), under(5000)] {
         let found = too_large(piles.mean(&0.5));
         assert_eq!(found, (MEAN, needed, 100_000_000));
         assert_eq!(too_large(piles.exact(&half)), found);
     }
-    // By 4999 numbers of faults, of which each leaves one sign.
+    // 4999 numbers of faults, each of which determines the sign.
     let needed = 10_001 * 10_001 * 6 * 4999 + 4999;
     assert_eq!(
         too_large(plane(5000, FirstSign::Plus).by_faults()),
@@ -214,26 +215,26 @@ fn what_is_too_large_says_how_large() {
         too_large(plane(5000, FirstSign::Random).by_faults()),
         (MEAN, needed, 100_000_000)
     );
-    // The greatest 3^d C(99,d) has 195 bits: three words, and six to keep a big integer.
+    // The greatest 3^d C(99,d) has 195 bits. It needs three words, and a big integer needs six more.
     let needed = 203 * 203 * 6 * 100 + 100;
     assert_eq!(
         too_large(plane(101, FirstSign::Plus).by_faults()),
         (MEAN, needed, 100_000_000 / 9)
     );
-    // 6^999 in 3 bits a step: 2997 bits, 46 words.
+    // The bound of 6^999 is 3 bits per step: 2997 bits, or 46 words.
     let needed = 2003 * 2003 * 12 + 1000;
     assert_eq!(
         too_large(under(1001).exact(&half)),
         (MEAN, needed, 100_000_000 / 52)
     );
-    // On a base all that for each number of steps that are left, −99 to 99.
+    // On a base there is one set for each net number of steps that are left, −99 to 99.
     let base = Region::triangle(300).unwrap();
     let needed = 302 * 302 * 12 * 199 + 99;
     assert_eq!(
         too_large(RandomPiles::on(base, stackings(100)).mean(&0.5)),
         (MEAN, needed, 100_000_000)
     );
-    // Nine products of lines, two signs, two layers.
+    // Nine products of contacts, two signs and two layers.
     let needed = 10_001 * 10_001 * 36 + 4999;
     assert_eq!(
         too_large(plane(5000, FirstSign::Plus).mean_square(&0.5)),
@@ -241,9 +242,9 @@ fn what_is_too_large_says_how_large() {
     );
 }
 
-/// More layers than bits are counted for are refused without counting them.
+/// Billions of layers are rejected before their bit lengths are computed.
 #[test]
-fn billions_of_layers_are_refused_at_once() {
+fn billions_of_layers_are_rejected_at_once() {
     for layers in [2_000_000_000, 1 << 40] {
         let piles = RandomPiles::under(Region::SITE, stackings(layers));
         let Error::Core(Core::TooLarge { quantity, .. }) = piles.by_faults().unwrap_err() else {
@@ -253,9 +254,9 @@ fn billions_of_layers_are_refused_at_once() {
     }
 }
 
-/// Far from the origin all is the same.
+/// A translation far from the origin does not change the forces.
 #[test]
-fn far_away() {
+fn forces_do_not_depend_on_the_origin() {
     let far = site(MAX_LAYERS, -MAX_LAYERS, 0);
     let plane = RandomPiles::plane(stackings(3)).weightless();
     let near = plane.clone().with_load(site(0, 0, 0), one()).unwrap();
@@ -287,7 +288,7 @@ fn far_away() {
 }
 
 #[test]
-fn a_base_that_carries_no_stacking_so_high() {
+fn heights_on_a_base_are_limited() {
     let base = Region::triangle(4).unwrap();
     for layers in [5, 1000, MAX_LAYERS] {
         let error = RandomPiles::on(base, stackings(layers))
@@ -296,10 +297,14 @@ fn a_base_that_carries_no_stacking_so_high() {
         is_refused!(
             error,
             Error::NoStacking { greatest: 4, .. },
-            &[&layers.to_string(), "the highest has 4", "0..3,0..3,0..3"]
+            &[
+                &layers.to_string(),
+                "at most 4 layers, not",
+                "0..3,0..3,0..3"
+            ]
         );
     }
-    // Four layers of this triangle begin with +.
+    // The only four-layer stacking on this triangle has a first +.
     let minus = RandomStackings::new(4, FirstSign::Minus).unwrap();
     let error = RandomPiles::on(base, minus).mean(&0.5).unwrap_err();
     is_refused!(
@@ -309,9 +314,9 @@ fn a_base_that_carries_no_stacking_so_high() {
             greatest: 3,
             ..
         },
-        &["4 layers", "the highest has 3"]
+        &["at most 3 layers, not 4"]
     );
-    // And of the triangle turned round they begin with −.
+    // The rotated triangle supports only a first −.
     let turned = Region::hexagon(1, 4).unwrap();
     let error = RandomPiles::on(turned, stackings(4))
         .mean(&0.5)
@@ -323,7 +328,7 @@ fn a_base_that_carries_no_stacking_so_high() {
             greatest: 3,
             ..
         },
-        &["4 layers", "the highest has 3"]
+        &["at most 3 layers, not 4"]
     );
     let hexagon = Region::hexagon(3, 3).unwrap();
     assert!(RandomPiles::on(hexagon, stackings(5)).mean(&0.5).is_ok());
