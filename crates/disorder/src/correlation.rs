@@ -40,9 +40,9 @@ impl RandomPiles {
     /// Returns the mean over all stackings of Σ N², in mg², for the response to loads. N are the normal forces on the
     /// floor of one layer.
     ///
-    /// The sum of squares of the [mean](Self::mean) divided by this value is the share of the mean in one stacking. It is
-    /// small: no single stacking is close to the mean, sphere by sphere. The cost is about 100 n³ operations for a single
-    /// load, with n the number of steps.
+    /// The ratio of the sum of squares of the [mean](Self::mean) to this value shows how close one stacking is to the
+    /// mean. It is small, so no single stacking is close to the mean, sphere by sphere. The cost is about 100 n³
+    /// operations for a single load, with n the number of steps.
     ///
     /// # Errors
     /// * [`Error::NotAResponse`] unless the spheres are weightless and there is a load.

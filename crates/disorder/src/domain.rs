@@ -42,7 +42,7 @@ impl<'p> Domain<'p> {
     pub(super) fn new(piles: &'p RandomPiles, classes: u128, words: u64) -> Result<Self, Error> {
         let steps = piles.stackings.steps();
         let on_base = matches!(piles.setting, Setting::On(_));
-        // The rows of the first layer are as numerous as cells. So only their bounding box is computed before the check.
+        // The first layer may have too many rows for memory. So the check of the size uses their bounding box only.
         let corners = match piles.setting {
             Setting::Plane => {
                 piles.check_response("the mean of an infinite plane")?;
@@ -66,7 +66,8 @@ impl<'p> Domain<'p> {
             check_height(base, piles.stackings)?;
         }
         let size = Size::new(least, greatest, i128::from(!on_base), steps);
-        // Three contacts, two layers, and two signs. But with a given first sign the number of faults fixes the sign.
+        // A cell stores forces for three contacts, two layers and two signs. With a given first sign the number of
+        // faults determines the sign.
         let signs = if classes > 1 {
             piles.stackings.first_signs().len()
         } else {
@@ -101,7 +102,7 @@ impl<'p> Domain<'p> {
         Ok(Self { piles, grid, steps })
     }
 
-    /// Returns the base of piles on a base, whose cells are sites.
+    /// Returns the base, for piles on a base.
     pub(super) const fn base(&self) -> Option<Region> {
         match self.piles.setting {
             Setting::On(base) => Some(base),
@@ -130,8 +131,8 @@ impl<'p> Domain<'p> {
         range.filter(move |net| self.base().is_none() || self.region(0, *net).is_some())
     }
 
-    /// Returns the sites of layer `k` above a base, for a net number of steps that are left. `None` if there is no site,
-    /// or no such number.
+    /// Returns the sites of layer `k` above a base, for a net number of steps that are left. `None` if the layer has no
+    /// site for this number.
     fn region(&self, k: usize, net: isize) -> Option<Region> {
         let (left, net) = ((self.steps - k) as i128, net as i128);
         let even = (left + net) % 2 == 0 && net.abs() <= left;

@@ -27,12 +27,12 @@
 //! The judge of the caller decides these cases ([`Ensemble::run_judged`]). `equilibrium` of the crate
 //! `cannonpile-horizontal` decides them with a proof.
 
-mod binned;
 mod choice;
 mod continuations;
 mod count;
 mod distribution;
 mod draw;
+mod force_kind;
 mod layer;
 mod merge;
 mod order;
@@ -46,13 +46,13 @@ mod walk;
 mod wilson;
 mod written;
 
-pub use binned::Binned;
 pub use choice::{Choice, Samples, Shard};
 use core::ops::Range;
 pub use distribution::{Distribution, Extreme, Histogram};
+pub use force_kind::ForceKind;
 pub use merge::Unmergeable;
 pub use record::TallyRecord;
-pub use tally::{By, Tally, WithFaults};
+pub use tally::{ContactSet, Tally, WithFaults};
 
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -72,13 +72,13 @@ use cannonpile::stacking::Stacking;
 ///
 /// # Examples
 /// ```
-/// use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+/// use cannonpile_disorder::{ContactSet, Choice, Ensemble, FirstSign, RandomStackings, Shard};
 /// use cannonpile::lattice::Region;
 ///
 /// let stackings = RandomStackings::new(5, FirstSign::Plus)?;
 /// let ensemble = Ensemble::under(Region::hexagon(2, 2)?, stackings)?;
 /// let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
-/// assert_eq!(tally.standing(By::Sloping), Some(6_u32.into()));
+/// assert_eq!(tally.standing(ContactSet::Sloping), Some(6_u32.into()));
 /// let least = tally.faults[3].all.least.as_ref().unwrap();
 /// assert_eq!((least.stacking.to_string(), least.force.to_string()), ("+-+-".into(), "-2/27".into()));
 /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -345,7 +345,7 @@ impl Ensemble {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_disorder::{By, Choice, Ensemble, Error, FirstSign, RandomStackings, Shard};
+    /// use cannonpile_disorder::{ContactSet, Choice, Ensemble, Error, FirstSign, RandomStackings, Shard};
     /// use cannonpile::Pile;
     /// use cannonpile::lattice::Region;
     ///
@@ -355,8 +355,8 @@ impl Ensemble {
     /// // `cannonpile-horizontal` decides it with a proof: `Ok(equilibrium(pile)?.claim == Claim::Stands)`.
     /// let judge = |pile: &Pile| Ok::<_, Error>(pile.shape().stacking().to_string() == "+-+-+");
     /// let tally = touching.run_judged(&Choice::All, Shard::WHOLE, &|_| {}, &judge)?;
-    /// assert_eq!(tally.standing(By::Sloping), Some(11_u32.into()));
-    /// assert_eq!(tally.standing(By::Horizontal), Some(12_u32.into()));
+    /// assert_eq!(tally.standing(ContactSet::Sloping), Some(11_u32.into()));
+    /// assert_eq!(tally.standing(ContactSet::WithHorizontal), Some(12_u32.into()));
     ///
     /// // There is no default for the judge.
     /// assert_eq!(touching.run(&Choice::All, Shard::WHOLE), Err(Error::NoJudge));

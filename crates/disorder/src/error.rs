@@ -66,7 +66,7 @@ pub enum Error {
     },
     /// Stability with horizontal contacts was requested for weightless spheres.
     Weightless,
-    /// The ensemble counts stackings that stand with horizontal contacts, but the run has no judge of them.
+    /// The ensemble counts stackings that are stable with horizontal contacts, but the run has no judge.
     NoJudge,
 }
 

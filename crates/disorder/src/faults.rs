@@ -52,9 +52,9 @@ pub struct FaultForce {
 /// The forces on the floor, summed over the stackings with each number of faults. They give the exact mean for every
 /// fault probability.
 ///
-/// Let S_d be the sum over the stackings with d faults, of which there are C(n−1,d) for a given first sign. Then the
-/// mean at the fault probability q is Σ_d S_d q^d (1−q)^(n−1−d), or half of it for a random first sign. It is a
-/// polynomial in q of degree n − 1 at most.
+/// Let S_d be the sum over the stackings with d faults. For a given first sign their number is C(n−1,d). Then the mean
+/// at the fault probability q is Σ_d S_d q^d (1−q)^(n−1−d), or half of it for a random first sign. It is a polynomial
+/// in q of degree n − 1 at most.
 ///
 /// The sums are stored as integers over 2·3^(d+1) times the common denominator of the loads. The coefficient of q^j of
 /// the mean contains S_d for d ≤ j only. So its denominator divides 2·3^(j+1) times the denominator of the loads, and

@@ -10,12 +10,12 @@ use crate::THREE;
 const SIXTEEN: NonZeroI64 = NonZeroI64::new(16).unwrap();
 const SEVEN_HUNDRED_SIXTY_EIGHT: NonZeroI64 = NonZeroI64::new(768).unwrap();
 
-/// Returns 3(n−s)(2s−1) + 3s−2, the coefficient of the sign σ_s of step s in the third moment of a unit load at depth
-/// n: Σ v r³cos3φ is the sum over s of σ_s times this value.
+/// Returns 3(n−s)(2s−1) + 3s−2, the coefficient of the sign σ_s in the third moment of a unit load at depth n.
 ///
-/// The unit is ρ³, with ρ = 2R sinθ the horizontal part of a contact. The v are the loads on the spheres n layers below
-/// the unit load. Their distance from its vertical line is r, and their azimuth from the direction α under a + step is
-/// φ. The domain is 1 ≤ s ≤ n. Theorem `third-moment`.
+/// The third moment is Σ v r³cos3φ. It is the sum over the steps s of σ_s times this coefficient, 1 ≤ s ≤ n. The unit
+/// is ρ³, with ρ = 2R sinθ the horizontal part of a contact. The v are the loads on the spheres n layers below the unit
+/// load. Their distance from its vertical line is r, and their azimuth from the direction α under a + step is φ.
+/// Theorem `third-moment`.
 ///
 /// # Examples
 /// ```

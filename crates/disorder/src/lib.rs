@@ -7,7 +7,7 @@
 //! or sampling.
 //!
 //! ```
-//! use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomPiles, RandomStackings, Shard};
+//! use cannonpile_disorder::{ContactSet, Choice, Ensemble, FirstSign, RandomPiles, RandomStackings, Shard};
 //! use cannonpile::lattice::{Region, Site};
 //! use num_rational::BigRational;
 //!
@@ -22,7 +22,7 @@
 //!
 //! // Of the 16 stackings of six layers under one sphere, 11 stand.
 //! let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
-//! assert_eq!(tally.standing(By::Sloping), Some(11_u32.into()));
+//! assert_eq!(tally.standing(ContactSet::Sloping), Some(11_u32.into()));
 //! # Ok::<(), cannonpile_disorder::Error>(())
 //! ```
 //!
@@ -33,7 +33,7 @@
 //! | mean forces, at one q or for all | [`RandomPiles`], [`Mean`], [`MeanForce`]; [`ByFaults`], [`FaultForce`]; [`Place`] |
 //! | moments of the response to a load, and its waves | [`Moments`], [`Wave`] |
 //! | enumeration and samples | [`Ensemble`], [`Choice`], [`Samples`], [`Shard`] |
-//! | their result, and its file | [`Tally`], [`WithFaults`], [`Distribution`], [`Histogram`], [`Binned`], [`Extreme`]; [`TallyRecord`], [`Unmergeable`] |
+//! | their result, and its file | [`Tally`], [`WithFaults`], [`Distribution`], [`Histogram`], [`ForceKind`], [`Extreme`]; [`TallyRecord`], [`Unmergeable`] |
 //! | the formulas, and their proofs | [`formula`], [`theorem`] |
 //! | errors | [`Error`] |
 //!
@@ -71,8 +71,8 @@ mod transfer;
 mod width;
 
 pub use ensemble::{
-    Binned, By, Choice, Distribution, Ensemble, Extreme, Histogram, Samples, Shard, Tally,
-    TallyRecord, Unmergeable, WithFaults,
+    Choice, ContactSet, Distribution, Ensemble, Extreme, ForceKind, Histogram, Samples, Shard,
+    Tally, TallyRecord, Unmergeable, WithFaults,
 };
 pub use error::Error;
 pub use faults::{ByFaults, FaultForce};

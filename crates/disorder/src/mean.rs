@@ -247,13 +247,20 @@ impl RandomPiles {
         // A load of W mg adds W to the force of each contact, as a weight of mg adds 1.
         let scalar = |x: &BigRational| Ok(T::from_rational(x));
         let transfer = Transfer::new(&domain, 1, shares(q).map(Scale), scalar)?;
-        let over = |sum: T, unit: &NonZeroI64| Some(sum.div_int(self.firsts()).div_int(*unit));
+        // An interval would widen even in a division by 1.
+        let over = |sum: T, unit: &Option<NonZeroI64>| {
+            let mean = sum.div_int(self.firsts());
+            Some(match unit {
+                Some(unit) => mean.div_int(*unit),
+                None => mean,
+            })
+        };
         let rows = transfer.run()?.into_iter().map(|spot| {
             let row = MeanForce::of(
                 spot.place,
                 one_class(spot.classes)?,
                 over,
-                [&ONE, &FLOOR_UNIT],
+                [&None, &Some(FLOOR_UNIT)],
             )?;
             row.try_map(defined)
         });

@@ -49,7 +49,7 @@ impl<T: Number> NetCounts<T> {
         })
     }
 
-    /// Takes the next step. The sign after it has to be chosen then.
+    /// Takes the next step. The sign of the following step is chosen separately.
     pub(super) fn step(&mut self) {
         for class in &mut self.counts {
             for (sign, counts) in SIGNS.iter().zip(class) {
@@ -130,9 +130,9 @@ impl Nets {
     /// Returns the net numbers s for which layer `k` has a sphere at a place. The pile grows down from a top layer, or
     /// fills the plane.
     ///
-    /// With p + m = k and p − m = s the layer is the top layer with p + steps and m − steps added. So x₀ − m ≤ i ≤ x₁ + p,
-    /// and likewise for j and i + j. Because of 3i = 2a − b + s, 3j = 2b − a + s and 3(i+j) = a + b + 2s each of these
-    /// inequalities bounds s from both sides. In addition s ≡ k (mod 2) and s ≡ a + b (mod 3).
+    /// With p + m = k and p − m = s the layer is the top layer with p + steps and m − steps added. So x₀ − m ≤ i ≤ x₁ +
+    /// p, and likewise for j and i + j. By 3i = 2a − b + s, 3j = 2b − a + s and 3(i+j) = a + b + 2s these inequalities
+    /// bound s from both sides. In addition s ≡ k (mod 2) and s ≡ a + b (mod 3).
     pub(super) fn of(place: Place, k: i128, top: Option<&Region>, within: (i128, i128)) -> Self {
         let Place { a, b } = place;
         let (mut least, mut greatest) = within;

@@ -46,9 +46,9 @@ pub struct RandomPiles {
 pub(super) enum Setting {
     /// Infinite layers.
     Plane,
-    /// A top layer, from which the pile grows down.
+    /// The top layer of piles that grow down.
     Under(Region),
-    /// A base, from which the pile grows up.
+    /// The base of piles that grow up.
     On(Region),
 }
 

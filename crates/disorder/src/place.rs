@@ -6,10 +6,10 @@ use cannonpile::lattice::Sign;
 ///
 /// u_α, u_β, u_γ are the horizontal parts of the contacts α, β, γ below a sphere under a + step. Their length is ρ = 2R
 /// sinθ, they form angles of 120°, and their sum is 0. A contact leads from a place x to x + u under a + step, and to x
-/// − u under a − step. Let a layer lie s net steps below the top layer, that is the number of + steps minus the number
-/// of − steps. Its sphere (i, j) is at
+/// − u under a − step. The net number s of steps from the top layer to a layer is the number of + steps minus the
+/// number of − steps. The sphere (i, j) of that layer is at
 ///
-/// a = 2i + j − s, b = i + 2j − s,
+/// a = 2i + j − s, b = i + 2j − s.
 ///
 /// So a layer can have a sphere at a place only if s ≡ a + b (mod 3). For a pile on a base the same holds with −s, the
 /// net number of steps from the layer down to the base. In the base itself a = 2i + j and b = i + 2j.

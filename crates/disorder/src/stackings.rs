@@ -127,8 +127,8 @@ pub struct RandomStackings {
 /// The most layers for probabilities of registries and for moments. The cost is proportional to the number of layers.
 pub(super) const MOST_LAYERS: u64 = 10_000;
 
-/// The limit for the smaller one of the numbers of faults and of unchanged signs. The cost of a count is proportional
-/// to it.
+/// The limit of the smaller of two numbers, faults and unchanged signs, in a count of stackings. The cost of a count is
+/// proportional to the smaller number.
 const MOST_FAULTS: u64 = 10_000;
 
 impl RandomStackings {
@@ -210,8 +210,8 @@ impl RandomStackings {
     /// Returns the number of stackings with `faults` sign changes: C(n−1, faults), or twice that for a random first
     /// sign.
     ///
-    /// A single layer has no sign, and counts as one stacking. The cost is proportional to the smaller one of the
-    /// numbers of faults and of unchanged signs.
+    /// A single layer has no sign, and counts as one stacking. The cost is proportional to the smaller of two numbers:
+    /// the faults and the unchanged signs.
     ///
     /// # Errors
     /// [`TooLarge`](cannonpile::Error::TooLarge) if both numbers exceed 10⁴. With 10³⁶ layers the result would have

@@ -69,10 +69,10 @@ pub fn find(name: &str) -> Option<&'static Theorem> {
 const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "resultant-form",
-        statement: "Three numbers ψ that do without the signs: of forces g that arrive on a sphere let ψ be g under + steps and \
-                    Gg under − steps. Along the directions of + they have the resultant that g has along its own; a sphere \
-                    without weight passes on ψ if the step below is +, and Gψ if it is −, whatever the step above; on an \
-                    equilateral base; an identity",
+        statement: "Resultant form: for forces g from above on a sphere let ψ be g under + steps and Gg under − steps. \
+                    Then ψ along the directions of + has the resultant of g along its own directions. A weightless \
+                    sphere transmits ψ if the next step is +, and Gψ if it is −, whatever the previous step. So the \
+                    recursion does not depend on sign changes. The base is equilateral; an identity",
         hypotheses: "s = 1/2; any g_1, g_2, g_3",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
@@ -80,10 +80,11 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "squares",
-        statement: "Sums and squares: a sphere of weight n·mg that receives g and passes on f = Tg + n, whether the sign is kept \
-                    or changes, has Σf = Σg + 3n and Σf² = Σg² + 2nΣg + 3n². So (in words, by summing over the spheres of \
-                    all layers) in every stacking the contacts below layer k have Σf = 3W_k and Σf² = Σ_j (3n_j + 6W_{j−1}), \
-                    j ≤ k, of n_j spheres of weight mg in layer j, and W_j in all down to it; an identity",
+        statement: "Sums and squares: a sphere of weight n·mg with the forces g from above transmits f = Tg + n. If \
+                    the sign is kept, and if it changes, Σf = Σg + 3n and Σf² = Σg² + 2nΣg + 3n². So (in words, by \
+                    summing over the spheres of all layers) the contacts below layer k of every stacking have Σf = \
+                    3W_k and Σf² = Σ_j (3n_j + 6W_{j−1}), j ≤ k. Here n_j spheres of weight mg are in layer j, and W_j \
+                    in all layers down to it; an identity",
         hypotheses: "s = 1/2; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, n",
@@ -91,11 +92,12 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "third-moment",
-        statement: "Which way a response points: a unit load at depth n has Σv r³cos3φ = Σ_s σ_s[3(n−s)(2s−1) + 3s−2] in units of \
-                    ρ³, φ from α, σ_s the sign of step s ≤ n. Of a sphere at z, in the complex plane, with load V and \
-                    horizontal force h, z³V, z̄²h and zh̄ grow by what the contacts below make of them, whatever the two \
-                    signs are; the sum solves that recursion. Its mean over random stackings that begin with + and \
-                    change with probability q, μ = 1−2q, is 3(1+μ)n(1+μⁿ)/(1−μ)² − 2(μ²+4μ+1)(1−μⁿ)/(1−μ)³; by induction",
+        statement: "Threefold asymmetry of a response: a unit load at depth n has Σv r³cos3φ = Σ_s σ_s[3(n−s)(2s−1) + \
+                    3s−2] in units of ρ³. The azimuth φ is measured from α, and σ_s is the sign of step s ≤ n. \
+                    Consider a sphere at z in the complex plane, with load V and horizontal force h. From layer to \
+                    layer z³V, z̄²h and zh̄ grow by amounts that the proof computes for every pair of signs above and \
+                    below. The sum solves this recursion. Its mean over random stackings with the first sign + and the \
+                    fault probability q, μ = 1−2q, is 3(1+μ)n(1+μⁿ)/(1−μ)² − 2(μ²+4μ+1)(1−μⁿ)/(1−μ)³; by induction",
         hypotheses: "s = 1/2, n ≥ 1, 0 < q ≤ 1",
         method: ProofKind::Induction,
         symbols: "g_1, g_2, g_3, x, y, n, s, μ, X = μⁿ",
@@ -103,10 +105,11 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "fourth-moment",
-        statement: "How a response spreads: a unit load at depth n has Σv r⁴ = n(2n³+2n²−2n+1)/3 + 2Σ_{s<t}(2n−2t+1)(2s−1)σ_sσ_t \
-                    in units of ρ⁴, in every stacking. Of a sphere at z with load V and horizontal force h, |z|⁴V and |z|²zh̄ \
-                    grow by what the contacts below make of them, whatever the two signs are; the sum solves that recursion. \
-                    Its mean over random stackings, μ = 1−2q, is n(2n³+2n²−2n+1)/3 + 4μn³/(3(1−μ)) − 4μn²/(1−μ)² + \
+        statement: "Spread of a response: a unit load at depth n has Σv r⁴ = n(2n³+2n²−2n+1)/3 + \
+                    2Σ_{s<t}(2n−2t+1)(2s−1)σ_sσ_t in units of ρ⁴, in every stacking. Consider a sphere at z with load \
+                    V and horizontal force h. From layer to layer |z|⁴V and |z|²zh̄ grow by amounts that the proof \
+                    computes for every pair of signs above and below. The sum solves this recursion. Its mean over \
+                    random stackings, μ = 1−2q, is n(2n³+2n²−2n+1)/3 + 4μn³/(3(1−μ)) − 4μn²/(1−μ)² + \
                     2μ(μ²+4μ+7)n/(3(1−μ)³) − 2μ(1+μ)²(1−μⁿ)/(1−μ)⁴; by induction",
         hypotheses: "s = 1/2, n ≥ 1, 0 < q ≤ 1",
         method: ProofKind::Induction,
@@ -115,11 +118,11 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "mean-modes",
-        statement: "Modes of the mean: with f₊ and f₋, the parts of the mean before a + and a − step, a step makes of them \
-                    (1−q)f_σ + qGf_−σ where nothing moves. The operator M has (M−1)(M−μ) = 0, μ = 1−2q: it keeps the load \
-                    and the horizontal force, three numbers, and shrinks three others. And of forces that change their \
-                    sign from site to site along two directions ψ = (1, −1, 0) on f₊, −ψ on f₋ is turned into its \
-                    negative, for every q: (in words) it never decays; an identity",
+        statement: "Modes of the mean: let f₊ and f₋ be the mean forces before a + and a − step. For spatially \
+                    constant forces a step M maps f_σ to (1−q)f_σ + qGf_−σ. Then (M−1)(M−μ) = 0 with μ = 1−2q. So M \
+                    preserves the load and the horizontal force, three numbers, and multiplies three others by μ. For \
+                    forces that alternate in sign from site to site along two directions, let ψ be (1, −1, 0) on f₊ \
+                    and −(1, −1, 0) on f₋. Then Mψ = −ψ for every q. So (in words) this mode never decays; an identity",
         hypotheses: "any forces, any q",
         method: ProofKind::Identity,
         symbols: "f_1, f_2, f_3, h_1, h_2, h_3, q",
@@ -127,13 +130,14 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "mean-spectrum",
-        statement: "The spectrum of the mean: with D_l = exp(iθ_l), θ_α+θ_β+θ_γ = 0, det(λ−M) = λ³Q(λ+μ/λ), where \
-                    Q(y) = y³ − 2(1−q)T₁y² + [8q²/3 + 2(1−q)²T₁ + (2/9)(3−q)(3−5q)S]y − 2(1−q)³ − (16/9)q²(1−q)T₁ − \
-                    (2/9)(1−q)(q²−18q+9)T₂, T₁ = Σcosθ_l, T₂ = Σcos2θ_l, S = Σ_{i<j}cos(θ_i−θ_j), μ = 1−2q: six eigenvalues in \
-                    three pairs λ, μ/λ. The columns of f₋ are multiplied by D_l, which changes nothing as D_αD_βD_γ = 1; what \
-                    is left is a multiple of D_αD_βD_γ − 1. Of waves of the number k, κ = kρ, two roots are ±iκ/√2(1+bκ²) − \
-                    (1−q)κ²/16q in the exponent, b = (13q²−42q+21)/(768q²), and one −(1−q)κ²/8q, up to terms that leave of Q \
-                    none below κ⁶: a speed of ρ/√2 for every q; an identity",
+        statement: "The spectrum of the mean: with D_l = exp(iθ_l), θ_α+θ_β+θ_γ = 0, det(λ−M) = λ³Q(λ+μ/λ), where Q(y) \
+                    = y³ − 2(1−q)T₁y² + [8q²/3 + 2(1−q)²T₁ + (2/9)(3−q)(3−5q)S]y − 2(1−q)³ − (16/9)q²(1−q)T₁ − \
+                    (2/9)(1−q)(q²−18q+9)T₂, T₁ = Σcosθ_l, T₂ = Σcos2θ_l, S = Σ_{i<j}cos(θ_i−θ_j), μ = 1−2q. So the six \
+                    eigenvalues form three pairs λ, μ/λ. The proof multiplies the columns of f₋ by D_l, which does not \
+                    change the determinant because D_αD_βD_γ = 1. The difference of both sides is a multiple of \
+                    D_αD_βD_γ − 1. Long waves have the wave number k, and κ = kρ. Two roots have the exponents \
+                    ±iκ/√2(1+bκ²) − (1−q)κ²/16q, b = (13q²−42q+21)/(768q²), and one has −(1−q)κ²/8q. With these \
+                    exponents Q has no terms below κ⁶. The speed is ρ/√2 for every q; an identity",
         hypotheses: "any q, and of waves q > 0; a = D_α, b = D_β, c = D_γ with abc = 1",
         method: ProofKind::Identity,
         symbols: "a, b, c, q, λ, t",
@@ -141,11 +145,12 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "wave",
-        statement: "HCP is a wave: where the sign changes at every step, three spheres that receive g, h, k along the directions \
-                    of one sign pass on Gg, Gh, Gk along those of the other, and to the sphere between them their α, β and γ \
-                    parts, which are 2/3 of their loads less the parts g_α, h_β, k_γ, that one sphere two layers above has passed on: \
-                    so (in words) v_{n+1} = 2Pv_n − v_{n−1}, P the mean over the three, v_1 = Pv_0, and v_n = T_n(P)v_0 with the \
-                    Chebyshev polynomial; an identity",
+        statement: "HCP is a wave: let the sign change at every step, and let three spheres receive g, h, k along the \
+                    directions of one sign. They transmit Gg, Gh, Gk along the directions of the other sign. The \
+                    sphere between them receives the α, β and γ parts of these forces. They are 2/3 of the three loads \
+                    minus the parts g_α, h_β, k_γ, which one sphere two layers above has transmitted. So (in words) \
+                    v_{n+1} = 2Pv_n − v_{n−1}, where P is the mean over the three spheres. With v_1 = Pv_0 this gives \
+                    v_n = T_n(P)v_0, with the Chebyshev polynomial T_n; an identity",
         hypotheses: "any forces; spheres without weight",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3, k_1, k_2, k_3",
@@ -153,21 +158,23 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "faults",
-        statement: "Few faults: a run passes a force on along its line, a change of sign turns a third of it into three, G g, of \
-                    −1/3 along the line itself and 2/3 along the others. So d changes make 3^(d+1) of a unit load, whose sum \
-                    stays 1, whose squares sum to 1/3, and whose absolute values to (5/3)^d: each change multiplies \
-                    the sum of 3^(d+1)v by 3, of squares by 9, of absolute values by 5; by induction",
-        hypotheses: "places where several arrive counted apart",
+        statement: "Few faults: a run transmits a force along its line. A sign change turns a third of a force into \
+                    the three parts of Gg: −1/3 along the same line, and 2/3 along the others. So d sign changes turn \
+                    a unit load into 3^(d+1) forces. Their sum is 1, the sum of their squares is 1/3, and the sum of \
+                    their absolute values is (5/3)^d. Each sign change multiplies the sum of 3^(d+1)v by 3, the sum of \
+                    squares by 9, and the sum of absolute values by 5; by induction",
+        hypotheses: "forces at the same place counted separately",
         method: ProofKind::Induction,
         symbols: "v",
         derive: faults,
     },
     Theorem {
         name: "one-fault",
-        statement: "One fault, m steps above and n below it: six loads 2/9 at m u_a − n u_b, where r² = m²+mn+n² in units of ρ², and \
-                    three of −1/9 at (m−n)u_a, where r² = (m−n)². They are at nine places, since two places differ by \
-                    m u + n w with u or w not zero and of length √3ρ; but for m = n, where (in words) the last three meet \
-                    under the load; an identity",
+        statement: "One fault, m steps above and n below it: there are six loads 2/9 at m u_a − n u_b, where r² = \
+                    m²+mn+n² in units of ρ². There are three loads −1/9 at (m−n)u_a, where r² = (m−n)². The nine \
+                    places are different, because two of them differ by m u + n w with u or w nonzero and of length \
+                    √3ρ. The exception is m = n, where (in words) the last three loads are at the place below the unit \
+                    load; an identity",
         hypotheses: "s = 1/2, m, n ≥ 1",
         method: ProofKind::Identity,
         symbols: "m, n",
@@ -175,13 +182,14 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "registry",
-        statement: "Registries: a + step leads from the registry r to r+1, a − step to r−1 (mod 3), and each sign differs from the one \
-                    before with probability q. So with p_r and m_r, the shares of the stackings that come to registry r by a + and by \
-                    a − step, a step more makes (1−q)p_{r−1} + q m_{r−1} and (1−q)m_{r+1} + q p_{r+1} of them. Of any six such \
-                    numbers x_r = p_r + m_r less a third of the sum of all six is −(1−q)x' − (1−2q)x'' with its values x' one step \
-                    and x'' two steps before; and so it is two steps below a top layer of registry 0, if the shares of the first \
-                    signs are u and v: it is how the probability of a registry exceeds 1/3 in every layer; by induction",
-        hypotheses: "any shares of first signs, any q; below a single layer and the next",
+        statement: "Registries: a + step leads from the registry r to r+1, a − step to r−1 (mod 3), and each sign \
+                    differs from the previous one with probability q. Let p_r and m_r be the probabilities of reaching \
+                    registry r by a + step and by a − step. One more step yields (1−q)p_{r−1} + q m_{r−1} and \
+                    (1−q)m_{r+1} + q p_{r+1}. Let x_r be p_r + m_r minus a third of the sum of all six numbers. Then \
+                    x_r = −(1−q)x' − (1−2q)x'', with its values x' one step and x'' two steps before. This also holds \
+                    two steps below a top layer of registry 0 whose first signs have the probabilities u and v. So the \
+                    recursion gives the excess of the probability of a registry over 1/3 in every layer; by induction",
+        hypotheses: "any probabilities of the first signs, any q; from two steps below the top layer on",
         method: ProofKind::Induction,
         symbols: "p_0, p_1, p_2, m_0, m_1, m_2, u, v, q",
         derive: registry::registry,

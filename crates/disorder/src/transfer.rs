@@ -199,7 +199,7 @@ impl<'f, T: Number, S: Factor<T>> Transfer<'f, T, S> {
         }
     }
 
-    /// Returns the index of the net number from which a step of this sign leads to `net`.
+    /// Returns the index of the net number that a step of this sign changes to `net`.
     fn left_before(&self, net: isize, sign: Sign) -> Option<usize> {
         let step = if sign == Sign::Plus {
             self.domain.plus()

@@ -7,8 +7,8 @@
 //!
 //! By faults the numerators over 3^d are sums over at most C(k,d) beginnings, so they are at most 3^d C(k,d) B. By
 //! probability the numerators over N^k are means, so they are at most N^k B. In 3G g no intermediate result exceeds 2√3
-//! ‖g‖. A force on the floor is the sum of twice three forces for each of two signs, and of six times the weight of the
-//! sphere. All of this is less than 16 times the bounds above.
+//! ‖g‖. A force on the floor is at most twice the sum of three forces, for each of two signs, plus six times the weight
+//! of the sphere. All of this is less than 16 times the bounds above.
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
@@ -66,7 +66,7 @@ pub(super) fn bits_of_counts(steps: i128) -> u64 {
     bits[0].max(bits[1])
 }
 
-/// Returns the bit length of 16 B, multiplied by the denominator.
+/// Returns the bit length of 16 B times the denominator.
 ///
 /// # Errors
 /// [`Bug`](cannonpile::Error::Bug).

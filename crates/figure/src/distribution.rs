@@ -1,6 +1,6 @@
 //! The force distribution over random stackings.
 
-use cannonpile_disorder::Binned;
+use cannonpile_disorder::ForceKind;
 use cannonpile_disorder::{Choice, Tally};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -24,19 +24,19 @@ use crate::Error;
 /// ```
 /// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
 /// use cannonpile::lattice::Region;
-/// use cannonpile_disorder::Binned;
+/// use cannonpile_disorder::ForceKind;
 /// use num_rational::BigRational;
 ///
 /// let stackings = RandomStackings::new(6, FirstSign::Plus)?;
 /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
 /// let half = BigRational::new(1.into(), 2.into());
-/// let figure = cannonpile_figure::distribution(&tally, Binned::Forces, &half)?.unwrap();
-/// assert!(figure.to_string().contains("stable stackings"));
+/// let figure = cannonpile_figure::distribution(&tally, ForceKind::Contact, &half)?.unwrap();
+/// assert!(figure.to_string().contains("those that stand"));
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
 pub fn distribution(
     tally: &Tally,
-    binned: Binned,
+    binned: ForceKind,
     q: &BigRational,
 ) -> Result<Option<Figure>, Error> {
     let Some(weights) = tally.weights(q)? else {
@@ -114,8 +114,8 @@ pub fn distribution(
     let names = curves.iter().map(|(name, _)| (*name).to_owned());
     glyphs.extend(chart.legend(names.zip(colours.iter().cloned())));
     let (title, name, unit) = match binned {
-        Binned::Forces => ("Contact forces of random stackings", "f", "mg/(3cosθ)"),
-        Binned::Normals => ("Normal forces of random stackings on the floor", "N", "mg"),
+        ForceKind::Contact => ("Contact forces of random stackings", "f", "mg/(3cosθ)"),
+        ForceKind::Normal => ("Normal forces of random stackings on the floor", "N", "mg"),
     };
     let stackings = counted(&tally.stackings().into(), "stacking");
     let layers = counted(&tally.ensemble.stackings().layers().into(), "layer");

@@ -10,7 +10,8 @@ use cannonpile_dem::Key;
 use cannonpile_dem::scene::{Anchor, Scene, parse};
 use cannonpile_dem::table::WriteError;
 use cannonpile_disorder::{
-    Binned, Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, TallyRecord, Unmergeable,
+    Choice, Ensemble, FirstSign, ForceKind, RandomStackings, Samples, Shard, TallyRecord,
+    Unmergeable,
 };
 use cannonpile_horizontal::certificate::Claim;
 use cannonpile_horizontal::equilibrium;
@@ -94,8 +95,8 @@ pub(crate) enum HistogramForces {
     Normals,
 }
 
-impl From<HistogramForces> for Binned {
-    fn from(measured: HistogramForces) -> Self {
+impl From<Measured> for ForceKind {
+    fn from(measured: Measured) -> Self {
         match measured {
             HistogramForces::Forces => Self::Forces,
             HistogramForces::Normals => Self::Normals,

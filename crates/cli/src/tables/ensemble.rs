@@ -1,7 +1,7 @@
 //! The tables of an ensemble of random stackings.
 
 use cannonpile_dem::table::{Cell, Column, Row, Table};
-use cannonpile_disorder::{Binned, By, Error, Extreme, Tally, WithFaults};
+use cannonpile_disorder::{ContactSet, Error, Extreme, ForceKind, Tally, WithFaults};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -83,7 +83,7 @@ pub(crate) fn ensemble_summary(tally: &Tally, q: &BigRational) -> Result<Table<'
     ];
     for (by, [count, probability, lower, upper]) in [
         (
-            By::Sloping,
+            ContactSet::Sloping,
             [
                 "stand",
                 "standing_probability",
@@ -92,7 +92,7 @@ pub(crate) fn ensemble_summary(tally: &Tally, q: &BigRational) -> Result<Table<'
             ],
         ),
         (
-            By::Horizontal,
+            ContactSet::WithHorizontal,
             ["held", "held_probability", "held_lo", "held_hi"],
         ),
     ] {
@@ -120,15 +120,15 @@ pub(crate) fn ensemble_summary(tally: &Tally, q: &BigRational) -> Result<Table<'
 /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
 pub(crate) fn histogram<'t>(
     tally: &'t Tally,
-    binned: Binned,
+    binned: ForceKind,
     q: &BigRational,
 ) -> Result<Option<Table<'t>>, Error> {
     let Some(weights) = tally.weights(q)? else {
         return Ok(None);
     };
     let unit = match binned {
-        Binned::Forces => "mg/(3cosθ)",
-        Binned::Normals => "mg",
+        ForceKind::Contact => "mg/(3cosθ)",
+        ForceKind::Normal => "mg",
     };
     let mut columns = ["from", "to"]
         .map(|name| Column::measured(name, unit))
@@ -199,7 +199,7 @@ mod tests {
     #[test]
     fn histogram_of_three_layers() {
         let tally = tally(3);
-        let table = histogram(&tally, Binned::Forces, &ratio(1, 2)).unwrap();
+        let table = histogram(&tally, ForceKind::Contact, &ratio(1, 2)).unwrap();
         assert_eq!(
             csv(table.expect("a whole ensemble")),
             "from,to,all,standing\n2/3,1,3/2,3/2\n1,4/3,6,6\n4/3,5/3,0,0\n5/3,2,3,3\n2,7/3,3/2,3/2\n",
@@ -217,7 +217,7 @@ mod tests {
             bins.first = i64::MAX;
             bins.counts = vec![4_u32.into(); 2];
         }
-        let table = histogram(&tally, Binned::Forces, &ratio(1, 3)).unwrap();
+        let table = histogram(&tally, ForceKind::Contact, &ratio(1, 3)).unwrap();
         let csv = csv(table.expect("a whole ensemble"));
         let width = tally.ensemble.bin_width();
         let ends = [0, 1, 2].map(|n| width * BigInt::from(i128::from(i64::MAX) + n));

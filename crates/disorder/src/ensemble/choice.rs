@@ -59,7 +59,7 @@ pub struct Samples {
     #[serde(rename = "samples")]
     count: u64,
     seed: u64,
-    /// 0 ≤ a ≤ b, with b below 2⁶⁴.
+    /// The fault probability a/b, with 0 ≤ a ≤ b < 2⁶⁴.
     #[serde(with = "cannonpile::data::number")]
     fault_probability: BigRational,
 }
@@ -136,7 +136,7 @@ impl Samples {
 /// use cannonpile_disorder::Shard;
 ///
 /// let shard: Shard = "2/3".parse()?;
-/// assert_eq!((shard.index(), shard.of()), (2, 3));
+/// assert_eq!((shard.index(), shard.count()), (2, 3));
 /// assert_eq!(Shard::WHOLE.to_string(), "1/1");
 /// assert!("4/3".parse::<Shard>().is_err());
 /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -144,17 +144,17 @@ impl Samples {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Shard {
     index: u64,
-    of: u64,
+    count: u64,
 }
 
 impl Shard {
     /// The whole ensemble, 1/1.
-    pub const WHOLE: Self = Self { index: 1, of: 1 };
+    pub const WHOLE: Self = Self { index: 1, count: 1 };
 
-    /// Returns the part `index` of `of` parts.
+    /// Returns the part `index` of `count` parts.
     ///
     /// # Errors
-    /// [`Syntax`](cannonpile::Error::Syntax) unless 1 ≤ `index` ≤ `of`.
+    /// [`Syntax`](cannonpile::Error::Syntax) unless 1 ≤ `index` ≤ `count`.
     ///
     /// # Examples
     /// ```
@@ -163,11 +163,11 @@ impl Shard {
     /// assert!(Shard::new(3, 3).is_ok());
     /// assert!(Shard::new(0, 3).is_err());
     /// ```
-    pub fn new(index: u64, of: u64) -> Result<Self, Error> {
-        if (1..=of).contains(&index) {
-            return Ok(Self { index, of });
+    pub fn new(index: u64, count: u64) -> Result<Self, Error> {
+        if (1..=count).contains(&index) {
+            return Ok(Self { index, count });
         }
-        let text = Self { index, of }.to_string();
+        let text = Self { index, count }.to_string();
         Err(Error::syntax(&text, EXPECTED))
     }
 
@@ -185,14 +185,14 @@ impl Shard {
     /// # Examples
     /// See [`Shard`].
     #[must_use]
-    pub const fn of(&self) -> u64 {
-        self.of
+    pub const fn count(&self) -> u64 {
+        self.count
     }
 
     /// Returns the indices of this part of `total` stackings.
     pub(super) fn range(self, total: u64) -> Range<u64> {
         let end = |part: u64| {
-            let end = u128::from(total) * u128::from(part) / u128::from(self.of);
+            let end = u128::from(total) * u128::from(part) / u128::from(self.count);
             // The quotient is at most the total, so the conversion does not fail.
             u64::try_from(end).unwrap_or(total)
         };
@@ -205,7 +205,7 @@ const EXPECTED: &str = "a part I/N with I from 1 to N, such as 2/3";
 impl fmt::Display for Shard {
     /// Prints `2/3`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.index, self.of)
+        write!(f, "{}/{}", self.index, self.count)
     }
 }
 
@@ -221,9 +221,9 @@ impl FromStr for Shard {
     /// See [`Shard`].
     fn from_str(text: &str) -> Result<Self, Error> {
         let parts = text.split_once('/');
-        let parts = parts.and_then(|(index, of)| index.parse().ok().zip(of.parse().ok()));
-        let (index, of) = parts.ok_or_else(|| Error::syntax(text, EXPECTED))?;
-        Self::new(index, of)
+        let parts = parts.and_then(|(index, count)| index.parse().ok().zip(count.parse().ok()));
+        let (index, count) = parts.ok_or_else(|| Error::syntax(text, EXPECTED))?;
+        Self::new(index, count)
     }
 }
 

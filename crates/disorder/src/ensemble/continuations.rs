@@ -46,7 +46,7 @@ impl Continuations {
     }
 }
 
-/// Splits a range of the list, in which all stackings have the same first k signs, by the next sign.
+/// Splits a range of the list by the sign of step k. All its stackings have the same first k signs.
 pub(super) fn split(
     list: &[Vec<Sign>],
     range: Range<usize>,

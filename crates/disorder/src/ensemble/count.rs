@@ -186,7 +186,8 @@ impl<T: Numerator> Counted<T> {
         }
     }
 
-    /// Adds a layer of `times` stackings, of which the first has these signs. `scale` converts the numerators of the layer.
+    /// Adds a layer that `times` stackings share. The first of them has these signs. `scale` converts the numerators of
+    /// the layer.
     pub(super) fn add_layer(
         &mut self,
         layer: &LayerForces<T>,

@@ -147,7 +147,7 @@ impl Histogram {
         let first = self.first.min(other.first);
         let last = end(self).max(end(other));
         let bins = i128::from(first)..last;
-        // The range of both histograms is no longer than the lists that were read or counted. All its bins fit in
+        // Both histograms were read or counted as lists, so their common range fits in memory. All its bins fit in
         // `i64`.
         let bins = bins.filter_map(|bin| i64::try_from(bin).ok());
         let counts = bins.map(|bin| self.count(bin) + other.count(bin)).collect();

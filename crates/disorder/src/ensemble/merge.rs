@@ -145,7 +145,7 @@ impl Tally {
         }
         let mut present: Vec<u64> = parts.iter().map(|part| part.shard.index()).collect();
         present.sort_unstable();
-        let of = first.shard.of();
+        let of = first.shard.count();
         let count = of - present.len() as u64;
         if count > 0 {
             let missing = (1..=of).filter(|index| present.binary_search(index).is_err());
@@ -204,7 +204,7 @@ impl Tally {
                 ("number of samples", samples),
                 ("seed", seed),
                 ("fault probability", q),
-                ("number of parts", shard.of().to_string()),
+                ("number of parts", shard.count().to_string()),
             ]
         };
         let mut pairs = described(self).into_iter().zip(described(first));

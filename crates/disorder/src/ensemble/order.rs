@@ -1,4 +1,4 @@
-//! The order in which stackings are enumerated.
+//! The order of enumeration of stackings.
 
 use cannonpile::lattice::Sign;
 

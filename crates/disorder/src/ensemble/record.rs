@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-use super::{By, Choice, Ensemble, Shard, Tally, Unmergeable, WithFaults};
+use super::{Choice, ContactSet, Ensemble, Shard, Tally, Unmergeable, WithFaults};
 use crate::Error;
 
 /// The size limit of a file to read: 512 MiB.
@@ -177,11 +177,11 @@ impl TallyRecord {
         object.entry("stackings", &Count(tally.stackings()))?;
         let names = [
             (
-                By::Sloping,
+                ContactSet::Sloping,
                 ["standing", "standing_probability", "standing_interval"],
             ),
             (
-                By::Horizontal,
+                ContactSet::WithHorizontal,
                 ["held", "held_probability", "held_interval"],
             ),
         ];

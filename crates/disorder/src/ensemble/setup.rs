@@ -61,7 +61,7 @@ impl Task {
             return Err(too_many(count.into()));
         }
         let total = spheres.iter().sum::<u128>();
-        // The number is a multiple of three. So it is less than 2⁶², and counters of 64 bits suffice.
+        // At the limit of 2⁶² counters of 64 bits would overflow. But a multiple of three never equals the limit.
         refuse_beyond(
             "the contact forces of all samples",
             BigUint::from(u128::from(count) * u128::from(order.factor)) * (total * 3),

@@ -90,11 +90,11 @@ impl WithFaults {
 /// # Examples
 /// See [`Tally::standing`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum By {
+pub enum ContactSet {
     /// The sloping contacts α, β and γ only.
     Sloping,
     /// Sloping and horizontal contacts, at a = R.
-    Horizontal,
+    WithHorizontal,
 }
 
 impl Tally {
@@ -130,23 +130,23 @@ impl Tally {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile_disorder::{ContactSet, Choice, Ensemble, FirstSign, RandomStackings, Shard};
     /// use cannonpile::lattice::Region;
     ///
     /// let stackings = RandomStackings::new(8, FirstSign::Random)?;
     /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
     /// assert_eq!(tally.stackings(), 128_u32.into());
     /// // Eleven stackings and their mirror images.
-    /// assert_eq!(tally.standing(By::Sloping), Some(22_u32.into()));
-    /// assert_eq!(tally.standing(By::Horizontal), None);
+    /// assert_eq!(tally.standing(ContactSet::Sloping), Some(22_u32.into()));
+    /// assert_eq!(tally.standing(ContactSet::WithHorizontal), None);
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     #[must_use]
-    pub fn standing(&self, by: By) -> Option<BigUint> {
+    pub fn standing(&self, by: ContactSet) -> Option<BigUint> {
         self.faults.iter().map(|with| with.standing_count(by)).sum()
     }
 
-    /// Returns the weight of each stacking in a mean, by number of faults. `None` for a shard of several.
+    /// Returns the weight of each stacking in a mean, by number of faults. `None` unless the shard is the whole.
     ///
     /// For all stackings the weight is the probability of a stacking with d faults: q^d (1−q)^(n−1−d) with n steps, and
     /// half of it for a random first sign. For samples the weight is one over their number, for every `q`.
@@ -185,8 +185,8 @@ impl Tally {
         Ok(Some((0..self.faults.len()).map(weight).collect()))
     }
 
-    /// Returns the probability that a random stacking stands, at the fault probability `q`. `None` for samples, for a
-    /// shard of several, and with horizontal contacts if the run did not count them.
+    /// Returns the probability that a random stacking stands, at the fault probability `q`. `None` for samples, unless
+    /// the shard is the whole, and with horizontal contacts if the run did not count them.
     ///
     /// The value is exact: Σ_d c_d q^d (1−q)^(n−1−d), and half of it for a random first sign. Here c_d is the number of
     /// standing stackings with d faults, and n is the number of steps.
@@ -196,7 +196,7 @@ impl Tally {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile_disorder::{ContactSet, Choice, Ensemble, FirstSign, RandomStackings, Shard};
     /// use cannonpile::lattice::Region;
     /// use num_rational::BigRational;
     ///
@@ -204,7 +204,7 @@ impl Tally {
     /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
     /// let probability = |q: (i32, i32)| {
     ///     let q = BigRational::new(q.0.into(), q.1.into());
-    ///     Ok::<_, cannonpile_disorder::Error>(tally.standing_probability(By::Sloping, &q)?.unwrap().to_string())
+    ///     Ok::<_, cannonpile_disorder::Error>(tally.standing_probability(ContactSet::Sloping, &q)?.unwrap().to_string())
     /// };
     /// // RHCP: 11 of 16 stand. FCC stands. HCP does not.
     /// assert_eq!([probability((1, 2))?, probability((0, 1))?, probability((1, 1))?], ["11/16", "1", "0"]);
@@ -212,7 +212,7 @@ impl Tally {
     /// ```
     pub fn standing_probability(
         &self,
-        by: By,
+        by: ContactSet,
         q: &BigRational,
     ) -> Result<Option<BigRational>, Error> {
         let Some(weights) = self.weights(q)?.filter(|_| self.choice == Choice::All) else {
@@ -231,10 +231,10 @@ impl WithFaults {
     /// # Examples
     /// See [`Tally::standing`].
     #[must_use]
-    pub fn standing_count(&self, by: By) -> Option<BigUint> {
+    pub fn standing_count(&self, by: ContactSet) -> Option<BigUint> {
         match by {
-            By::Sloping => Some(self.standing.stackings.clone()),
-            By::Horizontal => self.held.clone(),
+            ContactSet::Sloping => Some(self.standing.stackings.clone()),
+            ContactSet::WithHorizontal => self.held.clone(),
         }
     }
 }

@@ -5,7 +5,7 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use super::{By, Choice, Tally};
+use super::{Choice, ContactSet, Tally};
 
 /// z² = 1.96², in units of 10⁻⁴. A standard normal variable exceeds z with probability 2.5 %.
 const SQUARE: u32 = 38_416;
@@ -24,7 +24,7 @@ impl Tally {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard};
+    /// use cannonpile_disorder::{ContactSet, Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard};
     /// use cannonpile::lattice::Region;
     /// use num_rational::BigRational;
     ///
@@ -32,13 +32,13 @@ impl Tally {
     /// let half = BigRational::new(1.into(), 2.into());
     /// let drawn = Choice::Drawn(Samples::new(1000, 1, half)?);
     /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&drawn, Shard::WHOLE)?;
-    /// let [lower, upper] = tally.standing_interval(By::Sloping).unwrap();
+    /// let [lower, upper] = tally.standing_interval(ContactSet::Sloping).unwrap();
     /// // The probability is 11/16.
     /// assert!(lower < 0.6875 && 0.6875 < upper && upper - lower < 0.06);
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     #[must_use]
-    pub fn standing_interval(&self, by: By) -> Option<[f64; 2]> {
+    pub fn standing_interval(&self, by: ContactSet) -> Option<[f64; 2]> {
         if self.choice == Choice::All {
             return None;
         }

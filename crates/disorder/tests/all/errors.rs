@@ -204,7 +204,7 @@ fn size_errors_state_the_size() {
         assert_eq!(found, (MEAN, needed, 100_000_000));
         assert_eq!(too_large(piles.exact(&half)), found);
     }
-    // 4999 numbers of faults, each of which determines the sign.
+    // There are 4999 numbers of faults, and each determines the sign.
     let needed = 10_001 * 10_001 * 6 * 4999 + 4999;
     assert_eq!(
         too_large(plane(5000, FirstSign::Plus).by_faults()),

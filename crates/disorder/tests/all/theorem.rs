@@ -35,7 +35,10 @@ fn names_are_unique_and_found() {
 
 /// The text that each statement must contain.
 const SUBJECTS: [(&str, &str); 10] = [
-    ("resultant-form", "do without the signs"),
+    (
+        "resultant-form",
+        "has the resultant of g along its own directions",
+    ),
     ("squares", "Σf² = Σg² + 2nΣg + 3n²"),
     ("third-moment", "Σv r³cos3φ"),
     ("fourth-moment", "Σv r⁴"),
@@ -43,7 +46,7 @@ const SUBJECTS: [(&str, &str); 10] = [
     ("mean-spectrum", "λ³Q(λ+μ/λ)"),
     ("wave", "HCP is a wave"),
     ("faults", "(5/3)^d"),
-    ("one-fault", "six loads 2/9"),
+    ("one-fault", "six loads 2/9 at m u_a − n u_b"),
     ("registry", "from the registry r to r+1"),
 ];
 

@@ -1,7 +1,7 @@
 //! Figures of random stackings: means by position and by distance, and force distributions.
 
 use cannonpile::lattice::{Region, Site};
-use cannonpile_disorder::Binned;
+use cannonpile_disorder::ForceKind;
 use cannonpile_disorder::{
     Choice, Ensemble, FirstSign, Place, RandomPiles, RandomStackings, Samples, Shard,
 };
@@ -106,17 +106,17 @@ fn distribution_has_curves_of_all_and_of_stable_stackings() {
         let figure = figure::distribution(&tally, binned, q).unwrap();
         figure.unwrap().to_string()
     };
-    // All 21 base normal forces of FCC are in one bin, so the curve is one stroke.
-    let svg = of(Binned::Normals, &ratio(0, 1));
+    // FCC has all of its 21 bottom normals in one bin: one stroke of a bin.
+    let svg = of(ForceKind::Normal, &ratio(0, 1));
     let document = Document::parse(&svg).unwrap();
     let curves = of_class(&document, "curve");
     assert_eq!(curves.len(), 2);
     for curve in &curves {
         assert_eq!(curve.attribute("points").unwrap().split(' ').count(), 2);
     }
-    let svg = of(Binned::Forces, &ratio(1, 2));
-    assert!(svg.contains("all stackings") && svg.contains("stable stackings"));
-    // Only the first curve includes tensile forces, so it begins further left.
+    let svg = of(ForceKind::Contact, &ratio(1, 2));
+    assert!(svg.contains("all stackings") && svg.contains("those that stand"));
+    // Some pull, and those that stand do not: the first curve begins further left.
     let document = Document::parse(&svg).unwrap();
     let begins = |curve: &roxmltree::Node<'_, '_>| -> f64 {
         let (x, _) = curve.attribute("points").unwrap().split_once(',').unwrap();
@@ -151,13 +151,13 @@ fn rejects_parts_and_figures_that_are_too_large() {
         .unwrap();
     let half = ratio(1, 2);
     assert!(
-        figure::distribution(&part, Binned::Forces, &half)
+        figure::distribution(&part, ForceKind::Contact, &half)
             .unwrap()
             .is_none()
     );
     let drawn = Choice::Drawn(Samples::new(10, 1, half.clone()).unwrap());
     let drawn = ensemble.run(&drawn, Shard::WHOLE).unwrap();
-    let figure = figure::distribution(&drawn, Binned::Forces, &half).unwrap();
+    let figure = figure::distribution(&drawn, ForceKind::Contact, &half).unwrap();
     assert!(figure.unwrap().to_string().contains("drawn at random"));
     assert!(matches!(
         figure::mean_response(200, core::slice::from_ref(&half)),

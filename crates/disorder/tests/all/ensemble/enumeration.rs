@@ -4,7 +4,7 @@
 use cannonpile::census;
 use cannonpile::lattice::Region;
 use cannonpile_disorder::{
-    By, Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard,
+    Choice, ContactSet, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard,
 };
 use cannonpile_horizontal::certificate::Claim;
 use num_rational::BigRational;
@@ -134,12 +134,15 @@ fn standing_counts_agree_with_the_census() -> Result<(), Error> {
             let stackings = RandomStackings::new(layers, first)?;
             let tally =
                 Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
-            assert_eq!(tally.standing(By::Sloping), Some((census * pairs).into()));
+            assert_eq!(
+                tally.standing(ContactSet::Sloping),
+                Some((census * pairs).into())
+            );
             for (d, with) in (0..).zip(&tally.faults) {
                 assert_eq!(with.all.stackings, stackings.count_with(d)?);
             }
             // At q = ½ all stackings are equally likely.
-            let probability = tally.standing_probability(By::Sloping, &ratio(1, 2))?;
+            let probability = tally.standing_probability(ContactSet::Sloping, &ratio(1, 2))?;
             let standing = BigRational::from_integer((census * pairs).into());
             let all = BigRational::from_integer(tally.stackings().into());
             assert_eq!(probability, Some(standing / all));
@@ -168,7 +171,7 @@ fn standing_probabilities_agree() -> Result<(), Error> {
             }
         }
         expected /= BigRational::from_integer(first.signs().len().into());
-        let found = tally.standing_probability(By::Sloping, &q)?;
+        let found = tally.standing_probability(ContactSet::Sloping, &q)?;
         assert_eq!(found, Some(expected), "{first}");
     }
     Ok(())
@@ -183,7 +186,7 @@ fn counts_with_horizontal_contacts_agree() -> Result<(), AnyError> {
         let census = cannonpile_horizontal::census::under_one_sphere(layers, false)?.count();
         let pairs = if layers > 1 { 2 } else { 1 };
         assert_eq!(
-            tally.standing(By::Horizontal),
+            tally.standing(ContactSet::WithHorizontal),
             Some((census * pairs).into())
         );
     }
@@ -354,6 +357,9 @@ fn large_ensembles_are_rejected() -> Result<(), Error> {
     // A shard has the same limit as the whole of fewer layers.
     let part = run("hexagon:1", 30, ratio(1, 3), Shard::new(1, 1 << 22)?)?;
     assert_eq!(part.stackings(), 64_u32.into());
-    assert_eq!(part.standing_probability(By::Sloping, &ratio(1, 2))?, None);
+    assert_eq!(
+        part.standing_probability(ContactSet::Sloping, &ratio(1, 2))?,
+        None
+    );
     Ok(())
 }

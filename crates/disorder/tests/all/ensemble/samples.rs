@@ -2,7 +2,7 @@
 
 use cannonpile::lattice::{Region, Sign};
 use cannonpile_disorder::{
-    By, Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard, Tally,
+    Choice, ContactSet, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard, Tally,
 };
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -90,7 +90,7 @@ fn repeated_samples_count_repeatedly() -> Result<(), Error> {
     }
     let found = whole.faults.iter().map(|with| with.all.stackings.clone());
     assert!(found.eq(faults.into_iter().map(Into::into)));
-    assert_eq!(whole.standing(By::Sloping), Some(standing.into()));
+    assert_eq!(whole.standing(ContactSet::Sloping), Some(standing.into()));
     Ok(())
 }
 
@@ -102,15 +102,18 @@ fn intervals_contain_the_probability() -> Result<(), Error> {
         let ensemble = Ensemble::under(top.parse()?, stackings)?;
         let all = ensemble.run(&Choice::All, Shard::WHOLE)?;
         for q in [ratio(1, 4), ratio(1, 2)] {
-            let exact = all.standing_probability(By::Sloping, &q)?.unwrap();
+            let exact = all.standing_probability(ContactSet::Sloping, &q)?.unwrap();
             let drawn = Choice::Drawn(Samples::new(20_000, 3, q)?);
             let tally = ensemble.run(&drawn, Shard::WHOLE)?;
-            let [lower, upper] = tally.standing_interval(By::Sloping).unwrap();
+            let [lower, upper] = tally.standing_interval(ContactSet::Sloping).unwrap();
             let exact = exact.to_f64().unwrap();
             assert!(lower < exact && exact < upper, "{lower} {exact} {upper}");
             assert!(upper - lower < 0.02);
-            assert_eq!(tally.standing_probability(By::Sloping, &ratio(1, 2))?, None);
-            assert_eq!(all.standing_interval(By::Sloping), None);
+            assert_eq!(
+                tally.standing_probability(ContactSet::Sloping, &ratio(1, 2))?,
+                None
+            );
+            assert_eq!(all.standing_interval(ContactSet::Sloping), None);
         }
     }
     Ok(())

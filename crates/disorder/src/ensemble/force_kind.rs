@@ -7,25 +7,25 @@ use super::{Histogram, WithFaults};
 /// # Examples
 /// See [`histograms`](Self::histograms).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Binned {
+pub enum ForceKind {
     /// Contact forces, in f₀.
-    Forces,
+    Contact,
     /// Normal forces of bottom spheres, in mg.
-    Normals,
+    Normal,
 }
 
-impl Binned {
+impl ForceKind {
     /// Returns the histograms of these forces, of all stackings and of the standing ones with the same number of
     /// faults.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_disorder::{Binned, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile_disorder::{ForceKind, Choice, Ensemble, FirstSign, RandomStackings, Shard};
     /// use cannonpile::lattice::Region;
     ///
     /// let stackings = RandomStackings::new(2, FirstSign::Plus)?;
     /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
-    /// let [all, standing] = Binned::Normals.histograms(&tally.faults[0]);
+    /// let [all, standing] = ForceKind::Normal.histograms(&tally.faults[0]);
     /// // The normal force of the three bottom spheres is 4/3, in the fifth bin of width 1/3.
     /// assert_eq!((all.count(4), standing.count(4)), (3_u32.into(), 3_u32.into()));
     /// # Ok::<(), cannonpile_disorder::Error>(())
@@ -34,8 +34,8 @@ impl Binned {
     pub fn histograms(self, with: &WithFaults) -> [&Histogram; 2] {
         let of = [&with.all, &with.standing];
         match self {
-            Self::Forces => of.map(|of| &of.forces),
-            Self::Normals => of.map(|of| &of.normals),
+            Self::Contact => of.map(|of| &of.forces),
+            Self::Normal => of.map(|of| &of.normals),
         }
     }
 }
