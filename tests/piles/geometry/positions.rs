@@ -1,7 +1,7 @@
 //! Positions of spheres as lengths: contacts have the length of a diameter, and contact points are midpoints.
 
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Region, Site};
+use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::{Packing, Pile};
 use cannonpile_testkit::answers::{Shape, below, ratio};
@@ -212,6 +212,37 @@ fn positions_on_a_base_are_relative_to_its_origin() {
             let packing = Packing::new(&pile, &spacing).unwrap();
             let [x, y, _] = packing.position(origin).unwrap();
             assert_eq!([x, y], [Surd::zero(), Surd::zero()], "{signs}");
+        }
+    }
+}
+
+/// The three contact vectors span the lattice of the pile. Their scalar products say which lattice it is.
+#[test]
+fn three_spacings_make_cubic_lattices() {
+    for (lattice, q, scalar_product) in [
+        ("face-centred cubic", ratio(1, 1), ratio(1, 2)),
+        ("simple cubic", ratio(2, 1), ratio(0, 1)),
+        ("body-centred cubic", ratio(8, 3), ratio(-1, 3)),
+    ] {
+        let pile = Pile::triangular(LAYERS).unwrap();
+        let packing = packing(&pile, &q);
+        let apex = packing.position(Site::APEX).unwrap();
+        let contacts = Direction::ALL.map(|direction| {
+            let lower = packing.position(below(Site::APEX, direction)).unwrap();
+            [0, 1, 2].map(|axis| minus(&lower[axis], &apex[axis]))
+        });
+        let square = radius() * radius() * ratio(4, 1);
+        for (n, a) in contacts.iter().enumerate() {
+            for (m, b) in contacts.iter().enumerate() {
+                let products = a.iter().zip(b).map(|(a, b)| (a.clone() * b).to_rational());
+                let sum: BigRational = products.map(Option::unwrap).sum();
+                let want = if n == m {
+                    ratio(1, 1)
+                } else {
+                    scalar_product.clone()
+                };
+                assert_eq!(sum / &square, want, "{lattice}");
+            }
         }
     }
 }
