@@ -12,13 +12,14 @@
 //! | `disorder` | piles of random stackings, for the library and for an oracle | `disorder` |
 //! | [`errors`] | checks of error messages | |
 //! | [`generators`] | random inputs from plain bytes | some |
-//! | [`judge`] | decides whether a float is correctly rounded | |
-//! | `json` | round trips of values as text and as bytes | `serde` |
-//! | [`laws`] | the law suite of scalars on difficult operands | |
-//! | [`oracles`] | slow, simple computations of the same results | some |
-//! | [`pair`] | two scalars in parallel, and the first operation at which they differ | |
-//! | [`proofs`] | checks of the theorems of a crate, and wrong formulas that they must reject | |
-//! | [mod@properties] | runs a claim on random bytes | |
+//! | `guide` | the Rust examples of the guide, as doc tests | some |
+//! | [`judge`] | whether a float is the one nearest to a number | |
+//! | `json` | values written and read, as text and as bytes | `serde` |
+//! | [`laws`] | the law suite of scalars on operands chosen to break it | |
+//! | [`oracles`] | slow, simple computations that the library is compared with | some |
+//! | [`pair`] | two scalars in step, and the first operation at which they differ | |
+//! | [`proofs`] | what must hold of the theorems of a crate, and wrong formulas that they refuse | |
+//! | [mod@properties] | the runner that tests a claim on random bytes | |
 //! | [`python_checker`] | the second certificate checker, as a Python process | |
 //! | [`rational`] | rationals from machine integers | |
 //! | [`rounding`] | inputs that are critical for correct rounding | some |
@@ -46,6 +47,8 @@ pub mod compare;
 pub mod disorder;
 pub mod errors;
 pub mod generators;
+#[cfg(doctest)]
+mod guide;
 #[cfg(feature = "serde")]
 pub mod json;
 pub mod judge;
