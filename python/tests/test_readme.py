@@ -83,7 +83,7 @@ def test_all_examples_are_listed():
     assert named == {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".ipynb")}
 
 
-def test_project_readme_has_same_blocks():
-    text = (README.parent.parent / "README.md").read_text(encoding="utf-8")
+def test_the_guide_shows_the_same():
+    text = (README.parent.parent / "docs/check-your-dem-code.md").read_text(encoding="utf-8")
     for block in (blocks("sh")[0], blocks("python")[0]):
         assert text.count(block) == 1

@@ -1,4 +1,4 @@
-//! Snapshot tests of the output of commands, in `commands/*.console` and in README.
+//! Commands and what they print, word for word: those of `commands/*.console`. `.ci/docs` runs those of README and the guide.
 //!
 //! | line | meaning |
 //! |---|---|
@@ -240,68 +240,6 @@ fn holds(name: &str, commands: usize) {
             "update the number of commands in `console.rs`"
         );
     }
-}
-
-/// Returns the code blocks of README with this language.
-fn blocks(kind: &str) -> impl Iterator<Item = &'static str> {
-    let blocks = include_str!("../../../../../README.md")
-        .split("\n```")
-        .skip(1)
-        .step_by(2);
-    blocks.filter_map(move |block| block.strip_prefix(kind)?.strip_prefix('\n'))
-}
-
-#[test]
-fn readme_shows_current_output() {
-    let mut commands = 0;
-    for Shown { line, below } in blocks("console").flat_map(shown) {
-        let lines = run(&line[2..], fresh().path());
-        // A terminal shows stdout and stderr without marks. A command without output in README only has to succeed.
-        let failed = lines.iter().any(|line| line.starts_with("? "));
-        let seen: Vec<String> = lines
-            .iter()
-            .filter(|line| !line.starts_with("? "))
-            .map(|line| line.strip_prefix("! ").unwrap_or(line).to_owned())
-            .collect();
-        let holds = if below.is_empty() {
-            !failed && !seen.is_empty()
-        } else {
-            agree(&below, &seen)
-        };
-        assert!(holds, "{line}\n{}", seen.join("\n"));
-        commands += 1;
-    }
-    assert!(commands >= 3, "{commands}");
-}
-
-/// The snapshot files contain the commands that README lists without their output.
-#[test]
-fn commands_of_readme_are_run() {
-    // Some commands read files of LAMMPS, YADE or Siconos, or print their duration.
-    let elsewhere = ["forces.dump", "forces.csv", "siconos.csv", "--layers 40"];
-    let mut run = String::new();
-    for file in fs::read_dir(folder())
-        .expect("commands")
-        .map(|file| file.expect("a file").path())
-    {
-        run += &fs::read_to_string(file).unwrap_or_default();
-    }
-    let mut listed = 0;
-    for line in blocks("sh")
-        .flat_map(str::lines)
-        .filter(|line| line.starts_with("cannonpile "))
-    {
-        let command = line.split(" #").next().unwrap_or(line).trim_end();
-        if elsewhere.iter().any(|part| command.contains(part)) {
-            continue;
-        }
-        let is_run = ["$", ">"]
-            .iter()
-            .any(|mark| run.lines().any(|line| line == format!("{mark} {command}")));
-        assert!(is_run, "not in commands/*.console: {command}");
-        listed += 1;
-    }
-    assert!(listed >= 10, "{listed}");
 }
 
 #[test]

@@ -134,7 +134,7 @@ fn width_and_title_options() {
 }
 
 #[test]
-fn figures_of_readme_are_current() {
+fn the_figures_of_the_pages_are_those_of_the_commands() {
     for (command, figure) in [
         (
             "plot pile",
@@ -157,11 +157,7 @@ fn figures_of_readme_are_current() {
             include_str!("../../../../../examples/figures/mean.svg"),
         ),
     ] {
-        assert!(stdout(command) == figure, "run again: {command}");
-        assert!(
-            include_str!("../../../../../README.md").contains(command),
-            "{command}"
-        );
+        assert!(stdout(command) == figure, "draw it again: {command}");
     }
 }
 
