@@ -12,6 +12,7 @@
 //! | a region | [`small_region`], [`region`] of any size, [`bounds`] that may be invalid |
 //! | a position at the edge of a region, inside or outside | [`position_near`] |
 //! | a small pile and the data it is built from | [`description`], [`light_description`], [`tiny_description`] |
+//! | a small pile with moderate weights and loads, for tests with floats | [`moderate_pile`] |
 //! | a pile of one straight stacking under one sphere, with any sin φ | [`regular_pile`] |
 //! | a site of a pile of any size | [`site`] |
 //! | a weight or load | [`weight`], [`light_weight`] |
@@ -46,7 +47,7 @@ mod stacking;
 
 pub use ::arbitrary::{Arbitrary, Unstructured};
 pub use pile::{
-    Description, description, light_description, light_weight, regular_pile, site,
+    Description, description, light_description, light_weight, moderate_pile, regular_pile, site,
     tiny_description, weight,
 };
 pub use region::{bounds, position_near, region, small_region};

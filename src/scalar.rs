@@ -25,7 +25,7 @@
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
 //! [`Surd`] is not a scalar: it is the exact value c·√r at the edge, where roots come in.
 
-/// Adds and multiplies numbers by value, by way of references.
+/// Implements `+`, `-` and `*` with the right operand by value, through the operators that take it by reference.
 macro_rules! by_value {
     ($scalar:ty $(, $generic:ident: $bound:path)?) => {
         impl$(<$generic: $bound>)? Add for $scalar {
@@ -33,6 +33,14 @@ macro_rules! by_value {
 
             fn add(self, rhs: Self) -> Self {
                 self + &rhs
+            }
+        }
+
+        impl$(<$generic: $bound>)? Sub for $scalar {
+            type Output = Self;
+
+            fn sub(self, rhs: Self) -> Self {
+                self - &rhs
             }
         }
 

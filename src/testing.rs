@@ -31,7 +31,7 @@ use proptest::collection::vec;
 use proptest::strategy::Strategy;
 
 use crate::Pile;
-use crate::arbitrary::site;
+use crate::arbitrary::{moderate_pile, site};
 use crate::lattice::{Region, Site};
 use crate::stacking::Stacking;
 
@@ -50,6 +50,32 @@ const BYTES: usize = 256;
 /// ```
 pub fn piles() -> impl Strategy<Value = Pile> + Clone {
     drawn(|u: &mut Unstructured<'_>| u.arbitrary())
+}
+
+/// Generates small piles with weights and loads between 0 and 1000 mg, with denominators of at most 42: those of
+/// [`moderate_pile`].
+///
+/// [`piles`] also draws loads of up to about 10³²⁰ mg, which overflow `f64`. Use this strategy for properties of floats.
+///
+/// # Examples
+/// In `f64`, the normal forces on the floor sum to the weight up to rounding:
+/// ```
+/// use cannonpile::scalar::NearestFloat;
+/// use cannonpile::shape::Selection;
+/// use cannonpile::testing::moderate_piles;
+/// use proptest::prelude::*;
+///
+/// proptest!(|(pile in moderate_piles())| {
+///     let mut normal = 0.0;
+///     for force in pile.forces::<f64>().base(Selection::Base).unwrap() {
+///         normal += force.unwrap().normal;
+///     }
+///     let weight = f64::nearest_to_rational(&pile.weight()).unwrap();
+///     prop_assert!((normal - weight).abs() <= 1e-12 * weight);
+/// });
+/// ```
+pub fn moderate_piles() -> impl Strategy<Value = Pile> + Clone {
+    drawn(moderate_pile)
 }
 
 /// Regions of up to five sites a side, close to the origin.

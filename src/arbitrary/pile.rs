@@ -83,6 +83,14 @@ impl Description {
 /// # Errors
 /// Those of [`Unstructured`].
 pub fn description(u: &mut Unstructured<'_>) -> Result<Description> {
+    described(u, weight)
+}
+
+/// Draws a pile of up to six layers, or of up to ten under one sphere.
+fn described(
+    u: &mut Unstructured<'_>,
+    weight: fn(&mut Unstructured<'_>) -> Result<BigRational>,
+) -> Result<Description> {
     let from_base = u.arbitrary()?;
     let (region, most) = if rarely(u, 4)? {
         (Region::SITE, 9)
@@ -205,6 +213,50 @@ pub fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
 /// Those of [`Unstructured`].
 pub fn light_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(ratio(u.int_in_range(0..=9)?, *u.choose(&[1, 1, 2, 3, 7])?))
+}
+
+/// Draws a weight or load between 0 and 300 mg, with the denominator 1, 2, 3 or 7. Three loads on one sphere stay below 1000 mg.
+fn moderate_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
+    if rarely(u, 6)? {
+        return Ok(ratio(0, 1));
+    }
+    let denom = *u.choose(&[1, 1, 2, 3, 7])?;
+    Ok(ratio(u.int_in_range(0..=300 * denom)?, denom))
+}
+
+/// Draws a pile of up to ten layers. The weight of each sphere and the load on it lie between 0 and 1000 mg, with denominators of
+/// at most 42.
+///
+/// Three in four have any stacking, on or under a small region. The others are straight piles of up to five layers under
+/// one sphere: equilateral, of discs, or isosceles with a sin φ between 1/12 and 11/12. All contact forces are below 10⁶
+/// in units of f₀, so every scalar type down to `f32` can represent them.
+///
+/// # Errors
+/// Those of [`Unstructured`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::arbitrary::{Unstructured, moderate_pile};
+///
+/// let pile = moderate_pile(&mut Unstructured::new(b"some bytes"))?;
+/// let thousand = cannonpile::ratio!(1000);
+/// assert!(pile.weights().chain(pile.loads()).all(|(_, weight)| *weight <= thousand));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn moderate_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
+    if !rarely(u, 4)? {
+        return valid(described(u, moderate_weight)?.pile());
+    }
+    let layers = u.int_in_range(1..=5)?;
+    valid(match u.int_in_range(0..=2)? {
+        0 => Pile::triangular(layers),
+        1 => Pile::discs(layers),
+        _ => {
+            let denom = u.int_in_range(2..=12)?;
+            let sin_phi = ratio(u.int_in_range(1..=denom - 1)?, denom);
+            Pile::isosceles(layers, sin_phi)
+        }
+    })
 }
 
 /// Draws a straight pile of `layers` layers under one sphere: equilateral, isosceles or of discs.

@@ -344,7 +344,7 @@ mod tests {
                     continue;
                 }
                 check(a + b, wide(x) + wide(y));
-                check(a - &b, wide(x) - wide(y));
+                check(a - b, wide(x) - wide(y));
                 check(a * b, wide(x) * wide(y));
                 if let Some(quotient) = a.checked_div(&b) {
                     check(quotient, wide(x) / wide(y));

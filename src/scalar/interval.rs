@@ -29,7 +29,7 @@ use exact_surd::layout::padded;
 ///
 /// let third = Interval::from_i128(1).div_int(3.try_into().unwrap());
 /// assert_eq!(third.upper(), third.lower().next_up());
-/// let rest = Interval::from_i128(1) - &(third + third + third);
+/// let rest = Interval::from_i128(1) - (third + third + third);
 /// assert_eq!(rest.sign(), RealSign::Unknown);
 /// // Around zero there is no quotient.
 /// assert_eq!(third.checked_div(&rest), None);
@@ -159,7 +159,7 @@ impl Interval {
         if self.lower.is_infinite() || self.upper.is_infinite() {
             return f64::INFINITY;
         }
-        (Self::point(self.upper) - &Self::point(self.lower)).upper
+        (Self::point(self.upper) - Self::point(self.lower)).upper
     }
 
     /// Returns a float inside, halfway between the ends up to rounding; an infinite end counts as the greatest float.
@@ -352,8 +352,7 @@ impl Sub<&Self> for Interval {
     type Output = Self;
 
     fn sub(self, rhs: &Self) -> Self {
-        let negated = -*rhs;
-        self + negated
+        self + (-*rhs)
     }
 }
 
@@ -497,7 +496,7 @@ mod tests {
                 assert_eq!(order, y.partial_cmp(&x).map(Ordering::reverse));
                 if let Some(Ordering::Less | Ordering::Greater) = order {
                     assert!(!x.may_equal(&y), "{x} {y}");
-                    assert_eq!(x < y, (y - &x).sign() == RealSign::Positive, "{x} {y}");
+                    assert_eq!(x < y, (y - x).sign() == RealSign::Positive, "{x} {y}");
                 }
             }
         }

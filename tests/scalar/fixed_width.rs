@@ -216,7 +216,7 @@ fn least_integers_are_faults() {
             "{name}"
         );
         assert!(
-            !(image - &image).is_defined() && !(zero + image).is_defined(),
+            !(image - image).is_defined() && !(zero + image).is_defined(),
             "{name}"
         );
     }

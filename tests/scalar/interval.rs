@@ -122,7 +122,7 @@ fn sums_of_points_are_tightest() {
         let (a, b) = (Interval::point(x), Interval::point(y));
         let exact = exactly(x) + exactly(y);
         assert!(encloses(&(a + b), [&exact; 2], 0), "{x:e} + {y:e}");
-        assert!(encloses(&(a - &-b), [&exact; 2], 0), "{x:e} - {:e}", -y);
+        assert!(encloses(&(a - (-b)), [&exact; 2], 0), "{x:e} - {:e}", -y);
     }
 }
 
@@ -173,7 +173,7 @@ type Operation = (
 
 const OPERATIONS: [Operation; 4] = [
     ('+', |a, b| Some(a + b), |x, y| x + y),
-    ('-', |a, b| Some(a - &b), |x, y| x - y),
+    ('-', |a, b| Some(a - b), |x, y| x - y),
     ('*', |a, b| Some(a * b), |x, y| x * y),
     ('/', |a, b| a.checked_div(&b), |x, y| x / y),
 ];
@@ -243,7 +243,7 @@ fn results_that_are_floats_stay_points() {
         assert_eq!((a * b).checked_div(&b), Some(a));
         assert_eq!(b + b, Interval::point(y + y));
         assert_eq!(
-            (a - &a, a * Interval::zero()),
+            (a - a, a * Interval::zero()),
             (Interval::zero(), Interval::zero())
         );
         assert_eq!(
@@ -328,7 +328,7 @@ fn infinite_ends() {
     assert_eq!((Interval::WHOLE * zero, ray * zero), (zero, zero));
     assert_eq!(ray * of(0.0, 1.0), of(0.0, inf));
     assert_eq!(ray * -ray, of(-inf, -4.0));
-    assert_eq!(ray - &ray, Interval::WHOLE);
+    assert_eq!(ray - ray, Interval::WHOLE);
     assert_eq!(Interval::one().checked_div(&ray), Some(of(0.0, 0.5)));
     assert_eq!(ray.checked_div(&ray), Some(of(0.0, inf)));
     assert_eq!(zero.checked_div(&ray), Some(zero));
@@ -373,7 +373,7 @@ fn sums_next_to_the_greatest_float_are_enclosed_tightly() {
     let below = f64::MAX.next_down();
     let between = Interval::new(below.next_down(), below).unwrap();
     assert_eq!((most + less, less + most), (between, between));
-    assert_eq!((-less - &most, -most - &less), (-between, -between));
+    assert_eq!((-less - most, -most - less), (-between, -between));
 }
 
 #[test]

@@ -43,7 +43,7 @@ pub fn results_can_be_negated(u: &mut Unstructured<'_>) -> Checked {
     for result in [
         Some(x),
         Some(x + y),
-        Some(x - &y),
+        Some(x - y),
         Some(x * y),
         x.checked_div(&y),
     ] {
