@@ -1,11 +1,11 @@
-//! Random piles and their parts, drawn from plain bytes (feature `arbitrary`).
+//! Generators of random piles and their parts from plain bytes (feature `arbitrary`).
 //!
-//! The functions here are the generators that the property tests and the fuzz targets of this workspace use. They read
-//! an [`Unstructured`], the byte source of the crate `arbitrary`, so one description of the inputs serves proptest and
-//! libFuzzer alike. The values are biased towards cases that break code: single spheres, flat regions, alternating
-//! signs, weights that fill many machine words, bounds next to [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
+//! The property tests and the fuzz targets of this workspace use these generators. They read an [`Unstructured`], the
+//! byte source of the crate `arbitrary`, so proptest and libFuzzer share one description of the inputs. The values are
+//! biased towards difficult cases: single spheres, flat regions, alternating signs, weights of many machine words, and
+//! bounds close to [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
 //!
-//! | I want | call |
+//! | value | function |
 //! |---|---|
 //! | a small pile, region or stacking; a site, sign or direction | `u.arbitrary()?`, by their [`Arbitrary`] |
 //! | signs of a stacking | [`signs`], [`signs_of`] |
@@ -18,8 +18,8 @@
 //! | a weight or load | [`weight`], [`light_weight`] |
 //! | other numbers | [`number`] |
 //!
-//! A generator never fails for want of bytes: missing bytes are read as zeros. Its error is that of the crate
-//! `arbitrary`, and `?` passes it on. The strategies for proptest are in `cannonpile::testing` (feature `proptest`).
+//! Missing bytes are read as zeros, so too few bytes are not an error. The errors are those of the crate `arbitrary`.
+//! The strategies for proptest are in `cannonpile::testing` (feature `proptest`).
 //!
 //! # Examples
 //! ```

@@ -1,34 +1,35 @@
-//! Which stackings stand, at spacings at which nothing touches beside the contacts.
+//! The stable stackings, at spacings without further contacts than α, β, γ.
 //!
 //! # Under one sphere
-//! The forces above a layer do not depend on what lies below it, so a beginning that fails never recovers, and the
-//! stackings that stand are found from the top, run by run, leaving off where a beginning fails. Of L layers there
-//! stand, one of each mirror pair,
+//! The forces above a layer do not depend on the layers below. So every continuation of an unstable stacking is
+//! unstable. A search from the top, run by run, finds the stable stackings and abandons each unstable beginning. The
+//! numbers of stable stackings with L layers are, counting one of each mirror pair,
 //!
 //! | L | 1 | 2 | 3 | 4 | 5 | 6 and more |
 //! |---|---|---|---|---|---|---|
 //! | stackings | 1 | 1 | 2 | 4 | 8 | 11 |
 //!
 //! In Zhdanov's notation, with * for a last run of any length, the eleven are (*), (1,*), (2,*), (3,*), (1,1,*),
-//! (1,2,*), (2,1,*), (3,1,*), (1,1,1,*), (1,2,1,*) and (2,1,1,*): the sign changes three times at most, within the first five
-//! layers, and then the pile is straight for ever. HCP and DHCP stand up to five layers. The proof:
+//! (1,2,*), (2,1,*), (3,1,*), (1,1,1,*), (1,2,1,*) and (2,1,1,*). The sign changes at most three times, within the
+//! first five layers. Below them the stacking is straight. Hcp and dhcp are stable up to five layers. The proof:
 //!
-//! 1. *A run before a change has at most four steps.* Let a run of + steps begin at a layer with the side s₀ ≤ i+j, and
-//!    take a sphere on that side, and the one m steps straight along α below it. No β and no γ line within the run lies
-//!    above the latter, and along α it receives f + m − 1, where f ≥ 0 is what the former passes on along α, itself
-//!    included. If the sign changes there, it passes on 1 − (f + m − 1)/3 along α: negative if f + m > 4, hence for all
-//!    m ≥ 5. (Proved for all f and m: theorem `edge` of [`theorem`](crate::theorem). Of − runs the mirror image.) This
-//!    holds under any top.
-//! 2. *The rest is a finite search*, in exact arithmetic: of runs of at most four steps no fourth change of sign
-//!    stands ([`under_one_sphere`] carries it out).
-//! 3. *A last run of any length stands* if its first step does, since within a run lines only grow.
+//! 1. *A run before a sign change has at most four steps.* Let a run of + steps begin at a layer with the side s₀ ≤
+//!    i+j. Take a sphere on that side, and the sphere m steps below it along α. No β and no γ line within the run lies
+//!    above the lower sphere. Along α it receives f + m − 1, where f ≥ 0 is the force that the upper sphere transmits
+//!    along α. At a sign change it transmits 1 − (f + m − 1)/3 along α. This force is tensile (negative) if f + m > 4,
+//!    hence for all m ≥ 5. The argument holds under any top, and for − runs by reflection. Theorem `edge` of
+//!    [`theorem`](crate::theorem) proves it for all f and m.
+//! 2. *The rest is a finite search* in exact arithmetic, which [`under_one_sphere`] carries out. With runs of at most
+//!    four steps, no stacking with a fourth sign change is stable.
+//! 3. *A last run of any length is stable* if its first step is, since within a run the force on each line only grows.
 //!
-//! With horizontal contacts, at a = R, one more stands, by the same reasons: `horizontal::census`, of the feature
-//! `horizontal`, has the table and the proof.
+//! With horizontal contacts, at a = R, one more stacking is stable, for the same reasons. The module `census` of the
+//! crate `cannonpile-horizontal` contains its table and proof.
 //!
 //! # On a base
-//! Counted from a base up nothing so simple holds: what fails with few layers on it may stand with more, and the other
-//! way round. So every stacking is carried as high as it goes, and looked at there ([`on_base`]); nothing is pruned.
+//! For piles built upwards from a base, no such rule holds: a stacking that is unstable with few layers may be stable
+//! with more, and conversely. So [`on_base`] continues every stacking to its greatest height and examines it there,
+//! without pruning.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -42,7 +43,7 @@ use crate::lattice::{Region, Sign};
 use crate::stacking::{Run, Stacking};
 use crate::{Error, Pile, Standing};
 
-/// A stacking, and whether it stands.
+/// A pile in a census, with its stability.
 ///
 /// # Examples
 /// ```
@@ -55,21 +56,23 @@ use crate::{Error, Pile, Standing};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Entry {
-    /// The pile of this stacking.
+    /// The pile.
     pub pile: Pile,
-    /// Its least contact force, and where it fails, if it does.
+    /// Its least contact force, and its first unstable layer, if any.
     pub standing: Standing,
 }
 
-/// A pile with a verdict on it: what a census lists. Another crate can search with a criterion of its own ([`search`]).
+/// A pile with a verdict on its stability: an entry of a census. Implement it to [search](search) with another
+/// criterion of stability.
 pub trait Judged: Sized {
-    /// Why no verdict could be given.
+    /// The error of the criterion.
     type Error: From<Error>;
 
-    /// The numbers m and n of which m·L − n bounds the entries of a census of L ≥ 6 layers with those that fail.
+    /// The numbers m and n in the bound m·L − n for the number of entries of a census of L ≥ 6 layers, unstable
+    /// beginnings included.
     const ENTRIES: [i128; 2];
 
-    /// Gives the verdict on a pile.
+    /// Examines a pile.
     ///
     /// # Errors
     /// Those of the criterion.
@@ -95,7 +98,7 @@ impl Judged for Entry {
 }
 
 impl Entry {
-    /// Whether it stands.
+    /// Returns whether the pile is stable.
     ///
     /// # Examples
     /// ```
@@ -111,15 +114,15 @@ impl Entry {
     }
 }
 
-/// The stackings of `layers` layers under one sphere that stand, one of each mirror pair (the one that begins with +);
-/// with `failing`, also the shortest beginnings that fail. In order of their runs.
+/// Iterates over the stable stackings of `layers` layers under one sphere, one of each mirror pair: the one that begins
+/// with +. With `failing` it also returns the shortest unstable beginnings. The order is that of the runs.
 ///
-/// Of those that stand there are at most eleven (module documentation); with what fails there are 11L − 50 for six
-/// layers or more, and the time for all of them grows like L³.
+/// At most eleven stackings are stable (see the module documentation). With unstable beginnings there are 11L − 50
+/// entries for L ≥ 6 layers, and the time for all of them grows as L³.
 ///
 /// # Errors
-/// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooManyRows`] for more than [`MAX_ENTRIES`] with what fails;
-/// in an entry, [`Error::TooLarge`] for failing beginnings of thousands of layers.
+/// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooManyRows`] for more than [`MAX_ENTRIES`] entries with
+/// unstable beginnings; in an entry, [`Error::TooLarge`] for unstable beginnings of thousands of layers.
 ///
 /// # Examples
 /// ```
@@ -133,7 +136,7 @@ impl Entry {
 ///         "+++++", "+----", "+-+++", "+-+--", "+--++", "+--+-", "++---", "++-++", "++-+-", "+++--", "+++-+",
 ///     ],
 /// );
-/// // However many layers there are, no more than these stand.
+/// // The number of stable stackings is eleven for every greater number of layers.
 /// assert_eq!(census::under_one_sphere(10_i128.pow(36), false)?.count(), 11);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
@@ -144,13 +147,13 @@ pub fn under_one_sphere(
     search(layers, failing)
 }
 
-/// Searches the stackings of `layers` layers under one sphere from the top, by the criterion of `E`.
+/// Searches the stackings of `layers` layers under one sphere from the top, with the criterion of stability of `E`.
 ///
-/// The criterion must be such that every beginning of a stable stacking is stable, so is a stable one with its last step
-/// repeated, and no run of more than four steps before a sign change is.
+/// The criterion must satisfy three conditions. Every beginning of a stable stacking is stable. A stable stacking with
+/// its last step repeated is stable. A stacking with more than four steps before a sign change is unstable.
 ///
 /// # Errors
-/// As for [`under_one_sphere`]; each entry has those of its criterion.
+/// As for [`under_one_sphere`]. Each entry may have an error of its criterion.
 ///
 /// # Examples
 /// ```
@@ -163,9 +166,10 @@ pub fn search<E: Judged>(
     layers: i128,
     failing: bool,
 ) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
-    // The number is checked here; a single layer has no step.
+    // `fcc` checks the number of layers. A single layer has zero steps.
     let steps = Stacking::fcc(layers)?.layers() - 1;
-    // As many as are listed, and no fewer for less than six layers.
+    // An upper bound of the number of entries. For fewer than six layers it may be smaller, but `MAX_ENTRIES` is then
+    // irrelevant.
     let [of_a_layer, less] = E::ENTRIES;
     let rows = of_a_layer * layers - less;
     if failing && rows > MAX_ENTRIES.into() {
@@ -186,18 +190,18 @@ pub fn search<E: Judged>(
     })
 }
 
-/// The most entries of a census.
+/// The greatest number of entries of a census.
 pub const MAX_ENTRIES: u64 = 100_000_000_000;
 
-/// The longest run before a change of sign that may stand (module documentation, 1).
+/// The greatest length of a run before a sign change in a stable stacking (see the module documentation, 1).
 const LONGEST_RUN: i128 = 4;
 
-/// Runs of alternating signs, + first, each followed by another.
+/// The lengths of runs of alternating signs, + first. Another run follows each of them.
 #[derive(Clone, Debug, Default)]
 struct Beginning(Vec<i128>);
 
 impl Beginning {
-    /// The pile of these runs and one more of `last` steps.
+    /// Returns the pile of these runs and a last run of `last` steps.
     fn pile(&self, last: i128) -> Result<Pile, Error> {
         let signs = [Sign::Plus, Sign::Minus].into_iter().cycle();
         let lengths = self.0.iter().copied().chain([last]);
@@ -212,7 +216,7 @@ impl Beginning {
     }
 }
 
-/// Beginnings still to be looked at, the next one last.
+/// A depth-first search over beginnings. The last element of `waiting` comes next.
 struct Search<E> {
     steps: i128,
     failing: bool,
@@ -220,15 +224,16 @@ struct Search<E> {
     judged: PhantomData<E>,
 }
 
-/// A beginning itself, or the beginnings that follow it with one run more, from the next length on.
+/// A beginning to visit if `next` is `None`. Otherwise the beginnings that continue it by one run, from the length
+/// `next` on.
 struct Waiting {
     beginning: Beginning,
     next: Option<i128>,
 }
 
 impl<E: Judged> Search<E> {
-    /// The entry of a beginning: itself carried to all layers, if its last change of sign stands, with the longer
-    /// beginnings put in line; or its failure.
+    /// Visits a beginning. If it is stable one step after its last sign change, returns its continuation to all layers
+    /// and schedules the longer beginnings. Otherwise returns the unstable beginning, if `failing`.
     fn visit(&mut self, beginning: Beginning) -> Result<Option<E>, E::Error> {
         check_interrupt()?;
         if !beginning.0.is_empty() {
@@ -245,7 +250,7 @@ impl<E: Judged> Search<E> {
         Ok(Some(entry))
     }
 
-    /// The steps after a beginning.
+    /// Returns the number of steps after a beginning.
     fn left(&self, beginning: &Beginning) -> i128 {
         self.steps - beginning.0.iter().sum::<i128>()
     }
@@ -282,14 +287,14 @@ impl<E: Judged> Iterator for Search<E> {
     }
 }
 
-/// Every stacking of a base, carried up until no site is left whichever sign comes next; of two that are mirror images
-/// of each other only the one that begins, at the base, with +, if the base is its own mirror image.
+/// Iterates over the stackings of a base, each continued upwards until both signs lead to an empty layer. If the base
+/// is its own mirror image, it returns one of each mirror pair: the one whose first step at the base is +.
 ///
-/// As many as 2^(L−2) for a base that carries L layers, made one by one.
+/// A base that supports L layers may have 2^(L−2) entries. They are computed one by one.
 ///
 /// # Errors
-/// [`Error::TooManyRows`] for a base of more than [`MAX_ENTRIES`] stackings, with their number, or with one that they
-/// exceed if they are more than 10⁴⁰.
+/// [`Error::TooManyRows`] for a base with more than [`MAX_ENTRIES`] stackings. The error contains their number, or a
+/// lower bound above 10⁴⁰.
 ///
 /// # Examples
 /// ```
@@ -306,10 +311,11 @@ pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>
     carried_up(base)
 }
 
-/// Carries every stacking of a base as high as it goes, and judges it by the criterion of `E`.
+/// Iterates over the stackings of a base, each continued to its greatest height, with the criterion of stability of
+/// `E`.
 ///
 /// # Errors
-/// As for [`on_base`]; each entry has those of its criterion.
+/// As for [`on_base`]. Each entry may have an error of its criterion.
 ///
 /// # Examples
 /// ```
@@ -331,7 +337,8 @@ pub fn carried_up<E: Judged>(
         });
     }
     let one_of_two = base.is_its_own_mirror_image();
-    // The steps up to a layer, from the base, and the layers still to be visited, each with the last step to it.
+    // `signs` contains the steps from the base to the current layer. `waiting` contains the layers still to visit, each
+    // with its height and the step that leads to it.
     let mut signs: Vec<Sign> = Vec::new();
     let mut waiting: Vec<(usize, Option<Sign>, Region)> = alloc::vec![(0, None, base)];
     Ok(core::iter::from_fn(move || {
@@ -358,10 +365,10 @@ pub fn carried_up<E: Judged>(
     }))
 }
 
-/// Returns the number of entries of a base, or one above 10⁴⁰ that it is not less than.
+/// Returns the number of entries of a base. If it exceeds 10⁴⁰, returns a lower bound above 10⁴⁰.
 ///
-/// What is left after some steps depends on how many of them are + and how many −, and not on their order. So the ways to
-/// every such remainder are counted, height by height.
+/// The region after some steps depends on the numbers of + and − steps, but not on their order. So this function counts
+/// the ways to every such region, height by height.
 fn stackings_of(base: Region) -> BigUint {
     let enough = BigUint::from(10_u32).pow(40);
     let mut stackings = BigUint::zero();
@@ -369,9 +376,9 @@ fn stackings_of(base: Region) -> BigUint {
     let ways_of = |remainders: &BTreeMap<usize, (Region, BigUint)>| {
         remainders.values().map(|(_, ways)| ways).sum::<BigUint>()
     };
-    // By the number of + steps: what is left, and the ways to it.
+    // The remaining region and the number of ways to it, by the number of + steps.
     let mut remainders = BTreeMap::from([(0_usize, (base, BigUint::one()))]);
-    // Every way leads on to a stacking of its own.
+    // Every way continues to at least one stacking of its own.
     while ways_of(&remainders) <= enough && !remainders.is_empty() {
         let mut above: BTreeMap<usize, (Region, BigUint)> = BTreeMap::new();
         for (plus, (region, ways)) in remainders {
@@ -381,7 +388,7 @@ fn stackings_of(base: Region) -> BigUint {
                     continue;
                 };
                 higher = true;
-                // Of mirror images one is listed.
+                // Only one of two mirror images is an entry.
                 if one_of_two && sign == Sign::Minus {
                     continue;
                 }

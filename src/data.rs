@@ -1,4 +1,4 @@
-//! The data types with `Serialize` and `Deserialize` of [serde](https://serde.rs), without a digit lost.
+//! Serialisation of the data types with [serde](https://serde.rs), without loss of digits.
 //!
 //! ```
 //! use cannonpile::lattice::Region;
@@ -17,33 +17,37 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # How it is written
-//! | written as | types |
+//! # Format
+//! | form | types |
 //! |---|---|
-//! | a string, as it prints | rationals and surds (`"7/3"`, `"12"`, `"7/3*sqrt(2)"`), spacings, stackings and patterns, regions (`"hexagon:3,2"`), signs (`"+"`), and names: directions, verdicts, methods, quantities |
-//! | a number, beyond ±(2⁵³ − 1) a string | integers and counts: `3`, `"1000000000000000000000"`; many readers of JSON keep no greater number exactly |
+//! | a string, as `Display` prints it | rationals and surds (`"7/3"`, `"12"`, `"7/3*sqrt(2)"`), spacings, stackings and patterns, regions (`"hexagon:3,2"`), signs (`"+"`), and names: directions, verdicts, methods, quantities |
+//! | a number; beyond ±(2⁵³ − 1) a string | integers and counts: `3`, `"1000000000000000000000"`; many JSON parsers round greater numbers |
 //! | a number | dimensions (2 or 3), `f32` and `f64` in answers |
 //! | a record of its fields | sites, rows, runs, vectors, enclosures; forces and verdicts; plans, questions and counters |
-//! | a record of two strings | [`Interval`](crate::scalar::Interval) (`lower`, `upper`) and [`DoubleDouble`](crate::scalar::DoubleDouble) (`high`, `low`), since many readers of JSON change the last digit of a float |
-//! | a name and what belongs to it | [`Selection`](crate::shape::Selection), [`Anchor`](crate::shape::Anchor): `"base"`, `{"layer":3}` |
-//! | what it is made of | [`Pile`](crate::Pile): `dimension`, `sin_phi`, `stacking` (from the top), `anchor`, `weightless`, `weights`, `loads` |
+//! | a record of two strings | [`Interval`](crate::scalar::Interval) (`lower`, `upper`) and [`DoubleDouble`](crate::scalar::DoubleDouble) (`high`, `low`), since many JSON parsers change the last digit of a float |
+//! | a name and its content | [`Selection`](crate::shape::Selection), [`Anchor`](crate::shape::Anchor): `"base"`, `{"layer":3}` |
+//! | a record of its parts | [`Pile`](crate::Pile): `dimension`, `sin_phi`, `stacking` (from the top), `anchor`, `weightless`, `weights`, `loads` |
 //!
-//! In a binary format, which is not human-readable to serde, integers are strings and counts are numbers of 64 bits.
+//! A binary format is one that is not human-readable to serde. There integers are strings and counts are numbers of 64
+//! bits.
 //!
-//! # What is read
-//! An integer is read as a string, or as a number if the format has it exactly: in JSON one of 64 bits.
+//! # Accepted input
+//! A string is accepted as an integer, and so is a number that the format represents exactly. In JSON this is a number
+//! of 64 bits.
 //!
-//! Texts are read by the parsers of the types and everything else by checked constructors: a region without a site, a pile
-//! that overhangs its base and 1/0 are refused. So are keys that are not known, and two weights of one sphere. Formats that do not describe themselves (postcard, bincode) serve as well as JSON.
+//! The parsers of the types read strings, and checked constructors check everything else. Errors are, for example, an
+//! empty region, a pile that overhangs its base, 1/0, an unknown key, and two weights for one sphere. Formats that are
+//! not self-describing (postcard, bincode) are supported as well as JSON.
 //!
-//! What is written is read back, with two exceptions: exact numbers of more than
-//! [`MAX_DIGITS`](crate::scalar::parse::MAX_DIGITS), which a sum of loads or the forces after thousands of changes of sign
-//! can have, and in JSON an `f32` or `f64` that is not finite, for which it has no word. Both are errors when they are read.
+//! A value that is written can be read back, with two exceptions. The first are exact numbers with more than
+//! [`MOST_DIGITS`](crate::scalar::parse::MOST_DIGITS) digits, which occur in sums of loads or in forces below thousands
+//! of sign changes. The second is an `f32` or `f64` in JSON that is not finite, since JSON cannot represent it. Both
+//! give an error when they are read.
 //!
-//! Not data, and not here: what borrows a pile ([`Forces`](crate::Forces), [`Packing`](crate::Packing), sweeps),
-//! theorems and their polynomials, errors.
+//! Types that borrow a pile ([`Forces`](crate::Forces), [`Packing`](crate::Packing), sweeps), theorems with their
+//! polynomials, and errors cannot be serialised.
 //!
-//! [`number`] serves fields of your own: `#[serde(with = "cannonpile::data::number")]`.
+//! Use [`number`] for your own fields: `#[serde(with = "cannonpile::data::number")]`.
 
 mod integers;
 #[doc(hidden)]

@@ -1,24 +1,25 @@
-//! The equations of the paper, each once, under its printed number; generic over the scalar, or the ring of its numerators.
+//! The equations of the paper, with their printed numbers, generic over the scalar or its numerators.
 //!
-//! Whoever computes a force calls these functions, and no other body computes one: the engines with integers, floats,
-//! bounds and limbs, [`theorem`](crate::theorem) with polynomials. So what is proved is what answers. All equations
-//! and the mathematics behind them are in [`paper`](crate::paper).
+//! Each equation is implemented once. The engines call these functions with integers, floats, bounds and limbs, and
+//! [`theorem`](crate::theorem) evaluates them on polynomials. So the theorems hold for the code that computes the
+//! forces. All equations and the mathematics behind them are in [`paper`](crate::paper).
 //!
-//! A sphere that stands on d others shares its weight among d lines of contacts, and every line just counts up: a
-//! sphere with N spheres above it on a line receives N increments along that line, and passes N + 1 of them on.
+//! The weight of a sphere with d supports is shared among d lines of contacts. The force on a line grows by one
+//! increment per sphere. A sphere with N spheres above it on a line receives N increments along that line and transmits
+//! N + 1.
 //!
-//! | printed | what | function |
+//! | printed | content | function |
 //! |---|---|---|
 //! | (1) | unit vectors along the contacts | [`geometry::directions`](crate::geometry::directions) |
 //! | (3) | equilibrium of a sphere | [`unbalanced`] |
-//! | (5) | Σ of the increments is the weight | [`weight`] |
+//! | (5) | the sum of the increments is the weight | [`weight`] |
 //! | (6), (7) | increments of one sphere | [`increments`] |
 //! | (8) | force after N spheres of a line | [`force`] |
-//! | (9) | N, on the paper's pile and any other | [`count::above`](crate::lattice::count::above), [`count::bounds_above`](crate::lattice::count::bounds_above) |
-//! | (10) | force on a contact | [`passed_on`], from what [`force`] says of the spheres above |
+//! | (9) | N, in the paper's pile and in any other | [`count::above`](crate::lattice::count::above), [`count::bounds_above`](crate::lattice::count::bounds_above) |
+//! | (10) | force of a contact | [`passed_on`], with [`force`] for the spheres above |
 //! | (11)–(14) | force on the floor | [`handed_on`] |
-//! | | forces across a change of sign, which the paper's pile has not | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
-//! | | horizontal contacts, which the paper leaves out | [`pushed`], [`beside`] |
+//! | | transfer across a sign change, not in the paper | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
+//! | | horizontal contacts, not in the paper | [`pushed`], [`beside`] |
 //!
 //! | pile | increments | their sum W |
 //! |---|---|---|
@@ -26,8 +27,8 @@
 //! | isosceles, s = sin φ | (1, 1, 2s) | 2(1+s) |
 //! | discs, d = 2 | (1, 1) | 2 |
 //!
-//! They are numbers in the unit f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base, so that every formula is
-//! a polynomial in s and the counts. Who wants mg divides by W once.
+//! The increments are in units of f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base. In this unit every
+//! formula is a polynomial in s and the counts. Division by W converts to mg.
 
 mod horizontal;
 mod turn;
@@ -41,10 +42,11 @@ use core::ops::Add;
 use crate::geometry::Vector;
 use crate::scalar::Ring;
 
-/// Returns what a sphere adds to each of its three lines of contacts, in f₀: (1, 1, 2s), with s = sin φ, 0 < s < 1.
+/// Returns the increments that a sphere adds to its three lines of contacts, in f₀: (1, 1, 2s), with s = sin φ, 0 < s <
+/// 1.
 ///
-/// Paper, (6), with the denominator 2(1+s)cosθ in f₀; with s = ½ it is (7). At s = 0 the γ lines carry nothing: that is
-/// the pile of discs.
+/// This is (6) of the paper, whose denominator 2(1+s)cosθ is part of f₀. For s = ½ it is (7). At s = 0 the γ lines
+/// carry no force, as in the pile of discs.
 ///
 /// # Examples
 /// ```
@@ -57,9 +59,10 @@ pub fn increments<T: Ring>(s: &T) -> [T; 3] {
     [T::one(), T::one(), s.clone() + s]
 }
 
-/// Returns W, the sum of the increments: the weight of the sphere that adds them, in f₀ cosθ = mg/W.
+/// Returns W, the sum of the increments. It is the weight mg of a sphere in units of f₀ cosθ = mg/W.
 ///
-/// Paper, (5), the third equation: Δα + Δβ + Δγ = mg/cosθ. There is one increment for each line, in any dimension.
+/// This is the third equation of (5) in the paper: Δα + Δβ + Δγ = mg/cosθ. In any dimension each line has one
+/// increment.
 ///
 /// # Examples
 /// ```
@@ -73,9 +76,10 @@ pub fn weight<T: Ring>(increments: &[T]) -> T {
     increments.iter().fold(T::zero(), |sum, w| sum + w)
 }
 
-/// Returns what `n` spheres on a line add to it, n·w in f₀, with w the increment of each.
+/// Returns the force that `n` spheres on a line add to it: n·w in f₀, where w is the increment of each sphere.
 ///
-/// Paper, (8): α′ = N_α Δα. As w = mg/W is the increment of a sphere of weight mg, n may be a weight in mg too.
+/// This is (8) of the paper: α′ = N_α Δα. Since w is the increment of a sphere of weight mg, n may also be a weight in
+/// mg.
 ///
 /// # Examples
 /// ```
@@ -89,9 +93,10 @@ pub fn force<T: Ring>(n: T, increment: &T) -> T {
     n * increment
 }
 
-/// Returns what a line carries below a sphere, or several, that receives `received` on it and adds `own`: their sum.
+/// Returns the force on a line below one or several spheres, the sum of `received` and `own`. `received` is the force
+/// from above on this line, and `own` is the increment of the spheres. Both have the same unit.
 ///
-/// Paper, (4) and (5): α = α′ + Δα. A load on a sphere is passed on as its weight is.
+/// These are (4) and (5) of the paper: α = α′ + Δα. A load on a sphere is transmitted in the same way as its weight.
 ///
 /// # Examples
 /// ```
@@ -107,9 +112,10 @@ pub fn passed_on<T: for<'a> Add<&'a T, Output = T>>(received: T, own: &T) -> T {
     received + own
 }
 
-/// Returns the sum of the forces from above on a sphere, each along its direction: a′ + b′ + c′ = −(α′ê_a + β′ê_b + γ′ê_c).
+/// Returns the resultant of the forces from above on a sphere: a′ + b′ + c′ = −(α′ê_a + β′ê_b + γ′ê_c).
 ///
-/// Paper, (1): `from_above` are α′, β′, γ′ in any unit of force; the answer is in that unit, in the basis of `directions`.
+/// See (1) of the paper. `from_above` contains α′, β′, γ′ in any unit of force. The result has the same unit and the
+/// basis of `directions`.
 ///
 /// # Examples
 /// ```
@@ -124,11 +130,12 @@ pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> V
     -Vector::combination(from_above, directions)
 }
 
-/// Returns what a sphere presses with on what it stands on, the forces from above and its weight: F_s = a′ + b′ + c′ + w.
+/// Returns the force of a sphere on its supports or on the floor: the forces from above plus its weight, F_s = a′ + b′
+/// + c′ + w.
 ///
-/// Paper, (11); with (10) it is (12), whose vertical part over W is the normal force on the floor (13), and whose
-/// horizontal part over W is the shear (14). `weight` is w in the unit of forces: [`weight`] in f₀, times the scale of
-/// the directions if they are integer numerators.
+/// This is (11) of the paper, and with (10) it is (12). Its vertical part over W is the normal force on the floor (13),
+/// and its horizontal part over W is the shear (14). `weight` is w in the unit of the forces. In f₀ this is [`weight`],
+/// times the scale of the directions if they are integer numerators.
 ///
 /// # Examples
 /// ```
@@ -153,11 +160,11 @@ pub fn handed_on<T: Ring>(
     resultant(from_above, directions) + &weight
 }
 
-/// Returns the sum of all forces on a sphere that stands on others: the zero vector in equilibrium.
+/// Returns the resultant of all forces on a sphere with supports. It is zero in equilibrium.
 ///
-/// Paper, (3), with the terms a′ + b′ + c′ that are missing there in print: the supports push with `to_below` along the
-/// directions `below`, the spheres above with `from_above` along the directions `above`, and there is the weight, as for
-/// [`handed_on`]. The two sets of directions differ where the stacking changes its sign.
+/// This is (3) of the paper, with the terms a′ + b′ + c′ that are missing in print. The supports act with `to_below`
+/// along the directions `below`, and the spheres above with `from_above` along the directions `above`. `weight` is as
+/// for [`handed_on`]. The two sets of directions differ at a sign change.
 ///
 /// # Examples
 /// ```

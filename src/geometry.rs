@@ -1,14 +1,14 @@
-//! Angles, directions, overlap, positions.
+//! Geometry of piles: angles, contact directions, positions and overlap.
 //!
-//! The paper's basis: x and y horizontal, z **down**. A contact leans by θ from the vertical, and the
-//! unit vectors along the contacts point from the lower sphere to the upper one (paper, (1)):
+//! The basis is that of the paper: x and y are horizontal, and z points **down**. A contact has the angle θ to the
+//! vertical. The unit vectors along the contacts point from the lower sphere to the upper one (paper, (1)):
 //!
 //! ê_a = (sinθ sinφ, sinθ cosφ, −cosθ), ê_b = (sinθ sinφ, −sinθ cosφ, −cosθ), ê_c = (−sinθ, 0, −cosθ).
 //!
-//! With s = sin φ rational their components are rational in the *symbolic basis*
-//! (sinθ, 2cosφ·sinθ, cosθ): ê_a = (s, ½, −1), ê_b = (s, −½, −1), ê_c = (−1, 0, −1). A [`Vector`]
-//! holds such components in any scalar; the three roots come in at the edge only. sin²θ = q/3 with
-//! q = (a/R)², or q/4 for discs: rational whenever a/R is.
+//! For rational s = sin φ their components are rational in the *symbolic basis* (sinθ, 2cosφ·sinθ, cosθ): ê_a = (s, ½,
+//! −1), ê_b = (s, −½, −1), ê_c = (−1, 0, −1). A [`Vector`] contains such components in any scalar type. The roots sinθ,
+//! cosφ and cosθ enter only in the output. With q = (a/R)², sin²θ = q/3 for spheres and q/4 for discs, so sin²θ is
+//! rational whenever a/R is.
 
 mod clearance;
 mod spacing;
@@ -30,7 +30,7 @@ use crate::scalar::{Algebra, Ring, Surd, TWO};
 
 /// Returns the contact directions ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
 ///
-/// Paper, (1). `s` is sin φ: ½ for the equilateral base, 0 < s < 1 in general. Exact in exact
+/// See (1) of the paper. `s` is sin φ: ½ for the equilateral base, 0 < s < 1 in general. The result is exact in exact
 /// scalars.
 ///
 /// # Examples
@@ -68,8 +68,8 @@ pub fn directions<T: Algebra>(s: &T) -> [Vector<T>; 3] {
 /// Returns the contact directions of a pile of discs, in the basis (sinθ, 2sinθ, cosθ): ê_a = (1, 0, −1) and ê_b = (−1,
 /// 0, −1).
 ///
-/// The plane of the discs is x–z. It is the pile of spheres with s = 0, whose γ contacts carry
-/// nothing, turned by a quarter about z; ê_c = (0, ½, −1) completes the three and is not used.
+/// The plane of the discs is x–z. The pile of discs is the pile of spheres with s = 0, whose γ contacts carry no force,
+/// rotated by 90° about z. The third vector ê_c = (0, ½, −1) completes the array and is not used.
 ///
 /// # Examples
 /// ```
@@ -103,8 +103,8 @@ pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
 
 /// Returns the position of a sphere from the apex, in 2R and the symbolic basis: −(N_α ê_a + N_β ê_b + N_γ ê_c).
 ///
-/// `above` are the counts of spheres above it on its lines ([`count::above`](crate::lattice::count::above)).
-/// So r = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. Exact in exact scalars.
+/// `above` contains the numbers of spheres above it on its lines ([`count::above`](crate::lattice::count::above)). So r
+/// = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. The result is exact in exact scalars.
 ///
 /// # Examples
 /// ```
@@ -119,17 +119,18 @@ pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<
     -Vector::combination(above, directions)
 }
 
-/// Returns the squared distance of two sphere centres over 4R², for centres n_a ê_a + n_b ê_b + n_c ê_c apart (in 2R).
+/// Returns the squared distance between two sphere centres over 4R². The centres differ by n_a ê_a + n_b ê_b + n_c ê_c,
+/// in units of 2R.
 ///
-/// With the Gram matrix ê·ê = 1, ê_a·ê_b = cos²θ + (2s²−1) sin²θ,
-/// ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ. s = 0 and n_c = 0 give discs. Two spheres overlap
-/// if it is below 1 and touch if it is 1. Exact in exact scalars.
+/// The Gram matrix is ê·ê = 1, ê_a·ê_b = cos²θ + (2s²−1) sin²θ, ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ. For discs use s =
+/// 0 and n_c = 0. Two spheres overlap if the result is below 1 and touch if it is 1. The result is exact in exact
+/// scalars.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::geometry::squared_distance;
 ///
-/// // Neighbours of one layer in the FCC case a = R, sin²θ = 1/3, touch:
+/// // In the fcc case a = R, sin²θ = 1/3, neighbours in a layer touch.
 /// let d = squared_distance(&[1.0, -1.0, 0.0], &0.5, &(1.0 / 3.0));
 /// assert!((d - 1.0_f64).abs() < 1e-15);
 /// ```
@@ -145,7 +146,7 @@ pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
     squares + &(two * &mixed)
 }
 
-/// The angle θ between a contact and the vertical, known by its rational squares.
+/// The angle θ between a contact and the vertical, stored as the rational sin²θ.
 ///
 /// # Examples
 /// ```
@@ -164,10 +165,10 @@ pub struct Inclination {
 }
 
 impl Inclination {
-    /// Returns the inclination at this spacing: sin²θ = q(d−1)/(2d), with q = (a/R)² and the dimension d.
+    /// Returns the angle for this spacing: sin²θ = q(d−1)/(2d), with q = (a/R)² and the dimension d.
     ///
     /// # Errors
-    /// [`Error::TooFlat`] if sin²θ ≥ 1: a sphere would fall between those below.
+    /// [`Error::TooFlat`] if sin²θ ≥ 1: a sphere would fall between its supports.
     ///
     /// # Examples
     /// ```
@@ -193,7 +194,7 @@ impl Inclination {
         }
     }
 
-    /// Returns sin²θ, between 0 and 1.
+    /// Returns sin²θ, which lies between 0 and 1.
     ///
     /// # Examples
     /// ```
@@ -201,7 +202,7 @@ impl Inclination {
     /// use cannonpile::lattice::Dimension;
     ///
     /// let spacing: Spacing = "6/5".parse()?;
-    /// // A third of q for spheres, and a quarter for discs.
+    /// // sin²θ is q/3 for spheres and q/4 for discs.
     /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.sin2().to_string(), "12/25");
     /// assert_eq!(Inclination::new(&spacing, Dimension::Two)?.sin2().to_string(), "9/25");
     /// # Ok::<(), cannonpile::Error>(())
@@ -243,7 +244,7 @@ impl Inclination {
         &self.sin2 / self.cos2()
     }
 
-    /// Returns sinθ, exactly.
+    /// Returns the exact value of sinθ.
     ///
     /// # Examples
     /// ```
@@ -260,7 +261,7 @@ impl Inclination {
         Surd::root_of(self.sin2.clone())
     }
 
-    /// Returns cosθ, exactly.
+    /// Returns the exact value of cosθ.
     ///
     /// # Examples
     /// ```
@@ -277,7 +278,7 @@ impl Inclination {
         Surd::root_of(self.cos2())
     }
 
-    /// Returns tanθ, exactly.
+    /// Returns the exact value of tanθ.
     ///
     /// # Examples
     /// ```
@@ -295,7 +296,7 @@ impl Inclination {
     }
 }
 
-/// q / sin²θ = 2d/(d−1): 4 for discs, 3 for spheres.
+/// Returns q / sin²θ = 2d/(d−1): 4 for discs, 3 for spheres.
 pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
     BigRational::from_i128(match dimension {
         Dimension::Two => 4,

@@ -1,8 +1,8 @@
-//! Where the spheres sit: sites, directions, neighbours, counts. Integers only.
+//! The triangular lattice: sites, directions, neighbours and counts, in integers.
 //!
-//! A pile of L layers has the layers k = 0 (the top) … L−1 (on the floor). Layer k of a triangular
-//! pile holds the sites (i, j, k) with 0 ≤ j ≤ k and 0 ≤ i ≤ k−j; a pile of discs holds those with
-//! j = 0. A sphere stands on three others, one in each [`Direction`]:
+//! A pile of L layers has the layers k = 0 (the top) … L−1 (on the floor). Layer k of a triangular pile contains the
+//! sites (i, j, k) with 0 ≤ j ≤ k and 0 ≤ i ≤ k−j. A pile of discs contains those with j = 0. A sphere is supported by
+//! three others, one in each [`Direction`]:
 //!
 //! | direction | below (i, j, k) | above (i, j, k) | spheres above on its line |
 //! |---|---|---|---|
@@ -10,10 +10,10 @@
 //! | β | B = (i+1, j, k+1) | B′ = (i−1, j, k−1) | i |
 //! | γ | C = (i, j+1, k+1) | C′ = (i, j−1, k−1) | j |
 //!
-//! The three counts are the barycentric coordinates of the site in its layer: they sum to k. All
-//! symmetries of the pile permute them.
+//! The three counts are the barycentric coordinates of the site in its layer, and they sum to k. All symmetries of the
+//! pile permute them.
 //!
-//! The unit in which a pile is walked is the [`Row`]: fixed k and j, consecutive i.
+//! Iterators over a pile return it as [`Row`]s: fixed k and j, consecutive i.
 
 mod axis;
 pub mod count;
@@ -36,22 +36,22 @@ use exact_surd::layout::padded;
 use crate::Error;
 use crate::scalar::parse::integer;
 
-/// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
+/// The greatest number of layers, 10³⁶. Coordinates of sites, and sums of a few of them, then fit in `i128`.
 pub const MAX_LAYERS: i128 = 10_i128.pow(36);
 
-/// A direction of contacts, named as in the paper, (1).
+/// A direction of contacts, named as in (1) of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// α, along ê_a.
     Alpha,
     /// β, along ê_b.
     Beta,
-    /// γ, along ê_c; piles of discs have none.
+    /// γ, along ê_c. Piles of discs do not have it.
     Gamma,
 }
 
 impl Direction {
-    /// α, β, γ: the order of every array indexed by direction.
+    /// α, β, γ: the order of all arrays that are indexed by direction.
     pub const ALL: [Self; 3] = [Self::Alpha, Self::Beta, Self::Gamma];
 
     /// Returns 0, 1, 2 for α, β, γ.
@@ -71,7 +71,7 @@ impl Direction {
         }
     }
 
-    /// Returns the step (Δi, Δj, Δk) from a sphere to the one below it in this direction.
+    /// Returns the step (Δi, Δj, Δk) from a sphere to its support in this direction, under a + step.
     ///
     /// # Examples
     /// ```
@@ -115,7 +115,7 @@ impl fmt::Display for Direction {
 impl FromStr for Direction {
     type Err = Error;
 
-    /// Reads a direction by its [`name`](Self::name).
+    /// Parses the [`name`](Self::name) of a direction.
     ///
     /// # Errors
     /// [`Error::Syntax`].
@@ -136,7 +136,7 @@ impl FromStr for Direction {
 #[cfg(feature = "serde")]
 crate::data::as_text!(Direction);
 
-/// The number of dimensions a pile lives in: discs in the plane, or spheres in space.
+/// The dimension of a pile: discs in a plane, or spheres in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -144,14 +144,14 @@ crate::data::as_text!(Direction);
     serde(into = "u32", try_from = "u32")
 )]
 pub enum Dimension {
-    /// A pile of discs: each stands on two, α and β.
+    /// A pile of discs. Each disc has two supports, α and β.
     Two,
-    /// A pile of spheres: each stands on three.
+    /// A pile of spheres. Each sphere has three supports.
     Three,
 }
 
 impl Dimension {
-    /// Returns 2 or 3, which is also the number of contacts below each sphere.
+    /// Returns 2 or 3, which is also the number of supports of each sphere.
     ///
     /// # Examples
     /// ```
@@ -193,7 +193,7 @@ impl fmt::Display for Dimension {
 impl FromStr for Dimension {
     type Err = Error;
 
-    /// Reads a dimension: `2` or `3`.
+    /// Parses a dimension: `2` or `3`.
     ///
     /// # Errors
     /// [`Error::Syntax`].
@@ -229,10 +229,10 @@ impl TryFrom<u32> for Dimension {
     }
 }
 
-/// A place (i, j, k) for a sphere, k counted from the top.
+/// The position (i, j, k) of a sphere, with the layer k counted from the top.
 ///
-/// Any three integers make a site. [`Shape::contains`](crate::shape::Shape::contains) says whether a pile has it. Sites
-/// are ordered as tables print them: by layer, row, place in the row.
+/// Any three integers are a valid site. [`Shape::contains`](crate::shape::Shape::contains) returns whether a pile
+/// contains it. Sites are ordered as in tables: by layer, row, and position in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -240,10 +240,10 @@ impl TryFrom<u32> for Dimension {
     serde(deny_unknown_fields)
 )]
 pub struct Site {
-    /// The place within the row.
+    /// The position in the row.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub i: i128,
-    /// The row within the layer.
+    /// The row in the layer.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub j: i128,
     /// The layer, 0 at the top.
@@ -252,7 +252,7 @@ pub struct Site {
 }
 
 impl Site {
-    /// The sphere on top of a pile, (0, 0, 0).
+    /// The top sphere of a pile, (0, 0, 0).
     pub const APEX: Self = Self { i: 0, j: 0, k: 0 };
 
     /// Returns the site (i, j, k).
@@ -269,8 +269,8 @@ impl Site {
         Self { i, j, k }
     }
 
-    /// Returns the site `steps` further down in `direction` under steps of one sign, up for a negative number; `None`
-    /// past `i128`.
+    /// Returns the site that is `steps` layers further down in `direction`, under steps of one sign. A negative number
+    /// leads upwards. Returns `None` if a coordinate does not fit in `i128`.
     pub(crate) fn step(self, sign: Sign, direction: Direction, steps: i128) -> Option<Self> {
         let [di, dj] = sign.descent(direction).map(|d| d * steps);
         Some(Self {
@@ -309,7 +309,7 @@ impl fmt::Display for Site {
 impl FromStr for Site {
     type Err = Error;
 
-    /// Reads a site as it is printed, `(0,1,2)`; blanks before a number are allowed.
+    /// Parses a site as it is printed, `(0,1,2)`. Blanks before a number are allowed.
     ///
     /// # Errors
     /// [`Error::Syntax`].
@@ -393,7 +393,7 @@ mod tests {
             let read = refused.parse::<Site>();
             assert!(matches!(read, Err(Error::Syntax { .. })), "{refused}");
         }
-        // Beyond i128.
+        // The layer does not fit in `i128`.
         assert!("(0,0,1e39)".parse::<Site>().is_err());
     }
 

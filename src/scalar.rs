@@ -1,29 +1,29 @@
-//! The number traits every formula is written over, and the numbers that implement them.
+//! The number traits that the formulas are generic over, and the scalar types that implement them.
 //!
-//! The traits are small, and say no more than a formula needs:
+//! The traits are small. Each formula requires only the traits it needs:
 //!
-//! | trait | what it promises | who stops here |
+//! | trait | operations | implemented at most to here by |
 //! |---|---|---|
-//! | [`Ring`] | `+ − ×` and the integers | integers |
-//! | [`Algebra`] | a ring that contains ℚ: rationals in, division by a nonzero machine integer | polynomials |
-//! | [`Field`] | division by whatever is not zero | |
-//! | [`RealEmbeddable`] | comparison with rationals: a sign, and rational bounds | |
+//! | [`Ring`] | `+ − ×` and conversion from integers | big integers |
+//! | [`Algebra`] | conversion from rationals, division by a nonzero machine integer | polynomials |
+//! | [`Field`] | division by any nonzero value | |
+//! | [`RealEmbeddable`] | comparison with rationals: a sign and rational bounds | |
 //!
-//! [`Field`] and [`RealEmbeddable`] are independent: the first is algebraic structure, the second
-//! is order. None of them is built on `num_traits::{Num, Float}`, none asks for `Copy`, and no
-//! formula contains a float literal, so that a polynomial runs through the same body as an `f64`.
+//! [`Field`] and [`RealEmbeddable`] are independent: the first is algebraic structure, the second is order. The traits
+//! do not require `num_traits::{Num, Float}` or `Copy`, and the formulas contain no float literal. So a polynomial and
+//! an `f64` use the same function bodies.
 //!
-//! | scalar | exactness | for |
+//! | scalar | exactness | use |
 //! |---|---|---|
 //! | `f32`, `f64` | [`Rounded`](Exactness::Rounded) | speed |
-//! | [`BigRational`] | [`Exact`](Exactness::Exact) | proof by computation, any size |
+//! | [`BigRational`] | [`Exact`](Exactness::Exact) | exact values of any size |
 //! | [`DoubleDouble`] | [`Rounded`](Exactness::Rounded) | twice the digits of `f64` |
-//! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | bounds that hold the true value |
-//! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proof for every pile at once |
-//! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
+//! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | rigorous bounds of the true value |
+//! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proofs for every pile at once |
+//! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact values of fixed width, with overflow detected |
 //!
-//! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
-//! [`Surd`] is not a scalar: it is the exact value c·√r at the edge, where roots come in.
+//! The functions in [`laws`] test a scalar type. All scalars above pass, and a scalar of your own should too. [`Surd`]
+//! does not implement these traits: it is the exact value c·√r of results that contain a root.
 
 /// Implements `+`, `-` and `*` with the right operand by value, through the operators that take it by reference.
 macro_rules! by_value {
@@ -82,26 +82,25 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-// What is divided by in formulas. Unwrapped by the compiler: zero would not build.
+// The divisors in formulas. The compiler evaluates `unwrap`, so a zero would not compile.
 pub(crate) const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 
-/// How the result of an operation relates to the true one.
+/// The relation between the result of an operation and the true result.
 ///
-/// It is part of the scalar's type ([`Algebra::EXACTNESS`]); the law suite reads it to know what to
-/// demand.
+/// It is part of the scalar type ([`Algebra::EXACTNESS`]). The functions in [`laws`] test what it promises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Exactness {
     /// Every operation gives the true value.
     Exact,
-    /// Every operation gives the true value, or a fault that spreads to all that is computed from
-    /// it and is unequal to everything, itself included.
+    /// Every operation gives the true value or a fault. Any operation on a fault gives a fault. A fault is unequal to
+    /// every value, including itself.
     ExactOrFault,
-    /// Every operation gives bounds that hold the true value.
+    /// Every operation gives bounds that contain the true value.
     Enclosure,
-    /// Every single operation on finite operands that neither overflows nor underflows errs by at
-    /// most 2^(−`bits`) of the true value: 24 for `f32`, 53 for `f64`.
+    /// Every operation has a relative error of at most 2^(−`bits`): 24 for `f32`, 53 for `f64`. This holds for finite
+    /// operands if the operation neither overflows nor underflows.
     Rounded {
         /// The precision p of the significand, in bits.
         bits: u32,
@@ -109,7 +108,7 @@ pub enum Exactness {
 }
 
 impl Exactness {
-    /// Returns what two scalars promise together.
+    /// Returns the exactness of a computation that uses two scalar types.
     ///
     /// # Examples
     /// ```
@@ -132,15 +131,15 @@ impl Exactness {
     }
 }
 
-/// A commutative ring with the integers in it: all that most formulas need.
+/// A commutative ring that contains the integers. Most formulas need nothing else.
 ///
-/// Operators take the right operand by reference, so that no big number is copied for nothing; in a generic body `Self`
-/// stays on the left. So a·b − a of two references is `a.clone() * b - a`, and a temporary value on the right needs `&`.
+/// Operators take the right operand by reference, which avoids copies of big numbers. In generic code `Self` stays on
+/// the left. For two references, a·b − a is `a.clone() * b - a`. A temporary value on the right needs `&`.
 ///
-/// Every scalar is `Send` and `Sync`, also without the feature `rayon`, with which threads share the rows of a layer. Cargo
-/// turns a feature on for all crates of a build: if `rayon` added these bounds, another dependency could break a scalar
-/// without them. So a value that holds an `Rc`, such as a node of a tape for reverse differentiation, is no scalar. An
-/// index into the tape, or an `Arc`, is.
+/// Every scalar is `Send` and `Sync`, with or without the feature `rayon`, whose threads share the rows of a layer.
+/// Cargo enables a feature for all crates of a build. If `rayon` added these bounds, another dependency could therefore
+/// break a scalar without them. A type that contains an `Rc`, such as a node of a tape for reverse differentiation,
+/// cannot be a scalar. A type that contains an index into the tape, or an `Arc`, can.
 ///
 /// # Examples
 /// ```
@@ -160,9 +159,9 @@ impl Exactness {
 /// ```
 ///
 /// # Laws
-/// For exact scalars, and for rounded ones as far as their precision goes ([`laws`] checks this):
-/// * `+` and `*` are commutative and associative, `*` distributes over `+`;
-/// * [`Zero::zero`] and [`One::one`] are their neutral elements, `a + &(-a)` is zero;
+/// The laws hold for exact scalars, and for rounded ones up to their precision. The module [`laws`] checks them.
+/// * `+` and `*` are commutative and associative, and `*` distributes over `+`.
+/// * [`Zero::zero`] and [`One::one`] are their neutral elements, and `a + &(-a)` is zero.
 /// * [`from_i128`](Self::from_i128) respects `+`, `*` and 1.
 pub trait Ring:
     Clone
@@ -177,27 +176,26 @@ pub trait Ring:
     + Send
     + Sync
 {
-    /// Returns the image of the integer `n`: exact, or rounded once.
+    /// Returns the integer `n` as a value of this type: exact, or correctly rounded.
     fn from_i128(n: i128) -> Self;
 }
 
-/// The integers themselves, of any size: numerators over a denominator known beforehand.
+/// The integers, of any size. They are numerators over a denominator that is known in advance.
 impl Ring for BigInt {
     fn from_i128(n: i128) -> Self {
         n.into()
     }
 }
 
-/// A commutative algebra over ℚ: what the formulas of this crate are evaluated in.
+/// A commutative algebra over ℚ. The formulas of this crate are evaluated in it.
 ///
 /// # Laws
-/// * those of a [`Ring`];
-/// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and agrees with
-///   [`from_i128`](Ring::from_i128);
-/// * `a.div_int(n)` is the one `b` with `b * n = a`;
+/// * The laws of a [`Ring`] hold.
+/// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and agrees with [`from_i128`](Ring::from_i128).
+/// * `a.div_int(n)` is the unique `b` with `b * n = a`.
 ///
 /// # Examples
-/// A formula written once, evaluated in two scalars:
+/// One formula, evaluated in two scalar types:
 /// ```
 /// use cannonpile::scalar::Algebra;
 /// use num_rational::BigRational;
@@ -215,38 +213,40 @@ impl Ring for BigInt {
     note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring`, `Algebra` and `OwnNumerators`"
 )]
 pub trait Algebra: Ring + Numerators {
-    /// How far results can be trusted.
+    /// The relation of results to the true values.
     const EXACTNESS: Exactness;
 
-    /// The scalar's name in messages, such as `f64`.
+    /// The name of the scalar type in messages, such as `f64`.
     const NAME: &'static str;
 
-    /// Returns the image of the rational `r`: exact, or rounded once to the nearest.
+    /// Returns the rational `r` as a value of this type: exact, or correctly rounded.
     fn from_rational(r: &BigRational) -> Self;
 
     /// Returns `self / n`.
     #[must_use]
     fn div_int(self, n: NonZeroI64) -> Self;
 
-    /// Returns whether the value stands for a number; false for a fault, an infinity, not-a-number.
+    /// Returns whether the value represents a number: false for a fault, an infinity or not-a-number.
     ///
-    /// The library asks once, before it returns a value, and answers [`Error::Overflow`](crate::Error::Overflow) if this is
-    /// false. Operations may return undefined values freely.
+    /// The library checks this once, before it returns a value, and returns [`Error::Overflow`](crate::Error::Overflow)
+    /// if it is false. Operations may return undefined values freely.
     fn is_defined(&self) -> bool;
 
-    /// Returns whether two values may stand for the same number: equality, or for bounds that they overlap.
+    /// Returns whether two values may represent the same number. For bounds this means that they overlap, otherwise
+    /// that they are equal.
     fn may_equal(&self, other: &Self) -> bool {
         self == other
     }
 }
 
-/// A scalar that is its own ring of numerators: every one but the rationals, whose numerators are integers.
+/// A scalar type that is its own ring of numerators. This applies to every scalar except the rationals, whose
+/// numerators are integers.
 ///
-/// The engines compute numerators over a known denominator and divide once. A scalar of your own needs this and nothing
-/// else for them.
+/// The library computes numerators over a known denominator and divides once at the end. A scalar of your own
+/// implements this trait for that purpose.
 ///
 /// # Examples
-/// In a [`Field`] the quotient is that of the field:
+/// In a [`Field`], use its division:
 /// ```text
 /// impl OwnNumerators for Mine {
 ///     fn ratio(n: Self, d: &Self) -> Option<Self> {
@@ -255,35 +255,36 @@ pub trait Algebra: Ring + Numerators {
 /// }
 /// ```
 pub trait OwnNumerators: Algebra + Numerators<Numerator = Self> {
-    /// Returns n/d, reduced or rounded once; `None` if d is zero or does not divide n in the scalar.
+    /// Returns n/d, reduced or correctly rounded. Returns `None` if d is zero or does not divide n in this type.
     fn ratio(n: Self, d: &Self) -> Option<Self>;
 }
 
-/// What the engines compute a scalar by: numerators over a common denominator, and one division at the end.
+/// The numerators of a scalar type over a common denominator, and the division at the end.
 ///
-/// A scalar of your own has it by [`OwnNumerators`].
+/// A scalar of your own gets this trait from [`OwnNumerators`].
 #[doc(hidden)]
 pub trait Numerators: Sized {
-    /// The ring in which a formula is cheapest before one final division: the scalar itself, or for
-    /// rationals their integers, where nothing is reduced along the way.
+    /// The type of the numerators: the scalar itself, or integers for rationals, which avoids reductions of
+    /// intermediate fractions.
     ///
-    /// For a scalar of your own it is `Self`: implement [`OwnNumerators`], and this trait follows.
+    /// For a scalar of your own it is `Self`: implement [`OwnNumerators`] instead of this trait.
     type Numerator: Ring;
 
-    /// Returns numerators of `values` over a common denominator, and that denominator.
+    /// Returns the numerators of `values` over a common denominator, and this denominator.
     ///
-    /// For rationals they are integers, and the denominator is the least one; a scalar that is its own ring
-    /// of numerators takes the values themselves, over 1.
+    /// For rationals the numerators are integers, and the denominator is the least common one. A scalar with
+    /// [`OwnNumerators`] returns the values themselves, over 1.
     fn numerators<const N: usize>(
         values: &[BigRational; N],
     ) -> ([Self::Numerator; N], Self::Numerator);
 
-    /// Returns `n / by` in the ring of numerators, or `None` if its denominator has to take the divisor instead, as for
-    /// integers. Which of the two it is does not depend on `n`.
+    /// Returns `n / by`. Returns `None` for every `n` if the numerators, such as integers, do not allow this division.
+    /// The caller then multiplies the denominator instead.
     #[must_use]
     fn divide_numerator(n: Self::Numerator, by: NonZeroI64) -> Option<Self::Numerator>;
 
-    /// Returns `n / d`, reduced or rounded once; `None` if `d` is zero or does not divide `n` in the scalar.
+    /// Returns `n / d`, reduced or correctly rounded. Returns `None` if `d` is zero or does not divide `n` in this
+    /// type.
     fn from_ratio(n: Self::Numerator, d: &Self::Numerator) -> Option<Self>;
 }
 
@@ -323,7 +324,7 @@ pub trait Field: Algebra {
     fn checked_div(&self, divisor: &Self) -> Option<Self>;
 }
 
-/// The sign of a value on the real line, as far as the scalar knows it.
+/// The sign of a real value, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum RealSign {
@@ -333,11 +334,11 @@ pub enum RealSign {
     Zero,
     /// Greater than zero.
     Positive,
-    /// Not known to the scalar, as for a fault or not-a-number.
+    /// Not known, as for a fault or not-a-number.
     Unknown,
 }
 
-/// Rational bounds of a value: `lower ≤ x ≤ upper`.
+/// Rational bounds of a value x: `lower ≤ x ≤ upper`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -345,16 +346,16 @@ pub enum RealSign {
     serde(deny_unknown_fields)
 )]
 pub struct Enclosure {
-    /// The greatest lower bound that is known.
+    /// The greatest known lower bound.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub lower: BigRational,
-    /// The least upper bound that is known.
+    /// The least known upper bound.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub upper: BigRational,
 }
 
 impl Enclosure {
-    /// Returns the enclosure of a value known exactly.
+    /// Returns the enclosure of a value that is known exactly.
     ///
     /// # Examples
     /// ```
@@ -405,10 +406,10 @@ impl fmt::Display for Enclosure {
     }
 }
 
-/// A scalar that can be compared with rationals: it has a sign, and rational bounds.
+/// A scalar type that can be compared with rationals: it has a sign and rational bounds.
 ///
-/// Of a rounded scalar this is the place of the *stored* value, which says nothing certain about
-/// the quantity it approximates: a verdict needs a scalar that is exact.
+/// For a rounded scalar, sign and bounds describe the *stored* value. They say nothing certain about the quantity that
+/// it approximates, so a verdict needs an exact scalar.
 ///
 /// # Laws
 /// The sign is that of every value in the enclosure, or [`RealSign::Unknown`].
@@ -425,6 +426,6 @@ pub trait RealEmbeddable {
     /// Returns the sign of the value.
     fn sign(&self) -> RealSign;
 
-    /// Returns the tightest rational bounds known, or `None` for a value without finite bounds.
+    /// Returns the tightest known rational bounds, or `None` for a value without finite bounds.
     fn enclosure(&self) -> Option<Enclosure>;
 }

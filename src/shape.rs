@@ -1,4 +1,4 @@
-//! The sites of a pile, layer by layer, and how its layers are stacked.
+//! Shapes: the sites of a pile, layer by layer, and its stacking.
 
 mod counts;
 mod numbering;
@@ -29,13 +29,13 @@ use crate::lattice::{
 };
 use crate::stacking::{Pattern, Run, Stacking};
 
-/// Which sites a pile has: a [`Region`] for each layer, and the [`Stacking`] that leads from one to the next.
+/// The sites of a pile: a [`Region`] for each layer, and the [`Stacking`] that relates them.
 ///
-/// A shape is grown down from a top layer, each layer all supports of the one above (dilation), or up from a base,
-/// each layer all sites whose three supports are there (erosion). One sphere on top and all + is the
-/// paper's pile, [`pyramid`](Self::pyramid).
+/// A shape is built downwards from a top layer or upwards from a base. Downwards, each layer consists of all supports
+/// of the layer above (dilation). Upwards, each layer consists of all sites whose three supports exist (erosion). One
+/// sphere on top of + steps gives the paper's pile, [`pyramid`](Self::pyramid).
 ///
-/// What it holds grows with the changes of sign, not with the layers.
+/// The memory grows with the number of sign changes, not with the number of layers.
 ///
 /// # Examples
 /// ```
@@ -59,12 +59,12 @@ pub struct Shape {
     stacking: Stacking,
     /// The runs of the stacking, from the top.
     stretches: Vec<Stretch>,
-    /// All steps together.
+    /// The total numbers of steps.
     whole: Steps,
     anchor: Anchor,
 }
 
-/// The layer that all others of a pile are grown from.
+/// The layer that the other layers of a pile are built from.
 ///
 /// # Examples
 /// ```
@@ -83,14 +83,14 @@ pub struct Shape {
     serde(rename_all = "lowercase")
 )]
 pub enum Anchor {
-    /// Downwards from its top.
+    /// The pile is built downwards from this top layer.
     Top(Region),
-    /// Upwards from its base.
+    /// The pile is built upwards from this base.
     Base(Region),
 }
 
 impl Anchor {
-    /// Returns `top` or `base`, the option of the command line and the key of scene files.
+    /// Returns `top` or `base`, as in command-line options and in the keys of scene files.
     ///
     /// # Examples
     /// ```
@@ -130,10 +130,10 @@ impl Shape {
         Ok(Self::new(dimension, stacking, Anchor::Top(Region::SITE)))
     }
 
-    /// Returns the shape grown down from `top`: each layer consists of all supports of the layer above.
+    /// Returns the shape that is built downwards from `top`: each layer consists of all supports of the layer above.
     ///
     /// # Errors
-    /// [`Error::RegionTooLarge`] if a layer leaves ±10³⁶.
+    /// [`Error::RegionTooLarge`] if a coordinate of a layer exceeds ±10³⁶.
     ///
     /// # Examples
     /// ```
@@ -141,7 +141,7 @@ impl Shape {
     /// use cannonpile::shape::Shape;
     /// use cannonpile::stacking::Stacking;
     ///
-    /// // p plus and q minus steps lead to the hexagon −q ≤ i, j, i+j ≤ p.
+    /// // p plus and q minus steps give the hexagon −q ≤ i, j, i+j ≤ p.
     /// let shape = Shape::under(Region::SITE, Stacking::hcp(7)?)?;
     /// assert_eq!(shape.layer(6)?, Region::hexagon(4, 4)?);
     /// # Ok::<(), cannonpile::Error>(())
@@ -154,13 +154,13 @@ impl Shape {
         Ok(shape)
     }
 
-    /// Returns the shape grown up from `base`: each layer consists of all sites whose three supports are there. The
-    /// stacking is read from the top, as everywhere in the library.
+    /// Returns the shape that is built upwards from `base`: each layer consists of all sites whose three supports
+    /// exist. The stacking is read from the top, as everywhere in the library.
     ///
-    /// Spheres below may be left with nothing on them.
+    /// Some spheres may support no other sphere.
     ///
     /// # Errors
-    /// [`Error::TooHigh`] if no site is left before all steps are done.
+    /// [`Error::TooHigh`] if a layer is empty.
     ///
     /// # Examples
     /// ```
@@ -210,13 +210,14 @@ impl Shape {
         }
     }
 
-    /// How many layers, counted from the base, have a site: by bisection, since empty layers have empty ones above.
+    /// Returns the number of layers, counted from the base, that are not empty. Bisection finds it, because all layers
+    /// above an empty one are empty.
     fn height_above_base(&self) -> i128 {
         let layers = self.layers();
         if self.region(0).is_some() {
             return layers;
         }
-        // The layer `empty` has no site, `kept` has.
+        // Invariant: the layer `empty` is empty, and the layer `kept` is not.
         let (mut empty, mut kept) = (0, layers - 1);
         while kept - empty > 1 {
             let middle = empty + (kept - empty) / 2;
@@ -245,7 +246,7 @@ impl Shape {
         self.whole.plus + self.whole.minus + 1
     }
 
-    /// Returns whether the pile is of discs or of spheres.
+    /// Returns the dimension of the pile: two for discs, three for spheres.
     ///
     /// # Examples
     /// ```
@@ -261,7 +262,7 @@ impl Shape {
         self.dimension
     }
 
-    /// Returns how layers follow one another, from the top.
+    /// Returns the stacking, from the top.
     ///
     /// # Examples
     /// ```
@@ -277,7 +278,7 @@ impl Shape {
         &self.stacking
     }
 
-    /// Returns whether this is a straight pile of + steps under one sphere, or of discs.
+    /// Returns whether this is a straight pile of + steps under one sphere, or a pile of discs.
     ///
     /// # Examples
     /// ```
@@ -293,12 +294,12 @@ impl Shape {
         self.anchor == Anchor::Top(Region::SITE) && self.whole.minus == 0
     }
 
-    /// Returns whether this is the paper's pile or its mirror image, or of discs.
+    /// Returns whether this is the paper's pile, its mirror image, or a pile of discs.
     pub(crate) fn is_straight_under_one_sphere(&self) -> bool {
         self.anchor == Anchor::Top(Region::SITE) && self.stacking.is_straight()
     }
 
-    /// Returns the layer that the others are grown from.
+    /// Returns the layer that the other layers are built from.
     ///
     /// # Examples
     /// ```
@@ -314,7 +315,7 @@ impl Shape {
         self.anchor
     }
 
-    /// Returns whether the pile was grown up from its base.
+    /// Returns whether the pile is built upwards from its base.
     ///
     /// # Examples
     /// ```
@@ -330,10 +331,10 @@ impl Shape {
         matches!(self.anchor, Anchor::Base(_))
     }
 
-    /// Returns the sites of layer k, counted from the top.
+    /// Returns the region of layer k, counted from the top.
     ///
     /// # Errors
-    /// [`Error::LayerOutside`].
+    /// [`Error::LayerOutside`] if the pile does not have layer k.
     ///
     /// # Examples
     /// ```
@@ -352,7 +353,7 @@ impl Shape {
         })
     }
 
-    /// Returns the layer on the floor.
+    /// Returns the region of the bottom layer.
     ///
     /// # Examples
     /// ```
@@ -367,7 +368,7 @@ impl Shape {
     pub fn base(&self) -> Region {
         match self.anchor {
             Anchor::Base(base) => base,
-            // The last layer is there: a shape has one at least.
+            // A shape has at least one layer, so the last layer exists.
             Anchor::Top(top) => self.region(self.layers() - 1).unwrap_or(top),
         }
     }
@@ -381,7 +382,8 @@ impl Shape {
         }
     }
 
-    /// The region of a layer; for discs that of the pile of spheres which has them in its row j = 0.
+    /// Returns the region of a layer. For discs it is the region in the pile of spheres whose row j = 0 consists of the
+    /// discs.
     #[inline]
     fn whole_region(&self, k: i128) -> Option<Region> {
         if !(0..self.layers()).contains(&k) {
@@ -394,17 +396,18 @@ impl Shape {
         }
     }
 
-    /// Returns how many spheres lie above a site of layer k on each of its lines, within the run down to there.
+    /// Returns the numbers of spheres above a site of layer k on its lines, within `run`, which must lead to this
+    /// layer.
     #[inline]
     pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
         let region = self.whole_region(k);
-        // Not a default: outside the pile nothing is counted, neither beyond its layers nor beside one.
+        // Not a default: the counts are zero outside the pile.
         region.map_or([0; 3], |region| {
             region.spheres_above(i, j, run.sign, k - run.from)
         })
     }
 
-    /// The counts of [`spheres_above`](Self::spheres_above) along a row of layer k from the site (i, j) on.
+    /// Returns the counts of [`spheres_above`](Self::spheres_above) along a row of layer k, from the site (i, j) on.
     pub(crate) fn row_counts(&self, run: &Stretch, k: i128, site: [i128; 2]) -> [Trapezoid; 3] {
         let nothing = Trapezoid {
             cap: 0,
@@ -417,7 +420,7 @@ impl Shape {
         })
     }
 
-    /// Returns whether the pile has this site.
+    /// Returns whether the pile contains this site.
     ///
     /// # Examples
     /// ```
@@ -439,7 +442,7 @@ impl Shape {
     /// Returns the other sphere of a horizontal contact.
     ///
     /// # Errors
-    /// As for [`check`](Self::check), of either sphere.
+    /// As for [`check`](Self::check), for either sphere.
     ///
     /// # Examples
     /// ```
@@ -455,7 +458,7 @@ impl Shape {
     /// ```
     pub fn neighbour(&self, contact: HorizontalContact) -> Result<Site, Error> {
         let site = self.check(contact.site)?;
-        // Past i128 there is no sphere either.
+        // A neighbour outside `i128` is outside the pile too, and `check` rejects this substitute.
         let past = Site {
             i: i128::MAX,
             ..site
@@ -463,8 +466,8 @@ impl Shape {
         self.check(contact.neighbour().unwrap_or(past))
     }
 
-    /// Returns the horizontal contacts that are named by a sphere, in the order of tables: with neighbours after it along each
-    /// axis.
+    /// Returns the horizontal contacts of `site` with the next sphere along each axis, in the order of tables. So each
+    /// contact belongs to exactly one site.
     ///
     /// # Examples
     /// ```
@@ -483,7 +486,7 @@ impl Shape {
             .filter(|contact| self.neighbour(*contact).is_ok())
     }
 
-    /// Returns how many horizontal contacts a layer has: each of its lines has one less than spheres.
+    /// Returns the number of horizontal contacts in a layer. Each line of neighbours has one contact less than spheres.
     #[doc(hidden)]
     #[must_use]
     pub fn horizontal_contacts_in(&self, k: i128) -> BigUint {
@@ -498,10 +501,11 @@ impl Shape {
         region.site_count() * axes - BigUint::from(lines)
     }
 
-    /// Checks that the pile has this site, and returns it.
+    /// Checks that the pile contains this site, and returns it.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::LayerOutside`] if a pile of another shape than the paper's has no such layer.
+    /// [`Error::SiteOutside`] if the pile does not contain the site. If the layer does not exist either, the error is
+    /// [`Error::LayerOutside`], except for the paper's pile and discs.
     ///
     /// # Examples
     /// ```
@@ -519,7 +523,7 @@ impl Shape {
             return Ok(site);
         }
         if !self.is_pyramid() {
-            // A layer that is there has other sites.
+            // If the layer exists, the error lists its region instead.
             self.layer(site.k)?;
         }
         Err(Error::SiteOutside {
@@ -533,7 +537,7 @@ impl Shape {
         })
     }
 
-    /// Returns the support of `site` in a direction; none on the floor, and none in a direction that discs lack.
+    /// Returns the support of `site` in a direction. Returns `None` for the bottom layer, and for γ in a pile of discs.
     ///
     /// # Examples
     /// ```
@@ -551,7 +555,7 @@ impl Shape {
         self.next_to(site, direction, self.sign_below(site.k)?, 1)
     }
 
-    /// Returns the sphere that `site` supports in a direction; none at a surface.
+    /// Returns the sphere that `site` supports in a direction, or `None` at a surface.
     ///
     /// # Examples
     /// ```
@@ -579,7 +583,7 @@ impl Shape {
     /// Returns the rows of a part of the pile, from the top.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the selection names what is not there.
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the pile does not contain the selection.
     ///
     /// # Examples
     /// ```
@@ -594,7 +598,7 @@ impl Shape {
         Rows::new(self, selection)
     }
 
-    /// Returns every site, layer by layer from the top, row by row.
+    /// Returns all sites, layer by layer from the top, row by row.
     ///
     /// # Examples
     /// ```
@@ -610,10 +614,11 @@ impl Shape {
         Rows::of_layers(self, 0..self.layers()).sites()
     }
 
-    /// Returns the greatest number of layers that a pattern, read from the base up, carries a base to.
+    /// Returns the greatest number of layers that a base supports with a pattern. The pattern is read upwards from the
+    /// base.
     #[doc(hidden)]
     pub fn greatest_height(base: Region, pattern: &Pattern) -> Result<i128, Error> {
-        // Each step takes at least one off each width, and none gets below 0.
+        // Each step reduces each width by at least one, and no width can be negative.
         let [x, y, s] = base.widths();
         let most = (x.min(y).min(s) + 1).min(MAX_LAYERS);
         let steps = pattern.stacking(most)?.reversed();
@@ -642,7 +647,7 @@ mod tests {
             }
             assert_eq!(shape.horizontal_contacts_in(-1), BigUint::ZERO);
         }
-        // Three rows of three, two and one sphere, along each of three axes: 3·3.
+        // Layer 2 has rows of three, two and one sphere along each of three axes: 3·3 contacts.
         let pyramid = Shape::pyramid(5, Dimension::Three).unwrap();
         assert_eq!(pyramid.horizontal_contacts_in(2), 9_u32.into());
     }

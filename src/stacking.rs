@@ -1,17 +1,23 @@
-//! How layers follow one another: Hägg signs, kept as runs, and the notations of the field.
+//! Stackings: sequences of Hägg signs, stored as runs, and their usual notations.
 //!
-//! From one layer to the next a pile steps with a Hägg sign: under + the sphere (i, j) rests on
-//! (i, j), (i+1, j), (i, j+1) of the layer below, under − on (i, j), (i−1, j), (i, j−1). All + is the paper's
-//! FCC-like pile, alternating signs are HCP, ++−− repeated is DHCP. The same sequence is written as
+//! Each step from one layer to the next has a Hägg sign. Under + the sphere (i, j) is supported by (i, j), (i+1, j),
+//! (i, j+1) of the layer below, under − by (i, j), (i−1, j), (i, j−1). Two terms recur in this crate:
 //!
-//! | notation | of ++−+ | |
+//! * A *run* is a maximal sequence of steps with equal Hägg signs. Within a run the layers follow one another as in
+//!   fcc.
+//! * A *sign change* is the layer between two runs: a stacking fault in an fcc sequence.
+//!
+//! A stacking without a sign change is *straight*. The stacking with + only is the paper's pile and has the structure
+//! fcc. Alternating signs give hcp, and ++−− repeated gives dhcp. Four notations describe the same stacking:
+//!
+//! | notation | for ++−+ | |
 //! |---|---|---|
-//! | Hägg | `++-+` | a sign for each step |
-//! | ABC | `ABCBC` | a letter for each layer; A→B→C→A is + |
-//! | Jagodzinski | `chh` | a letter for each inner layer: h where the sign changes, c where it does not |
+//! | Hägg | `++-+` | one sign per step |
+//! | ABC | `ABCBC` | one letter per layer; A→B→C→A is + |
+//! | Jagodzinski | `chh` | one letter per inner layer: h at a sign change, c elsewhere |
 //! | Zhdanov | `(2,1,1)` | the lengths of the runs |
 //!
-//! The last two do not fix the first sign: it is taken as +.
+//! The last two do not determine the first sign, which is then +.
 
 mod notation;
 
@@ -24,7 +30,7 @@ use core::str::FromStr;
 use crate::Error;
 use crate::lattice::{MAX_LAYERS, Sign};
 
-/// Consecutive steps of one sign.
+/// A run: consecutive steps with equal Hägg signs.
 ///
 /// # Examples
 /// ```
@@ -43,16 +49,16 @@ use crate::lattice::{MAX_LAYERS, Sign};
     serde(deny_unknown_fields)
 )]
 pub struct Run {
-    /// Their sign.
+    /// The sign of the steps.
     pub sign: Sign,
-    /// How many, at least 1.
+    /// The number of steps, at least 1.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub steps: i128,
 }
 
-/// The steps of a pile from the top, as runs: neighbouring runs have opposite signs.
+/// The Hägg signs of the steps of a pile, from the top, stored as runs. Neighbouring runs have opposite signs.
 ///
-/// A stacking of 10¹⁵ layers with three changes of sign is four runs.
+/// A stacking of 10¹⁵ layers with three sign changes is stored as four runs.
 ///
 /// # Examples
 /// ```
@@ -69,12 +75,12 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Stacking {
     first: Sign,
-    /// Positive; of alternating signs.
+    /// The positive lengths of the runs, whose signs alternate.
     lengths: Vec<i128>,
 }
 
 impl Stacking {
-    /// Returns the stacking of one layer, which has no step.
+    /// Returns the stacking of one layer, without steps.
     ///
     /// # Examples
     /// ```
@@ -90,7 +96,8 @@ impl Stacking {
         }
     }
 
-    /// Returns the stacking with these runs from the top; runs of the same sign are joined, empty ones left out.
+    /// Returns the stacking with these runs, from the top. Adjacent runs of equal sign are joined, and empty runs are
+    /// ignored.
     ///
     /// # Errors
     /// [`Error::RunLength`] for a negative length, [`Error::Layers`] beyond 10³⁶ layers, [`Error::TooManyRuns`] beyond
@@ -139,7 +146,7 @@ impl Stacking {
         Ok(stacking)
     }
 
-    /// Returns the stacking with these signs from the top.
+    /// Returns the stacking with these signs, from the top.
     ///
     /// # Errors
     /// As for [`from_runs`](Self::from_runs).
@@ -157,7 +164,7 @@ impl Stacking {
         Self::from_runs(signs.into_iter().map(|sign| Run { sign, steps: 1 }))
     }
 
-    /// Returns the stacking of + steps only, the paper's FCC-like pile.
+    /// Returns the stacking with + steps only: fcc, the paper's pile.
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶.
@@ -173,10 +180,10 @@ impl Stacking {
         Self::periodic(layers, 0)
     }
 
-    /// Returns the stacking + − + − …, hexagonal close packing.
+    /// Returns the stacking + − + − …: hexagonal close packing (hcp).
     ///
     /// # Errors
-    /// [`Error::Layers`], and [`Error::TooManyRuns`] beyond a million changes of sign.
+    /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooManyRuns`] for more than [`MAX_RUNS`] runs.
     ///
     /// # Examples
     /// ```
@@ -189,7 +196,7 @@ impl Stacking {
         Self::periodic(layers, 1)
     }
 
-    /// Returns the stacking + + − − …, double hexagonal close packing.
+    /// Returns the stacking + + − − …: double hexagonal close packing (dhcp).
     ///
     /// # Errors
     /// As for [`hcp`](Self::hcp).
@@ -205,8 +212,8 @@ impl Stacking {
         Self::periodic(layers, 2)
     }
 
-    /// Runs of `length` steps with alternating signs, the last one as long as the layers allow; all one run
-    /// for 0.
+    /// Returns runs of `length` steps with alternating signs. The last run has the remaining steps. A `length` of 0
+    /// gives a single run.
     fn periodic(layers: i128, length: i128) -> Result<Self, Error> {
         if !(1..=MAX_LAYERS).contains(&layers) {
             return Err(Error::Layers {
@@ -227,7 +234,7 @@ impl Stacking {
         })
     }
 
-    /// Returns the number L of layers, one more than there are steps.
+    /// Returns the number L of layers, which is one more than the number of steps.
     ///
     /// # Examples
     /// ```
@@ -238,7 +245,7 @@ impl Stacking {
     /// ```
     #[must_use]
     pub fn layers(&self) -> i128 {
-        // At most 10³⁶, checked when it was made.
+        // The sum is at most 10³⁶, as the constructors check.
         self.lengths.iter().sum::<i128>() + 1
     }
 
@@ -256,7 +263,7 @@ impl Stacking {
         self.lengths.len().saturating_sub(1)
     }
 
-    /// Returns whether no sign changes.
+    /// Returns whether the stacking is straight: all its signs are equal.
     ///
     /// # Examples
     /// ```
@@ -291,7 +298,7 @@ impl Stacking {
 
     /// Returns the signs from the top, one for each step.
     ///
-    /// As many as there are steps: of 10¹⁵ layers, ask for [`runs`](Self::runs).
+    /// The iterator has one item per step. For stackings of very many layers, use [`runs`](Self::runs).
     ///
     /// # Examples
     /// ```
@@ -307,8 +314,8 @@ impl Stacking {
             .flat_map(|run| (0..run.steps).map(move |_| run.sign))
     }
 
-    /// Returns the name of the pattern that the steps follow from the first on: `fcc`, `hcp` or `dhcp`. One layer and
-    /// two layers are `fcc`.
+    /// Returns `fcc`, `hcp` or `dhcp` if the steps follow this pattern from the first one on. A stacking of one or two
+    /// layers is `fcc` unless its sign is −.
     ///
     /// # Examples
     /// ```
@@ -339,7 +346,7 @@ impl Stacking {
         }
     }
 
-    /// Returns the stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
+    /// Returns the stacking with every sign reversed: its mirror image (i, j) → (−i, −j).
     ///
     /// # Examples
     /// ```
@@ -362,7 +369,7 @@ impl Stacking {
         }
     }
 
-    /// Returns the stacking with its steps in opposite order, as read from the other end.
+    /// Returns the stacking with its steps in reverse order, as read from the bottom.
     ///
     /// # Examples
     /// ```
@@ -382,7 +389,7 @@ impl Stacking {
     }
 }
 
-/// How a stacking goes on: for as many layers as there are, or spelled out.
+/// A pattern of Hägg signs that extends to any number of layers, or a stacking that is spelled out.
 ///
 /// # Examples
 /// ```
@@ -397,18 +404,18 @@ impl Stacking {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Pattern {
-    /// All +.
+    /// + + + …
     Fcc,
     /// + − + − …
     Hcp,
     /// + + − − …
     Dhcp,
-    /// These steps and no others.
+    /// The steps of a given stacking.
     Spelled(Stacking),
 }
 
 impl Pattern {
-    /// Returns the number of layers, if the stacking is spelled out.
+    /// Returns the number of layers of a stacking that is spelled out, or `None` for a pattern.
     ///
     /// # Examples
     /// ```
@@ -426,11 +433,11 @@ impl Pattern {
         }
     }
 
-    /// Returns the stacking of this many layers.
+    /// Returns the stacking with `layers` layers.
     ///
     /// # Errors
-    /// [`Error::Layers`]; [`Error::TooManyRuns`]; [`Error::LayersOfStacking`] if it is spelled out and has another
-    /// number.
+    /// [`Error::Layers`] and [`Error::TooManyRuns`], as for [`Stacking::hcp`]; [`Error::LayersOfStacking`] if the
+    /// stacking is spelled out and has another number of layers.
     ///
     /// # Examples
     /// ```
@@ -458,7 +465,7 @@ impl Pattern {
 }
 
 impl fmt::Display for Pattern {
-    /// Prints what [`FromStr`] reads: a name, or the stacking.
+    /// Prints the name of the pattern, or the stacking. [`FromStr`] reads both.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Fcc => f.pad("fcc"),
@@ -472,10 +479,10 @@ impl fmt::Display for Pattern {
 impl FromStr for Pattern {
     type Err = Error;
 
-    /// Reads `fcc`, `hcp`, `dhcp`, or a stacking that is spelled out in one of the four notations.
+    /// Parses `fcc`, `hcp`, `dhcp`, or a stacking that is spelled out in one of the four notations.
     ///
     /// # Errors
-    /// Those of [`Stacking`]'s.
+    /// As for parsing a [`Stacking`].
     ///
     /// # Examples
     /// ```
@@ -496,7 +503,7 @@ impl FromStr for Pattern {
     }
 }
 
-/// The most runs a stacking is made of.
+/// The greatest number of runs in a stacking.
 pub const MAX_RUNS: usize = 1_000_000;
 
 #[cfg(feature = "serde")]

@@ -1,8 +1,8 @@
-//! Strategies of proptest for piles and their parts (feature `proptest`).
+//! Proptest strategies for piles and their parts (feature `proptest`).
 //!
-//! Each strategy draws a byte string and passes it to a generator of [`cannonpile::arbitrary`](crate::arbitrary).
-//! Failing inputs shrink to fewer and smaller bytes, which mostly means smaller piles. The strategies are unnamed types
-//! and combine like all others, by `prop_map`, `prop_flat_map` or in tuples.
+//! Each strategy draws a byte string and calls a generator of [`cannonpile::arbitrary`](crate::arbitrary) with it.
+//! Failing inputs shrink to fewer and smaller bytes, which mostly give smaller piles. The strategies have opaque types
+//! and combine as usual, by `prop_map`, `prop_flat_map` or in tuples.
 //!
 //! # Examples
 //! ```
@@ -35,11 +35,11 @@ use crate::arbitrary::{moderate_pile, site};
 use crate::lattice::{Region, Site};
 use crate::stacking::Stacking;
 
-/// As many bytes as a small pile uses up. A generator that receives fewer reads zeros.
+/// The greatest length of the byte string, enough for a small pile. A generator reads missing bytes as zeros.
 const BYTES: usize = 256;
 
-/// Small piles of any kind, most of them with weights and loads: those of `Pile`'s
-/// [`Arbitrary`](crate::arbitrary::Arbitrary).
+/// Generates small piles of any kind, most of them with weights and loads: those of the
+/// [`Arbitrary`](crate::arbitrary::Arbitrary) implementation of `Pile`.
 ///
 /// # Examples
 /// ```
@@ -78,7 +78,7 @@ pub fn moderate_piles() -> impl Strategy<Value = Pile> + Clone {
     drawn(moderate_pile)
 }
 
-/// Regions of up to five sites a side, close to the origin.
+/// Generates regions of up to five sites a side, close to the origin.
 ///
 /// # Examples
 /// ```
@@ -93,7 +93,7 @@ pub fn regions() -> impl Strategy<Value = Region> + Clone {
     drawn(|u: &mut Unstructured<'_>| u.arbitrary())
 }
 
-/// Stackings of up to ten layers.
+/// Generates stackings of up to ten layers.
 ///
 /// # Examples
 /// ```
@@ -108,7 +108,7 @@ pub fn stackings() -> impl Strategy<Value = Stacking> + Clone {
     drawn(|u: &mut Unstructured<'_>| u.arbitrary())
 }
 
-/// Sites of the pile, which may be of any size: corners, edges and the bottom layer more often than others.
+/// Generates sites of a pile of any size. Corners, edges and the bottom layer are more frequent than other sites.
 ///
 /// # Examples
 /// ```
@@ -123,7 +123,7 @@ pub fn sites_of(pile: &Pile) -> impl Strategy<Value = Site> + Clone + use<> {
     drawn(move |u: &mut Unstructured<'_>| site(u, &pile))
 }
 
-/// The values that a generator makes of random bytes.
+/// Generates the values that `generator` computes from random bytes.
 fn drawn<T, G>(generator: G) -> impl Strategy<Value = T> + Clone
 where
     T: fmt::Debug,

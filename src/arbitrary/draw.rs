@@ -1,8 +1,8 @@
-//! Helpers that the generators share.
+//! Functions that the generators share.
 
 use arbitrary::{Error, Result, Unstructured};
 
-/// Returns true once in `of` draws, and false where no bytes are left.
+/// Returns true once in `of` draws on average, and false if the bytes are exhausted.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -11,7 +11,7 @@ pub fn rarely(u: &mut Unstructured<'_>, of: u8) -> Result<bool> {
     Ok(u.int_in_range(1..=of)? == of)
 }
 
-/// Turns a refusal of the library into one of the generator.
+/// Converts an error of the library to one of the generator.
 pub(super) fn valid<T>(made: core::result::Result<T, crate::Error>) -> Result<T> {
     made.map_err(|_| Error::IncorrectFormat)
 }

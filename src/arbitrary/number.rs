@@ -1,22 +1,22 @@
-//! Numbers at which formulas degenerate, roundings tie or machine integers end.
+//! Generators of numbers at which formulas degenerate, roundings tie or machine integers overflow.
 
 use arbitrary::{Result, Unstructured};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Zero};
 
-/// Returns n/d; d is not 0.
+/// Returns n/d. d must not be 0.
 pub(super) fn ratio(n: i64, d: i64) -> BigRational {
     BigRational::new(n.into(), d.into())
 }
 
-/// Returns base^exponent; the base is not 0.
+/// Returns base^exponent. The base must not be 0.
 pub(super) fn power(base: u32, exponent: i32) -> BigRational {
     BigRational::from_integer(base.into()).pow(exponent)
 }
 
-/// Draws an integer of either sign: small, about a power of two or of ten, where a machine integer ends, or any of
-/// 128 bits.
+/// Draws an integer of either sign: small, close to a power of two or of ten, close to the limit of a machine integer,
+/// or any integer of 128 bits.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -39,7 +39,7 @@ pub fn integer(u: &mut Unstructured<'_>) -> Result<BigInt> {
     Ok(if u.arbitrary()? { -n } else { n })
 }
 
-/// Draws an `i128`: about a power of two, at an end of the range, small, or any.
+/// Draws an `i128`: close to a power of two, at an end of the range, small, or any.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -62,7 +62,7 @@ pub fn machine_integer(u: &mut Unstructured<'_>) -> Result<i128> {
 }
 
 /// Draws a rational of either sign, zero included: simple, an integer, a float, close to ⅓, ½, 5/6 or 1, or a power of
-/// ten that no float holds.
+/// ten, possibly outside the range of floats.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -114,7 +114,7 @@ pub fn float(u: &mut Unstructured<'_>) -> Result<f64> {
         3 => f64::from_bits(u.int_in_range(0..=1 << 52)?),
         _ => u.arbitrary()?,
     };
-    // Infinities and NaN have a sign, which the largest float takes over.
+    // The greatest float gets the sign of the infinity or NaN.
     Ok(if x.is_finite() {
         x
     } else {
@@ -122,13 +122,13 @@ pub fn float(u: &mut Unstructured<'_>) -> Result<f64> {
     })
 }
 
-/// Draws 2^n for −1022 ≤ n ≤ 1023, by its biased exponent: `powi` needs the standard library.
+/// Draws 2^n for −1022 ≤ n ≤ 1023, from its biased exponent, because `powi` needs the standard library.
 fn power_of_two(u: &mut Unstructured<'_>) -> Result<f64> {
     Ok(f64::from_bits(u.int_in_range(1..=2046_u64)? << 52))
 }
 
-/// Draws sin φ of a pile of spheres, 0 < s < 1: about ½, where the base is equilateral; about 5/6, above which three
-/// layers overlap at every spacing; next to 0 or 1; a simple fraction; or a float.
+/// Draws sin φ of a pile of spheres, 0 < s < 1: close to ½, where the base is equilateral; close to 5/6, above which
+/// three layers overlap at every spacing; close to 0 or 1; a simple fraction; or a float.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -156,7 +156,7 @@ pub fn sin_phi(u: &mut Unstructured<'_>) -> Result<BigRational> {
     }
 }
 
-/// Draws sin φ as a float strictly between 0 and 1: any of them, subnormals included, or evenly spread.
+/// Draws sin φ as a float with 0 < s < 1: any such float, subnormals included, or one from a uniform distribution.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -175,12 +175,12 @@ pub fn real_sin_phi(u: &mut Unstructured<'_>) -> Result<f64> {
         f64::from_bits(u.int_in_range(1..=largest.to_bits())?)
     } else {
         let s = f64::from(u.arbitrary::<u32>()?) / f64::from(u32::MAX);
-        // Not a default: a number to be drawn lies between the two.
+        // Not a default: the values must lie strictly between 0 and 1.
         s.clamp(f64::MIN_POSITIVE, largest)
     })
 }
 
-/// Returns the rational equal to a finite float, and 0 for the others.
+/// Returns the rational that equals a finite float, and 0 for other values.
 #[doc(hidden)]
 #[must_use]
 pub fn exactly(x: f64) -> BigRational {
@@ -188,7 +188,7 @@ pub fn exactly(x: f64) -> BigRational {
     BigRational::from_float(x).unwrap_or_default()
 }
 
-/// Draws `centre` itself, or a number so close to it that floats may not tell them apart; at most 1/16 off.
+/// Draws `centre` itself, or a number at a distance between 2^−120 and 1/16, which floats may not distinguish from it.
 fn about(u: &mut Unstructured<'_>, centre: &BigRational) -> Result<BigRational> {
     let off = power(2, u.int_in_range(-120..=-4)?);
     Ok(centre + off * BigInt::from(nudge(u)?))

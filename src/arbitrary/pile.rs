@@ -1,4 +1,4 @@
-//! Small piles with weights and loads, regular piles, and sites of any pile.
+//! Generators of small piles with weights and loads, of regular piles, and of sites of any pile.
 
 use alloc::vec::Vec;
 
@@ -30,11 +30,11 @@ use crate::stacking::Stacking;
 pub struct Description {
     /// The top layer, or the base.
     pub region: Region,
-    /// Whether `region` is the base.
+    /// True if `region` is the base.
     pub from_base: bool,
     /// The Hägg signs, from the top.
     pub signs: Vec<Sign>,
-    /// Whether the spheres have no weight, so that only loads act.
+    /// True if the spheres have zero weight, so that only loads act.
     pub weightless: bool,
     /// The weights that differ from mg, in mg. The last one of a site counts.
     pub weights: Vec<(Site, BigRational)>,
@@ -77,7 +77,7 @@ impl Description {
     }
 }
 
-/// Draws a pile of up to six layers, or of up to ten under one sphere, with up to three weights and three loads by
+/// Draws a pile of up to six layers, or of up to ten under one sphere, with up to three weights and three loads from
 /// [`weight`].
 ///
 /// # Errors
@@ -86,7 +86,7 @@ pub fn description(u: &mut Unstructured<'_>) -> Result<Description> {
     described(u, weight)
 }
 
-/// Draws a pile of up to six layers, or of up to ten under one sphere.
+/// Draws a pile of up to six layers, or of up to ten under one sphere, with weights and loads from `weight`.
 fn described(
     u: &mut Unstructured<'_>,
     weight: fn(&mut Unstructured<'_>) -> Result<BigRational>,
@@ -101,7 +101,7 @@ fn described(
     grown(u, from_base, region, signs, weight)
 }
 
-/// Draws a pile of up to six layers, with weights and loads by [`light_weight`].
+/// Draws a pile of up to six layers, with weights and loads from [`light_weight`].
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -113,7 +113,7 @@ pub fn light_description(u: &mut Unstructured<'_>) -> Result<Description> {
 }
 
 /// Draws a pile of at most five layers, small enough for an exact linear program over all its forces, with weights and
-/// loads by [`light_weight`].
+/// loads from [`light_weight`].
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -136,7 +136,7 @@ pub fn tiny_description(u: &mut Unstructured<'_>) -> Result<Description> {
     grown(u, from_base, region, signs, light_weight)
 }
 
-/// Draws the rest of a pile under `region`, or on a base that `region` grows to.
+/// Draws the remaining data of a pile under `region`, or on a base that is obtained from `region` by dilation.
 fn grown(
     u: &mut Unstructured<'_>,
     from_base: bool,
@@ -156,11 +156,11 @@ fn grown(
         weights: Vec::new(),
         loads: Vec::new(),
     };
-    // Steps that do not fit on the base are dropped from the top.
+    // If the base does not support all steps, the upper ones are removed.
     let shape = loop {
         match described.shape() {
             Ok(shape) => break shape,
-            // One layer fits on every region.
+            // Every region supports one layer.
             Err(_) if described.signs.is_empty() => return Err(Error::IncorrectFormat),
             Err(_) => drop(described.signs.remove(0)),
         }
@@ -177,8 +177,8 @@ fn grown(
     Ok(described)
 }
 
-/// Draws a base: the region that `top` grows to, with each bound moved by at most one site. Some of its spheres will
-/// carry nothing, or some steps will not fit.
+/// Draws a base: the region that `top` dilates to, with each bound moved by at most one site. As a result, some of its
+/// spheres may support no other sphere, or it may not support all steps.
 fn base(u: &mut Unstructured<'_>, top: Region, signs: &[Sign]) -> Result<Region> {
     let grown = signs
         .iter()
@@ -271,8 +271,8 @@ pub fn regular_pile(u: &mut Unstructured<'_>, layers: i128) -> Result<Pile> {
     })
 }
 
-/// Draws a site of the pile: in the top, second, last but one or bottom layer or any; in it at an end, a third or
-/// anywhere along i and j. The cost does not depend on the size of the layer.
+/// Draws a site of the pile. The layer is the top, second, last but one or bottom layer, or any. The position along i
+/// and j is at an end, at a third of the length, or anywhere. The cost does not depend on the size of the layer.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -291,7 +291,7 @@ pub fn site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
     let floor = pile.layers() - 1;
     let k = match u.int_in_range(0..=2)? {
         0 => floor,
-        // Not a default: low piles have the same layer twice.
+        // Not a default: in low piles some of these layers coincide.
         1 => [0, 1, floor - 1][u.choose_index(3)?].clamp(0, floor),
         _ => u.int_in_range(0..=floor)?,
     };
@@ -299,16 +299,16 @@ pub fn site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
     let (first, last) = region.y().into_inner();
     let j = match pile.dimension() {
         Dimension::Two => first,
-        Dimension::Three => first + place(u, last - first)?,
+        Dimension::Three => first + offset(u, last - first)?,
     };
-    // Every row of a region has a site.
+    // Every row of a region contains a site.
     let row = region.row(j);
-    let i = row.start + place(u, row.end - 1 - row.start)?;
+    let i = row.start + offset(u, row.end - 1 - row.start)?;
     Ok(Site { i, j, k })
 }
 
-/// Draws one of 0, …, `last`.
-fn place(u: &mut Unstructured<'_>, last: i128) -> Result<i128> {
+/// Draws a number from 0, …, `last`, often 0, `last` or `last`/3.
+fn offset(u: &mut Unstructured<'_>, last: i128) -> Result<i128> {
     Ok(match u.int_in_range(0..=3)? {
         0 => 0,
         1 => last,

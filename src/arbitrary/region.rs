@@ -1,5 +1,5 @@
-//! Regions and positions about them: small, flat, next to the greatest coordinates; bounds that are crossed or beyond
-//! the limit.
+//! Generators of regions and of positions close to them: small, flat, close to the greatest coordinates, with bounds
+//! that cross or exceed the limit.
 
 use arbitrary::{Arbitrary, Result, Unstructured};
 
@@ -7,9 +7,10 @@ use super::draw::{rarely, valid};
 use super::number;
 use crate::lattice::{MAX_LAYERS, Region, Site};
 
-/// Draws six bounds x₀, x₁, y₀, y₁, s₀, s₁ for [`Region::new`], which may refuse them.
+/// Draws six bounds x₀, x₁, y₀, y₁, s₀, s₁ for [`Region::new`], which may be invalid.
 ///
-/// All of them are small, or up to ±[`MAX_LAYERS`], or some are beyond. One pair in eight may be crossed.
+/// All of them are small, or all are within ±[`MAX_LAYERS`], or some may exceed this limit. About one pair in eight has
+/// its bounds in arbitrary order, so that they may cross.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -37,7 +38,7 @@ pub fn bounds(u: &mut Unstructured<'_>) -> Result<[i128; 6]> {
     Ok(bounds)
 }
 
-/// Draws a coordinate: small for a reach of 0 or 1, within the limit for 2 and 3, any `i128` beyond.
+/// Draws a coordinate: small for a `reach` of 0 or 1, within ±[`MAX_LAYERS`] for 2 and 3, any `i128` for a greater one.
 fn coordinate(u: &mut Unstructured<'_>, reach: u8) -> Result<i128> {
     let kind = match reach {
         0 | 1 => 0,
@@ -54,7 +55,7 @@ fn coordinate(u: &mut Unstructured<'_>, reach: u8) -> Result<i128> {
     })
 }
 
-/// Draws a region of any size: it may have 10³⁶ rows.
+/// Draws a region of any size, with up to about 10³⁶ rows.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -91,7 +92,7 @@ pub fn region(u: &mut Unstructured<'_>) -> Result<Region> {
 pub fn small_region(u: &mut Unstructured<'_>) -> Result<Region> {
     let [x, y] = [u.int_in_range(-2..=2)?, u.int_in_range(-2..=2)?];
     let [along_x, along_y] = [u.int_in_range(0..=4)?, u.int_in_range(0..=4)?];
-    // Corners are cut off, but every i+j from `low` to `high` is attained, so some site is left.
+    // The bounds on i+j remove corners. Each sum from `low` to `high` belongs to some site, so the region is not empty.
     let whole = along_x + along_y;
     let low = u.int_in_range(0..=whole)?;
     let high = u.int_in_range(low..=whole)?;
@@ -103,8 +104,8 @@ pub fn small_region(u: &mut Unstructured<'_>) -> Result<Region> {
     ))
 }
 
-/// Draws a position (i, j) next to a corner of the region or to the middle between two corners, up to two steps off in
-/// i and in j. It may lie outside the region.
+/// Draws a position (i, j) close to a corner of the region, or close to the middle between two corners: at most two
+/// steps away in i and in j. It may lie outside the region.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -136,7 +137,8 @@ impl<'a> Arbitrary<'a> for Region {
     }
 }
 
-/// A site with small coordinates, with coordinates about ±[`MAX_LAYERS`], or with any. It need not lie in any pile.
+/// A site with small coordinates, with coordinates close to ±[`MAX_LAYERS`], or with any. It may lie outside every
+/// pile.
 impl<'a> Arbitrary<'a> for Site {
     fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
         let reach = u.int_in_range(0..=4)?;

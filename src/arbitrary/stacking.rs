@@ -1,4 +1,4 @@
-//! Signs and stackings: straight, periodic, with one change of sign, or random.
+//! Generators of Hägg signs and stackings: straight, periodic, with one sign change, or random.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -27,7 +27,7 @@ pub fn signs(u: &mut Unstructured<'_>, most: usize) -> Result<Vec<Sign>> {
     signs_of(u, steps)
 }
 
-/// Draws exactly `steps` Hägg signs: all equal, of period 2 or 4, with at most one change, or each at random.
+/// Draws exactly `steps` Hägg signs: all equal, of period 2 or 4, with at most one sign change, or independent.
 ///
 /// # Errors
 /// Those of [`Unstructured`].

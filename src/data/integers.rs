@@ -1,4 +1,5 @@
-//! Integers through [serde](https://serde.rs): numbers as far as floats hold them all, else strings.
+//! Serialisation of integers with [serde](https://serde.rs): numbers up to 2⁵³ − 1, which `f64` represents exactly,
+//! else strings.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -15,16 +16,16 @@ use super::Number;
 use crate::Error;
 use crate::scalar::parse::{big_integer, integer};
 
-/// The greatest number in a text format. A reader that keeps numbers as floats keeps all up to it, and no two as one.
+/// The greatest number in a text format. Up to this limit, distinct integers remain distinct as `f64`.
 const GREATEST: i64 = (1 << 53) - 1;
 
-/// Returns the number to write, if it is one that every reader keeps.
+/// Returns the value as a number if it is within the limit.
 fn small(value: &impl ToPrimitive) -> Option<i64> {
     let value = value.to_i64()?;
     (-GREATEST..=GREATEST).contains(&value).then_some(value)
 }
 
-/// Integers of any size: strings in binary formats.
+/// Implements [`Number`] for integers of any size, which are strings in binary formats.
 macro_rules! integers {
     ($($type:ty: $parser:expr;)*) => {$(
         impl Number for $type {
@@ -52,7 +53,7 @@ integers! {
     BigUint: natural;
 }
 
-/// Counts: numbers in binary formats.
+/// Implements [`Number`] for counts, which are numbers in binary formats.
 macro_rules! counts {
     ($($type:ty)*) => {$(
         impl Number for $type {
@@ -87,10 +88,10 @@ fn count<T: TryFrom<BigUint>>(text: &str) -> Result<T, Error> {
     count.map_err(|_| Error::syntax(text, "a count, which is below 2^64"))
 }
 
-/// Reads an integer, or a string, by a parser.
+/// Reads an integer or a string with a parser.
 struct Integer<T, E>(fn(&str) -> Result<T, E>, PhantomData<E>);
 
-/// Takes integers of every width as the texts that they print.
+/// Converts integers of every width to text and parses it.
 macro_rules! visit_as_text {
     ($($visit:ident: $type:ty;)*) => {$(
         fn $visit<E: de::Error>(self, value: $type) -> Result<T, E> {
@@ -148,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_such_integer_is_refused() {
+    fn rejects_values_of_other_types() {
         assert!(read::<BigUint>(-1_i64).is_err() && read::<u64>("-1").is_err());
         assert!(read::<u64>("18446744073709551616").is_err());
         assert!(read::<i128>(u128::MAX).is_err() && read::<i128>("1/2").is_err());

@@ -1,4 +1,4 @@
-//! Maps as lists of records, since their keys are no strings.
+//! Serialisation of maps as lists of records, since their keys are not strings.
 
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -12,13 +12,13 @@ use num_rational::BigRational;
 use crate::data::number;
 use crate::lattice::{Axis, HorizontalContact, Site};
 
-/// What a map is by, and how an entry of it is written.
+/// The key of a map, and the record that represents an entry.
 pub trait Key: Copy + Ord + fmt::Display {
-    /// What the map has for it.
+    /// The value type of the map.
     type Held;
-    /// Both, as a record.
+    /// The record of key and value.
     type Entry: Serialize + DeserializeOwned;
-    /// What it is to have twice: `forces of the horizontal contact`.
+    /// The values in the message about a duplicate key, such as `forces of the horizontal contact`.
     const HELD: &'static str;
 
     fn entry(self, held: &Self::Held) -> Self::Entry;
@@ -26,7 +26,7 @@ pub trait Key: Copy + Ord + fmt::Display {
     fn parts(entry: Self::Entry) -> (Self, Self::Held);
 }
 
-/// The force of a horizontal contact.
+/// The record of the force of a horizontal contact.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Push {
@@ -51,7 +51,7 @@ impl Key for HorizontalContact {
     }
 }
 
-/// The field on a sphere, by direction.
+/// The record of the values of a field on a sphere, by direction.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Values {
@@ -90,7 +90,7 @@ impl Key for Site {
     }
 }
 
-/// Writes a map as the list of its entries.
+/// Writes a map as a list of records.
 ///
 /// # Errors
 /// Those of the serializer.
@@ -101,10 +101,10 @@ pub fn serialize<K: Key, S: Serializer>(
     serializer.collect_seq(map.iter().map(|(key, held)| key.entry(held)))
 }
 
-/// Reads a map from the list of its entries.
+/// Reads a map from a list of records.
 ///
 /// # Errors
-/// Those of the deserializer; a key that stands twice.
+/// Those of the deserializer; a duplicate key.
 pub fn deserialize<'de, K: Key, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<K, K::Held>, D::Error> {
@@ -125,7 +125,7 @@ impl<'de, K: Key> Visitor<'de> for Listed<K> {
         while let Some(entry) = list.next_element()? {
             let (key, held) = K::parts(entry);
             if map.insert(key, held).is_some() {
-                // One would silently win over the other.
+                // Otherwise one of the two values would be ignored silently.
                 return Err(A::Error::custom(format!(
                     "two {} {key}: leave one of them out",
                     K::HELD

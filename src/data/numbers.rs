@@ -1,4 +1,5 @@
-//! Numbers through [serde](https://serde.rs): exact ones as strings, as they print; [integers](super::integers) apart.
+//! Serialisation of numbers with [serde](https://serde.rs): exact numbers as strings. For integers see
+//! [integers](super::integers).
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -15,13 +16,14 @@ use crate::Error;
 use crate::scalar::parse::rational;
 use crate::scalar::{DoubleDouble, FixedInteger, FixedRational, Interval, Surd};
 
-/// A number, as the answers of piles hold them: rationals and surds are strings, floats are numbers.
+/// A number in the results of this crate. Rationals and surds are strings, and floats are numbers.
 ///
-/// In a text format such as JSON an integer within ±(2⁵³ − 1) is a number, and one beyond is a string, since many readers
-/// keep numbers as floats. Either form is read. In a binary format `i128` and big integers are strings, counts are numbers.
+/// In a text format such as JSON an integer within ±(2⁵³ − 1) is a number, and a greater one is a string, since many
+/// parsers store numbers as floats. Both forms are accepted. In a binary format `i128` and big integers are strings,
+/// and counts are numbers.
 ///
-/// Options, vectors and arrays of three of them count as numbers too. A scalar of your own needs this for
-/// [`ContactForce`](crate::ContactForce) and its like to be written.
+/// Options, vectors and arrays of three numbers implement the trait too. A scalar of your own needs it for the
+/// serialisation of [`ContactForce`](crate::ContactForce) and similar types.
 ///
 /// # Examples
 /// ```
@@ -49,17 +51,17 @@ pub trait Number: Sized {
     /// Writes the number.
     ///
     /// # Errors
-    /// Those of the serializer, and of a number that has no value.
+    /// Those of the serializer; a number without a value, such as a fault.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
 
     /// Reads the number.
     ///
     /// # Errors
-    /// Those of the deserializer, and of a text that is not such a number.
+    /// Those of the deserializer; a text that does not represent such a number.
     fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
 }
 
-/// For `#[serde(with = "cannonpile::data::number")]` on fields that are a [`Number`].
+/// Functions for `#[serde(with = "cannonpile::data::number")]` on fields that implement [`Number`].
 pub mod number {
     use super::{Deserializer, Number, Serializer};
 
@@ -110,8 +112,8 @@ pub mod number {
     }
 }
 
-/// Implements serde for types that are one string: what `Display` prints and `FromStr` reads. The
-/// format may be another than `{}`.
+/// Implements serde for types that are written as a string. `Display` prints the string, and `FromStr` parses it. An
+/// optional format replaces `{}`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! as_text {
@@ -132,7 +134,7 @@ macro_rules! as_text {
 
 pub use as_text;
 
-/// Numbers of other crates, as they print.
+/// Implements [`Number`] for numbers of other crates that are written as `Display` prints them.
 macro_rules! printed {
     ($($type:ty: $parser:expr;)*) => {$(
         impl Number for $type {
@@ -151,7 +153,7 @@ printed! {
     BigRational: rational;
 }
 
-/// Numbers that serde knows, or that have their implementation here.
+/// Implements [`Number`] for numbers that implement the traits of serde.
 macro_rules! as_it_is {
     ($($type:ty)*) => {$(
         impl Number for $type {
@@ -178,7 +180,7 @@ impl<I: FixedInteger> Number for FixedRational<I> {
     }
 }
 
-/// A number for serde's own containers.
+/// A reference to a number that implements `Serialize`, for the containers of serde.
 struct Written<'a, T>(&'a T);
 
 impl<T: Number> Serialize for Written<'_, T> {
@@ -187,7 +189,7 @@ impl<T: Number> Serialize for Written<'_, T> {
     }
 }
 
-/// A number from serde's own containers.
+/// A number that implements `Deserialize`, for the containers of serde.
 struct Read<T>(T);
 
 impl<'de, T: Number> Deserialize<'de> for Read<T> {
@@ -249,7 +251,7 @@ struct Ends {
 }
 
 impl<I: FixedInteger> Serialize for FixedRational<I> {
-    /// Refuses a fault, which is no number.
+    /// Writes the number. A fault is an error.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.to_rational() {
             Some(value) => Number::serialize(&value, serializer),

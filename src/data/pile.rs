@@ -1,4 +1,4 @@
-//! A pile as what it is made of, and made of it again by the checked constructors.
+//! Serialisation of a pile as its parts. The checked constructors build it again.
 
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -22,7 +22,7 @@ struct Parts {
     dimension: Dimension,
     #[serde(with = "number")]
     sin_phi: BigRational,
-    /// From the top, whatever the anchor.
+    /// The stacking from the top, for both anchors.
     stacking: Stacking,
     anchor: Anchor,
     weightless: bool,
@@ -32,7 +32,7 @@ struct Parts {
     horizontal: BTreeMap<HorizontalContact, BigRational>,
 }
 
-/// What a sphere weighs, or what is put on it.
+/// The weight of a sphere, or the load on it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct OnSite {
@@ -78,7 +78,7 @@ impl Parts {
         })
     }
 
-    /// Without what was put on it.
+    /// Returns the pile without weights, loads and horizontal forces.
     fn bare(&self) -> Result<Pile, Refused> {
         let layers = self.stacking.layers();
         let pile = match (self.dimension, self.anchor) {
@@ -91,7 +91,7 @@ impl Parts {
             (Dimension::Three, Anchor::Top(top)) => Pile::under(top, self.stacking.clone())?,
             (Dimension::Three, Anchor::Base(base)) => Pile::on(base, self.stacking.clone())?,
         };
-        // Discs have but one shape, and most shapes but one sin φ.
+        // Piles of discs have a single shape, and most shapes a single sin φ. Other values are errors.
         let given = if pile.sin_phi() != &self.sin_phi {
             "sin-phi"
         } else if pile.shape().stacking() != &self.stacking {
@@ -109,7 +109,7 @@ impl Parts {
     }
 }
 
-/// Why parts do not make a pile.
+/// The reason why parts do not form a pile.
 enum Refused {
     Core(Error),
     Excluded {
@@ -145,7 +145,7 @@ impl Serialize for Pile {
 impl<'de> Deserialize<'de> for Pile {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let parts = Parts::deserialize(deserializer)?;
-        // One would silently win over the other.
+        // Otherwise one of the two weights would be ignored silently.
         let mut sites: Vec<Site> = parts.weights.iter().map(|weight| weight.site).collect();
         sites.sort_unstable();
         let mut pairs = sites.iter().zip(sites.iter().skip(1));

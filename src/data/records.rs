@@ -1,4 +1,4 @@
-//! What is a record of its public fields: here they are again, each with the way it is written.
+//! Serialisation of types that are records of their fields. The copies below add the format of each field.
 
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_bigint::BigUint;
@@ -14,7 +14,7 @@ use crate::{
     Question, Standing,
 };
 
-/// The implementations that serde derives for the copy of a type of this name.
+/// Implements the traits of serde for a type through the derived implementations of its copy.
 macro_rules! records {
     ($($type:ident as $copy:ident $(<$scalar:ident>)?;)*) => {$(
         impl $(<$scalar: Number>)? Serialize for $type $(<$scalar>)? {

@@ -1,4 +1,4 @@
-//! Names that are one string, as they print.
+//! Serialisation of enums as the strings that `Display` prints.
 
 use alloc::string::ToString;
 
@@ -29,7 +29,7 @@ words! {
     Quantity: quantity;
 }
 
-/// The one of these that prints so.
+/// Returns the value in `all` that prints as `text`.
 fn named<T: ToString>(
     text: &str,
     all: impl IntoIterator<Item = T>,

@@ -1,13 +1,13 @@
-//! Horizontal contacts, at a = R: how they enter the balance of a sphere.
+//! Horizontal contacts, at a = R, in the equilibrium of a sphere.
 
 use super::passed_on;
 use crate::lattice::{Direction, Sign};
 use crate::scalar::Ring;
 
-/// Returns how a horizontal contact of a sphere shifts force between the three lines below the sphere.
+/// Returns the contribution of a horizontal contact to H, which shifts force between the three lines below a sphere.
 ///
-/// A contact of force X adds −X on a and +X on b to H of the sphere p if it leads away from p to p + d_b − d_a, and the
-/// reverse if it leads here, from p − d_b + d_a. `ends` are a and b.
+/// A contact between p and p + d_b − d_a with force X contributes −X on a and +X on b to H of the sphere p. To H of the
+/// other sphere it contributes the opposite. `ends` contains a and b, and `leads_away` is true for p. Forces are in f₀.
 ///
 /// # Examples
 /// ```
@@ -26,10 +26,10 @@ pub fn pushed<T: Ring>(force: &T, ends: [Direction; 2], leads_away: bool) -> [T;
     entries
 }
 
-/// Returns the force on a line below a sphere that horizontal contacts push, in f₀.
+/// Returns the force on a line below a sphere with horizontal contacts, in f₀: f = g + w − σH.
 ///
-/// It is f = g + w − σH: `received` is g, after the [half-turn](super::half_turn) where the sign changes, `own` is w,
-/// `pushed` the sum H of what [contacts push](pushed), and σ the sign of the step below. Horizontal forces are in f₀ too.
+/// `received` is g, after the [half-turn](super::half_turn) at a sign change, and `own` is w. `pushed` is H, the sum of
+/// the [contributions](pushed) of the contacts, and σ is the sign of the step below. All forces are in f₀.
 ///
 /// # Examples
 /// ```

@@ -1,4 +1,4 @@
-//! How forces pass from layer to layer where the stacking changes.
+//! Transfer of forces across a sign change.
 
 use core::ops::{Add, Sub};
 
@@ -6,13 +6,13 @@ use num_traits::One;
 
 use crate::scalar::{Algebra, Exactness, THREE};
 
-/// Returns what a sphere at a change of sign passes on of the forces g that it receives: G g, with G = (2/3)J − I and J all ones,
-/// that is (2/3)(g_α + g_β + g_γ)(1, 1, 1) − g; over three times the denominator of g, 3G g, if the ring of numerators
-/// has no thirds.
+/// Returns the forces G g that a sphere at a sign change transmits for forces g from above. Here G = (2/3)J − I with J
+/// all ones, so G g = (2/3)(g_α + g_β + g_γ)(1, 1, 1) − g. If the numerators do not allow division by 3, the result is
+/// 3G g, and the denominator is three times that of g.
 ///
-/// G is the half-turn about (1, 1, 1): orthogonal, symmetric, its own inverse, so that nothing is amplified over a change
-/// of sign. Exact in exact scalars. Integers are [tripled](tripled_half_turn), bounds are
-/// [combined apart](tripled_apart) and divided, all others are turned with a single division.
+/// G is the half-turn about (1, 1, 1): orthogonal, symmetric and its own inverse. So a sign change does not amplify
+/// errors. The result is exact in exact scalars. Integers use [`tripled_half_turn`]. Bounds use [`tripled_apart`] and a
+/// division by 3. All other scalars use a single division.
 ///
 /// # Examples
 /// ```
@@ -22,7 +22,7 @@ use crate::scalar::{Algebra, Exactness, THREE};
 ///
 /// assert_eq!(half_turn::<f64>(&[3.0, 0.0, 0.0]), [-1.0, 2.0, 2.0]);
 /// assert_eq!(half_turn::<f64>(&[-1.0, 2.0, 2.0]), [3.0, 0.0, 0.0]);
-/// // Fractions are kept as integers over one denominator, which grows by 3.
+/// // The numerators of rationals are integers. Their common denominator grows by a factor of 3.
 /// let tripled = half_turn::<BigRational>(&[1, 0, 0].map(BigInt::from));
 /// assert_eq!(tripled, [-1, 2, 2].map(BigInt::from));
 /// ```
@@ -40,10 +40,10 @@ pub fn half_turn<T: Algebra>(g: &[T::Numerator; 3]) -> [T::Numerator; 3] {
     }
 }
 
-/// Returns 3G g = 2(g_α + g_β + g_γ)(1, 1, 1) − 3g: the [half-turn](half_turn) without a division, for integers whose denominator
-/// grows by 3 at every change of sign.
+/// Returns 3G g = 2(g_α + g_β + g_γ)(1, 1, 1) − 3g, the [half-turn](half_turn) without a division. It serves integers,
+/// whose denominator grows by a factor of 3 at each sign change.
 ///
-/// No term of it is greater than 2√3·‖g‖, and |3G g| ≤ 5 max|g|. Exact wherever sums are.
+/// No intermediate term exceeds 2√3·‖g‖, and |3G g| ≤ 5 max|g|. The result is exact if sums are exact.
 ///
 /// # Examples
 /// ```
@@ -60,11 +60,11 @@ where
     g.each_ref().map(|x| twice_sum.clone() - x - x - x)
 }
 
-/// Returns 3G g as (2(g_β + g_γ) − g_α, …), where every force is named once: for bounds, and for limbs, of
-/// which no sum on the way is greater than the result may be, 5 max|g|.
+/// Returns 3G g as (2(g_β + g_γ) − g_α, …), so that each force occurs once. It serves bounds and limbs. No intermediate
+/// sum exceeds the bound of the result, 5 max|g|.
 ///
-/// Bounds widen by 5/3 over a [half-turn](half_turn). In [2Σg − 3g](tripled_half_turn) they would by 3, since an interval
-/// does not know that both g_α in it are one number.
+/// Enclosures widen by a factor of 5/3 over a [half-turn](half_turn). With [2Σg − 3g](tripled_half_turn) they would
+/// widen by 3, because interval arithmetic treats the two occurrences of g_α as independent.
 ///
 /// # Examples
 /// ```
@@ -84,7 +84,8 @@ where
     [tripled([b, c], a), tripled([a, c], b), tripled([a, b], c)]
 }
 
-/// Returns whether a [half-turn](half_turn) triples the denominator: the numerators of the scalar have no thirds.
+/// Returns whether a [half-turn](half_turn) multiplies the denominator by 3, because the numerators do not allow
+/// division by 3.
 pub(crate) fn triples<T: Algebra>() -> bool {
     T::divide_numerator(T::Numerator::one(), THREE).is_none()
 }

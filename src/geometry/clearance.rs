@@ -1,16 +1,16 @@
-//! Which spacings leave room for the spheres.
+//! The range of spacings without overlap.
 //!
-//! # Which pairs of spheres decide
-//! Two spheres of a pile of L layers differ by n = (n_a, n_b, n_c) if both the positive and the negative
-//! parts of n sum to at most L−1. They overlap if the form [`squared_distance`] is below 1 at n. With
-//! σ = sin²θ it is m² + σ(h(n) − m²), linear in σ, where m = n_a+n_b+n_c counts the layers between them
-//! and σh(n) is the squared horizontal distance. So every n sets one bound on σ, and the allowed
-//! spacings are an interval.
+//! # Decisive pairs of spheres
+//! Two spheres of a pile of L layers can differ by n = (n_a, n_b, n_c) if both the positive and the negative parts of n
+//! sum to at most L−1. They overlap if the form [`squared_distance`] is below 1 at n. With σ = sin²θ this form is m² +
+//! σ(h(n) − m²), linear in σ. Here m = n_a+n_b+n_c counts the layers between them, and σh(n) is the squared horizontal
+//! distance. So every n gives one bound on σ, and the allowed spacings are an interval.
 //!
-//! Finitely many n suffice, whatever L is: the neighbours (1,−1,0), (1,0,−1), (0,1,−1) of a layer, which give the lower
-//! bounds, and those with 1 ≤ m ≤ 3, |n_a−n_b| ≤ 1 and −1 ≤ n_a+n_b ≤ 4, which give the upper ones; the same n are all that
-//! touch. Other stackings have one upper bound, from spheres straight above each other: two layers apart at a change
-//! of sign, q ≤ 9/4, else three, q ≤ 8/3. The lemma and its reason are in [`paper`](crate::paper#overlap).
+//! Finitely many n suffice for every L. The neighbours (1,−1,0), (1,0,−1), (0,1,−1) in a layer give the lower bounds.
+//! The differences with 1 ≤ m ≤ 3, |n_a−n_b| ≤ 1 and −1 ≤ n_a+n_b ≤ 4 give the upper bounds. No other pairs can touch.
+//!
+//! Other stackings have one upper bound, from spheres vertically above each other. They are two layers apart at a sign
+//! change, q ≤ 9/4, and otherwise three, q ≤ 8/3. The lemma and its proof are in [`paper`](crate::paper#overlap).
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -26,7 +26,7 @@ use crate::lattice::Dimension;
 use crate::scalar::Ring;
 use crate::shape::Shape;
 
-/// How far apart two spheres are that touch, or would overlap.
+/// The number of layers between two spheres that touch or overlap.
 ///
 /// # Examples
 /// ```
@@ -42,12 +42,12 @@ use crate::shape::Shape;
     serde(deny_unknown_fields)
 )]
 pub struct LayerGap {
-    /// The number of layers between them, 0 for neighbours of one layer.
+    /// The difference of their layers, 0 for neighbours in one layer.
     pub layers: u8,
 }
 
 impl fmt::Display for LayerGap {
-    /// Prints `in one layer`, `3 layers apart`.
+    /// Prints `in one layer` or, for example, `3 layers apart`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.layers {
             0 => padded(f, format_args!("in one layer")),
@@ -57,13 +57,13 @@ impl fmt::Display for LayerGap {
     }
 }
 
-/// A pair of spheres that may come too close, with the q at which it touches.
+/// The value of q at which a pair of spheres touches, with the layers between them.
 type Touch = (BigRational, LayerGap);
 
-/// The spacings a pile allows: those at which no two of its spheres overlap.
+/// The spacings a/R at which no two spheres of a pile overlap.
 ///
-/// [`Pile::clearance`](crate::Pile::clearance) makes it. On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the
-/// bounds further spheres touch.
+/// [`Pile::clearance`](crate::Pile::clearance) returns it. For an equilateral base and L ≥ 4 layers it is 1 ≤ a/R ≤
+/// √(8/3). At these bounds further spheres touch.
 ///
 /// # Examples
 /// ```
@@ -72,7 +72,7 @@ type Touch = (BigRational, LayerGap);
 /// let clearance = Pile::triangular(10)?.clearance();
 /// assert!(clearance.check(&"1.63".parse()?).is_ok());
 /// assert!(clearance.check(&"1.64".parse()?).is_err());
-/// // a = R is the FCC stack: horizontal neighbours touch.
+/// // At a = R, the fcc pile, horizontal neighbours touch.
 /// let touching = clearance.check(&"1".parse()?)?;
 /// assert_eq!(touching[0].to_string(), "in one layer");
 /// # Ok::<(), cannonpile::Error>(())
@@ -82,14 +82,14 @@ pub struct Clearance {
     layers: i128,
     dimension: Dimension,
     s: BigRational,
-    /// Pairs that come too close when q is too small.
+    /// Pairs that overlap if q is too small.
     lower: Vec<Touch>,
-    /// Pairs that come too close when q is too great.
+    /// Pairs that overlap if q is too great.
     upper: Vec<Touch>,
 }
 
 impl Clearance {
-    /// Returns the bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
+    /// Returns the range for a pile with these sites and sin φ = `s`. For discs `s` must be 0.
     pub(crate) fn new(shape: &Shape, s: &BigRational) -> Self {
         if shape.is_pyramid() {
             Self::of_pyramid(shape, s)
@@ -98,7 +98,7 @@ impl Clearance {
         }
     }
 
-    /// On an equilateral base, of any stacking (module documentation).
+    /// Returns the range for any stacking on an equilateral base (see the module documentation).
     fn of_stacking(shape: &Shape, s: &BigRational) -> Self {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
         let touch = |q, layers| (q, LayerGap { layers });
@@ -132,13 +132,13 @@ impl Clearance {
             if slope.is_zero() {
                 continue;
             }
-            // at_zero + σ·slope ≥ 1
+            // The condition is at_zero + σ·slope ≥ 1.
             let sin2 = (BigRational::one() - at_zero) / &slope;
             let apart = LayerGap { layers };
             if slope.is_positive() {
                 lower.push((sin2 * &flat, apart));
             } else if sin2 < BigRational::one() {
-                // Other bounds are not reached before the contacts are horizontal.
+                // The remaining bounds lie at θ ≥ 90°, which `check` excludes.
                 upper.push((sin2 * &flat, apart));
             }
         }
@@ -151,7 +151,7 @@ impl Clearance {
         }
     }
 
-    /// Returns the least allowed spacing, or `None` for one sphere, which sets no lower bound.
+    /// Returns the least allowed spacing, or `None` if no two spheres are neighbours in a layer.
     ///
     /// # Examples
     /// ```
@@ -168,8 +168,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// Returns the greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers on an
-    /// equilateral base).
+    /// Returns the greatest allowed spacing, or `None` if every spacing with θ < 90° is allowed. The latter holds for
+    /// up to three layers on an equilateral base.
     ///
     /// # Examples
     /// ```
@@ -186,12 +186,12 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// Checks, exactly, that the spheres have room. Returns which of them touch, other than at the contacts α, β, γ:
-    /// none in general, some at the bounds.
+    /// Checks exactly that no spheres overlap at this spacing. Returns the pairs that touch in addition to the contacts
+    /// α, β, γ. They exist only at the bounds.
     ///
     /// # Errors
-    /// [`Error::NoSpacing`] if no spacing at all fits this sin φ, [`Error::Overlap`] with the allowed
-    /// spacings, [`Error::TooFlat`] if θ would reach 90°.
+    /// [`Error::NoSpacing`] if no spacing is possible for this sin φ; [`Error::Overlap`], with the allowed spacings;
+    /// [`Error::TooFlat`] if θ would reach 90°.
     ///
     /// # Examples
     /// ```
@@ -241,7 +241,7 @@ impl Clearance {
     }
 }
 
-/// The differences that may overlap (module documentation), one of each ±n, with the layers between.
+/// Returns the differences n that decide (see the module documentation), one of each ±n, with the layers between.
 fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
     let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].map(|n| (0, n));
     let stacked = (1..=3_u8).flat_map(|m| {
@@ -255,7 +255,8 @@ fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
     neighbours.into_iter().chain(stacked)
 }
 
-/// Whether two spheres of a pile of L layers are n apart, for m ≥ 0: the negative parts of n sum to no more than the positive.
+/// Returns whether two spheres of a pile of L layers can differ by n, for m ≥ 0. The negative parts of n then sum to at
+/// most the positive parts.
 fn occurs(n: [i128; 3], layers: i128) -> bool {
     let rise: i128 = n.iter().map(|c| (*c).max(0)).sum();
     rise < layers

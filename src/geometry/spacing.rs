@@ -1,4 +1,4 @@
-//! a/R, the distance of neighbours in a layer over the diameter.
+//! The spacing a/R: the distance between neighbours in a layer over the diameter of a sphere.
 
 use core::fmt;
 use core::str::FromStr;
@@ -10,10 +10,10 @@ use num_traits::{Signed, Zero};
 use crate::Error;
 use crate::scalar::Surd;
 
-/// a/R: half the distance 2a of horizontal neighbours, over the radius. Positive; its square q is
-/// rational.
+/// The spacing a/R: the distance 2a between horizontal neighbours over the diameter 2R. It is positive, and its square
+/// q is rational.
 ///
-/// Whether spheres overlap depends on the pile too: [`Clearance`](super::Clearance).
+/// The spacings without overlap depend on the pile: see [`Clearance`](super::Clearance).
 ///
 /// # Examples
 /// ```
@@ -21,7 +21,7 @@ use crate::scalar::Surd;
 /// use cannonpile::ratio;
 ///
 /// assert_eq!(Spacing::new(ratio!(6/5))?.square(), &ratio!(36/25));
-/// // The bound √(8/3) of a tall pile is no rational, but its square is.
+/// // The bound √(8/3) of a tall pile is irrational, but its square is rational.
 /// assert_eq!(Spacing::from_square(ratio!(8/3))?.to_string(), "2/3*sqrt(6)");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
@@ -117,7 +117,7 @@ impl Spacing {
         Surd::root_of(self.square.clone())
     }
 
-    /// a/R in millionths, rounded down, and whether that is exact.
+    /// Returns a/R in millionths, rounded down, and whether this value is exact.
     pub(crate) fn millionths(&self) -> (BigInt, bool) {
         let scaled = &self.square * BigRational::from_integer(1_000_000_000_000_i64.into());
         let root = scaled.to_integer().sqrt();
@@ -135,7 +135,7 @@ impl fmt::Display for Spacing {
 impl FromStr for Spacing {
     type Err = Error;
 
-    /// Reads a/R: `6/5`, `1.2`, `2/3*sqrt(6)`.
+    /// Parses a/R: `6/5`, `1.2`, `2/3*sqrt(6)`.
     ///
     /// # Errors
     /// [`Error::Syntax`]; [`Error::NotPositive`].
@@ -157,7 +157,7 @@ impl FromStr for Spacing {
             (None, num_bigint::Sign::Plus) => Self::from_square(ratio.square()),
             (None, _) => Err(Error::syntax(text, "a spacing: it must be positive")),
         }?;
-        // Its root is looked for anew, and may be written with other squares outside.
+        // The root is extracted again and may have another square factor, so its length is checked too.
         spacing.ratio().if_short(text)?;
         Ok(spacing)
     }
@@ -166,11 +166,11 @@ impl FromStr for Spacing {
 #[cfg(feature = "serde")]
 crate::data::as_text!(Spacing);
 
-/// A bound on the spacing, exact and as a decimal that itself keeps the bound: `2/3*sqrt(6) =
-/// 1.632993…`, `1`.
+/// A bound on the spacing, printed exactly and as a decimal, such as `2/3*sqrt(6) = 1.632993…` or `1`. The decimal
+/// satisfies the bound too.
 pub(crate) struct Bound<'a> {
     pub(crate) spacing: &'a Spacing,
-    /// Round the decimal up, as a lower bound needs.
+    /// True for a lower bound, whose decimal is rounded up.
     pub(crate) up: bool,
 }
 

@@ -7,10 +7,10 @@ use exact_surd::layout::{padded, part};
 
 use crate::scalar::Ring;
 
-/// A vector by its components in the symbolic basis (sinθ, 2cosφ·sinθ, cosθ), z down.
+/// A vector with components in the symbolic basis (sinθ, 2cosφ·sinθ, cosθ), where z points down.
 ///
-/// x stands for x·sinθ, y for y·2cosφ·sinθ (√3·sinθ on an equilateral base), z for z·cosθ; the length
-/// or force it is measured in is said where it is returned. [`on`](Self::on) puts the basis in.
+/// The components x, y, z represent x·sinθ, y·2cosφ·sinθ (√3·sinθ on an equilateral base) and z·cosθ. The function that
+/// returns a vector documents its unit. [`on`](Self::on) multiplies by numerical values of the basis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -49,7 +49,7 @@ impl<T: Ring> Vector<T> {
         }
     }
 
-    /// Returns the vector times a number.
+    /// Returns the vector multiplied by a scalar.
     ///
     /// # Examples
     /// ```
@@ -63,8 +63,8 @@ impl<T: Ring> Vector<T> {
         self.map(|c| c * factor)
     }
 
-    /// Returns the vector after a half-turn about the vertical, (−x, −y, z). Directions of contacts under − steps are
-    /// those under + steps, turned so.
+    /// Returns the vector rotated by 180° about the vertical, (−x, −y, z). This maps contact directions under + steps
+    /// to those under − steps.
     ///
     /// # Examples
     /// ```
@@ -99,7 +99,7 @@ impl<T: Ring> Vector<T> {
             .fold(Self::zero(), |sum, (c, v)| sum + &v.clone().scaled(c))
     }
 
-    /// Returns the Cartesian components, for a basis given in numbers: (x·b₀, y·b₁, z·b₂).
+    /// Returns the Cartesian components (x·b₀, y·b₁, z·b₂), for numerical values b of the basis.
     ///
     /// # Examples
     /// ```
@@ -148,7 +148,7 @@ impl<T> Vector<T> {
 }
 
 impl<T: fmt::Display> fmt::Display for Vector<T> {
-    /// Prints `(1/2, 0, -1)`; a sign and a precision are those of the components.
+    /// Prints `(1/2, 0, -1)`. The sign and precision of the format apply to the components.
     ///
     /// # Examples
     /// ```

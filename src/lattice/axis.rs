@@ -1,4 +1,4 @@
-//! Contacts within a layer.
+//! Contacts within a layer, and the types of contacts.
 
 use core::fmt;
 use core::str::FromStr;
@@ -8,8 +8,8 @@ use exact_surd::layout::padded;
 use super::{Direction, Sign, Site};
 use crate::Error;
 
-/// The line through two spheres of a layer that are next to each other, named by two directions: the supports of the one in
-/// both are those that the line leads to.
+/// The line through two neighbouring spheres of a layer. Its name consists of two directions a and b, and the neighbour
+/// of p is p + d_b − d_a. Here p + d_l is the support of p in direction l under a + step.
 ///
 /// # Examples
 /// ```
@@ -28,11 +28,10 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// αβ, αγ, γβ: the order of tables.
+    /// αβ, αγ, γβ: the order in tables.
     pub const ALL: [Self; 3] = [Self::AlphaBeta, Self::AlphaGamma, Self::GammaBeta];
 
-    /// Returns the two directions a and b: the neighbour of p is p + d_b − d_a, where p + d_l is the support of p in
-    /// direction l under a + step.
+    /// Returns the two directions a and b: the neighbour of p along this axis is p + d_b − d_a.
     ///
     /// # Examples
     /// ```
@@ -76,7 +75,7 @@ impl fmt::Display for Axis {
 impl FromStr for Axis {
     type Err = Error;
 
-    /// Reads an axis by its [`name`](Self::name).
+    /// Parses the [`name`](Self::name) of an axis.
     ///
     /// # Errors
     /// [`Error::Syntax`].
@@ -94,7 +93,7 @@ impl FromStr for Axis {
     }
 }
 
-/// How a contact of two spheres lies: from the upper one down, or within their layer.
+/// The type of a contact: sloping, between two layers, or horizontal, within a layer.
 ///
 /// # Examples
 /// ```
@@ -106,14 +105,14 @@ impl FromStr for Axis {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ContactKind {
-    /// With a sphere of the layer below.
+    /// A contact with a sphere of the layer below.
     Sloping(Direction),
-    /// With a neighbour, at a = R.
+    /// A contact with a neighbour in the same layer, which exists at a = R.
     Horizontal(Axis),
 }
 
 impl ContactKind {
-    /// Every one, in the order of tables.
+    /// All types, in the order of tables.
     pub const ALL: [Self; 6] = [
         Self::Sloping(Direction::Alpha),
         Self::Sloping(Direction::Beta),
@@ -139,7 +138,7 @@ impl ContactKind {
         }
     }
 
-    /// Returns the direction of a sloping contact.
+    /// Returns the direction of a sloping contact, or `None` for a horizontal one.
     ///
     /// # Examples
     /// ```
@@ -178,7 +177,7 @@ impl fmt::Display for ContactKind {
 impl FromStr for ContactKind {
     type Err = Error;
 
-    /// Reads a link by its [`name`](Self::name).
+    /// Parses the [`name`](Self::name) of a direction or axis.
     ///
     /// # Errors
     /// [`Error::Syntax`].
@@ -203,9 +202,9 @@ impl FromStr for ContactKind {
 #[cfg(feature = "serde")]
 crate::data::as_text!(Axis, ContactKind);
 
-/// A contact between two spheres of a layer, at a = R: `site`, and its [neighbour](Self::neighbour) along an axis.
+/// A contact between two spheres of a layer, at a = R: `site` and its [neighbour](Self::neighbour) along `axis`.
 ///
-/// Ordered as in tables: by site, and of one sphere by axis.
+/// Contacts are ordered as in tables: by site, then by axis.
 ///
 /// # Examples
 /// ```
@@ -223,12 +222,12 @@ crate::data::as_text!(Axis, ContactKind);
 pub struct HorizontalContact {
     /// One of the two spheres.
     pub site: Site,
-    /// Where the other one is.
+    /// The axis that leads to the other sphere.
     pub axis: Axis,
 }
 
 impl HorizontalContact {
-    /// Returns the other sphere; `None` past `i128`.
+    /// Returns the other sphere, or `None` if a coordinate does not fit in `i128`.
     ///
     /// # Examples
     /// ```
@@ -239,7 +238,7 @@ impl HorizontalContact {
     /// ```
     #[must_use]
     pub fn neighbour(&self) -> Option<Site> {
-        // Up one direction and down the other, which may lead past i128 on the way.
+        // The step is the difference of two directions. Adding them one by one could leave `i128` in between.
         let [up, down] = self.axis.ends().map(|end| Sign::Plus.descent(end));
         Some(Site {
             i: self.site.i.checked_add(down[0] - up[0])?,

@@ -1,6 +1,7 @@
-//! How many: sites above on a line, spheres, contacts, contacts of a given strength.
+//! Counts of spheres above a site on its lines, of spheres, of contacts, and of contacts with a given strength.
 //!
-//! One generic body each, so that an `i128` counts, a big rational counts without end, and a polynomial proves.
+//! Each count is one generic function. With `i128` it counts, with big rationals it counts without a limit, and with
+//! polynomials it proves identities.
 
 use core::num::{NonZeroI64, NonZeroU32};
 use core::ops::Sub;
@@ -8,10 +9,10 @@ use core::ops::Sub;
 use super::Sign;
 use crate::scalar::Algebra;
 
-/// Returns how many spheres lie above (i, j, k) on its lines of contacts: (N_α, N_β, N_γ) = (k−i−j, i, j).
+/// Returns the numbers of spheres above (i, j, k) on its lines of contacts: (N_α, N_β, N_γ) = (k−i−j, i, j).
 ///
-/// Paper, (9) and appendix. They are also the barycentric coordinates of the site: their
-/// sum is k, and none is negative on the pile. Exact in exact scalars.
+/// See (9) and the appendix of the paper. The counts are the barycentric coordinates of the site: they sum to k, and
+/// they are not negative in the pile. They are exact in exact scalars.
 ///
 /// # Examples
 /// ```
@@ -27,12 +28,13 @@ where
     [k.clone() - i - j, i.clone(), j.clone()]
 }
 
-/// Returns what bounds the number of spheres above (i, j) on its lines α, β, γ, in a layer `steps` steps of one sign into a run
-/// of any region: N is the least of each four.
+/// Returns four upper bounds for each count of spheres above (i, j) on its lines α, β, γ, within a run. The minimum of
+/// each four is the count N. The site lies in a layer `steps` steps below the first layer of the run, in any region.
 ///
-/// `lower` = (x₀, y₀, s₀) and `upper` = (x₁, y₁, s₁) bound i, j and i+j in that layer, and m = `steps`. For + steps
-/// N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀), N_γ = min(m, j−y₀, x₁−i, i+j−s₀); for − steps
-/// upper and lower bounds change places. Of the paper's pile this is (9), [`above`]. See [`paper`](crate::paper#lines).
+/// Here `lower` = (x₀, y₀, s₀) and `upper` = (x₁, y₁, s₁) bound i, j and i+j in that layer, and m = `steps`. For +
+/// steps N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀), N_γ = min(m, j−y₀, x₁−i, i+j−s₀). For −
+/// steps the upper and lower bounds are interchanged. In the paper's pile this is (9), [`above`]. See
+/// [`paper`](crate::paper#lines).
 ///
 /// # Examples
 /// ```
@@ -55,7 +57,7 @@ where
     T: Clone + for<'a> Sub<&'a T, Output = T>,
 {
     let ([x0, y0, s0], [x1, y1, s1]) = (lower, upper);
-    // How far the site is inside each bound; i + j − s₀ without a sum.
+    // The distances of the site from each bound. The third one avoids the sum i + j.
     let from_lower = [
         i.clone() - x0,
         j.clone() - y0,
@@ -73,9 +75,9 @@ where
     ]
 }
 
-/// Returns the number of spheres of a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
+/// Returns the number of spheres in a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
 ///
-/// For d = 3 this is L(L+1)(L+2)/6. Domain: L ≥ 0.
+/// For d = 3 this is L(L+1)(L+2)/6. The domain is L ≥ 0.
 ///
 /// # Examples
 /// ```
@@ -89,7 +91,7 @@ pub fn spheres<T: Algebra>(layers: &T, d: u32) -> T {
     binomial(&shifted(layers, i128::from(d) - 1), d)
 }
 
-/// Returns the number of spheres of layer k alone: C(k+d−1, d−1). Domain: k ≥ 0, d ≥ 1.
+/// Returns the number of spheres in layer k: C(k+d−1, d−1). The domain is k ≥ 0, d ≥ 1.
 ///
 /// # Examples
 /// ```
@@ -103,9 +105,9 @@ pub fn spheres_in_layer<T: Algebra>(k: &T, d: u32) -> T {
     binomial(&shifted(k, below.into()), below)
 }
 
-/// Returns the number of contacts between spheres: d below each sphere that is not on the floor, d·C(L+d−2, d).
+/// Returns the number of contacts between spheres, d·C(L+d−2, d): each sphere above the bottom layer has d supports.
 ///
-/// For d = 3 this is L(L−1)(L+1)/2. Domain: L ≥ 1.
+/// For d = 3 this is L(L−1)(L+1)/2. The domain is L ≥ 1.
 ///
 /// # Examples
 /// ```
@@ -119,7 +121,7 @@ pub fn contacts<T: Algebra>(layers: &T, d: u32) -> T {
     spheres(&shifted(layers, -1), d) * &T::from_i128(d.into())
 }
 
-/// Returns the number of contacts of one direction that carry n increments: C(L−n+d−2, d−1), for n = 1 … L−1.
+/// Returns the number of contacts in one direction that carry n increments, for n = 1 … L−1: C(L−n+d−2, d−1).
 ///
 /// For d = 3 this is (L−n)(L−n+1)/2.
 ///
@@ -135,7 +137,7 @@ pub fn contacts_of_strength<T: Algebra>(layers: &T, n: &T, d: u32) -> T {
     spheres_in_layer(&(shifted(layers, -1) - n), d)
 }
 
-/// `n + by`.
+/// Returns `n + by`.
 fn shifted<T: Algebra>(n: &T, by: i128) -> T {
     n.clone() + &T::from_i128(by)
 }

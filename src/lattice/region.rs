@@ -1,4 +1,4 @@
-//! Six-sided regions of the triangular lattice: the layers of piles on any base.
+//! Regions of the triangular lattice with up to six sides: the layers of piles.
 
 mod lines;
 
@@ -18,10 +18,10 @@ use crate::Error;
 use crate::lattice::Sign;
 use crate::scalar::parse::integer;
 
-/// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁ of one layer: a triangle, trapezium, parallelogram,
-/// pentagon or hexagon. Never empty, and its bounds are tight: each is attained.
+/// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁ of a layer: a triangle, trapezium, parallelogram, pentagon or
+/// hexagon. A region is never empty. Its bounds are tight: some site attains each of them.
 ///
-/// Dilation and erosion are one addition on each bound, whatever the size.
+/// Dilation and erosion change each bound by one addition, so their cost does not depend on the size.
 ///
 /// # Examples
 /// ```
@@ -29,7 +29,7 @@ use crate::scalar::parse::integer;
 ///
 /// let hexagon = Region::hexagon(3, 3)?;
 /// assert_eq!(hexagon.site_count(), 19_u32.into());
-/// // Every support of every sphere: the layer below.
+/// // The layer below consists of all supports.
 /// let below = hexagon.dilated(Sign::Plus)?;
 /// assert_eq!(below.site_count(), 27_u32.into());
 /// assert_eq!(below.eroded(Sign::Plus), Some(hexagon));
@@ -43,20 +43,20 @@ pub struct Region {
     upper: [i128; 3],
 }
 
-/// The greatest coordinate of a region, so that sums of a few stay within `i128`.
+/// The greatest coordinate of a region. Sums of a few coordinates then fit in `i128`.
 const LIMIT: i128 = super::MAX_LAYERS;
 
 impl Region {
-    /// Returns the region of all sites with i in `x`, j in `y` and i+j in `s`, bounds included.
+    /// Returns the region of all sites with i in `x`, j in `y` and i+j in `s`.
     ///
     /// # Errors
-    /// [`Error::EmptyRegion`] if there is none; [`Error::RegionTooLarge`] for bounds beyond ±10³⁶.
+    /// [`Error::EmptyRegion`] if no site satisfies the bounds; [`Error::RegionTooLarge`] for bounds beyond ±10³⁶.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Region;
     ///
-    /// // Bounds are tightened: i+j ≤ 2 leaves i ≤ 2.
+    /// // `new` tightens the bounds: i+j ≤ 2 implies i ≤ 2.
     /// let triangle = Region::new(0..=9, 0..=9, 0..=2)?;
     /// assert_eq!(triangle, Region::triangle(3)?);
     /// assert!(Region::new(5..=9, 5..=9, 0..=2).is_err());
@@ -80,7 +80,7 @@ impl Region {
         })
     }
 
-    /// One site, (0, 0).
+    /// The region of one site, (0, 0).
     pub const SITE: Self = Self {
         lower: [0; 3],
         upper: [0; 3],
@@ -166,7 +166,7 @@ impl Region {
         self.lower[2]..=self.upper[2]
     }
 
-    /// Returns whether the region has the site (i, j).
+    /// Returns whether the region contains the site (i, j).
     ///
     /// # Examples
     /// ```
@@ -179,11 +179,11 @@ impl Region {
     #[must_use]
     #[inline]
     pub fn contains(&self, i: i128, j: i128) -> bool {
-        // Within x and y the sum cannot overflow.
+        // If i and j are within their bounds, the sum cannot overflow.
         self.x().contains(&i) && self.y().contains(&j) && self.s().contains(&(i + j))
     }
 
-    /// Returns the layer below: every support of every site, under a step of this sign.
+    /// Returns the layer below, which consists of all supports of all sites under a step of this sign.
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] beyond ±10³⁶.
@@ -201,7 +201,7 @@ impl Region {
         self.dilated_by(sign, 1)
     }
 
-    /// Returns the layer `steps` steps of one sign further down.
+    /// Returns the layer that is `steps` steps of one sign further down.
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] beyond ±10³⁶; [`Error::RunLength`] for negative steps.
@@ -219,7 +219,7 @@ impl Region {
         if steps < 0 {
             return Err(Error::RunLength { given: steps });
         }
-        // Steps beyond the limit lead beyond it from anywhere, and without overflow.
+        // More steps than this exceed the limit from every region, and this number does not overflow.
         let steps = steps.min(3 * LIMIT);
         let region = match sign {
             Sign::Plus => self.grown(steps, 0),
@@ -233,7 +233,8 @@ impl Region {
         })
     }
 
-    /// Returns the layer above: every site whose three supports are all here; `None` if there is none.
+    /// Returns the layer above, which consists of all sites whose three supports are in this region. Returns `None` if
+    /// it is empty.
     ///
     /// # Examples
     /// ```
@@ -270,7 +271,7 @@ impl Region {
         }
     }
 
-    /// Returns whether the mirror image (i, j) → (−i, −j) is this region, or can be moved onto it.
+    /// Returns whether a translation maps the mirror image (i, j) → (−i, −j) onto this region.
     ///
     /// # Examples
     /// ```
@@ -283,27 +284,28 @@ impl Region {
     #[must_use]
     pub fn is_its_own_mirror_image(&self) -> bool {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
-        // Moved so that x₀ and y₀ fall on each other, only the bounds of i+j may differ.
+        // If a translation makes x₀ and y₀ coincide, only the bounds of i+j can differ.
         s0 - x0 - y0 == x1 + y1 - s1
     }
 
-    /// Returns the s for which (i, j) → (j, s−i−j), a third of a turn, maps the region onto itself, if there is one.
+    /// Returns the s for which the rotation by 120°, (i, j) → (j, s−i−j), maps the region onto itself, or `None` if no
+    /// s does.
     pub(crate) fn sum_of_turn(&self) -> Option<i128> {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let (sum, alike) = (s0 + x1, [x0, x1] == [y0, y1]);
         (alike && s1 + x0 == sum).then_some(sum)
     }
 
-    /// Returns the sites with these i and i+j at least; `None` if there is none.
+    /// Returns the sites with i ≥ `x` and i+j ≥ `s`, or `None` if there are none.
     pub(crate) fn above(&self, [x, s]: [i128; 2]) -> Option<Self> {
         let [x0, y0, s0] = self.lower;
         let lower = [x0.max(x), y0, s0.max(s)];
         Self { lower, ..*self }.tightened()
     }
 
-    /// Returns the number of sites, of any size.
+    /// Returns the number of sites, which may exceed any machine integer.
     ///
-    /// The parallelogram x × y less the two corner triangles that s cuts off.
+    /// It is the number of sites of the parallelogram x × y minus those of the two corner triangles that s cuts off.
     ///
     /// # Examples
     /// ```
@@ -316,17 +318,17 @@ impl Region {
     pub fn site_count(&self) -> BigUint {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let (sides, corners) = ([x1 - x0 + 1, y1 - y0 + 1], [s0 - (x0 + y0), x1 + y1 - s1]);
-        // Below 2^62 no product of two leaves i128.
+        // Products of two numbers below 2^62 fit in `i128`.
         if sides.iter().chain(&corners).all(|side| *side < 1 << 62) {
             return sites(sides, corners).unsigned_abs().into();
         }
-        // A count: not negative.
+        // A count is not negative, so its magnitude is the value.
         sites(sides.map(BigInt::from), corners.map(BigInt::from))
             .into_parts()
             .1
     }
 
-    /// Returns how many sites come before (i, j) in row order; (i, j) must be one.
+    /// Returns the number of sites before (i, j) in row order. The region must contain (i, j).
     pub(crate) fn sites_before(&self, i: i128, j: i128) -> BigUint {
         let start = self.row(j).start;
         let rows_before = Self {
@@ -345,7 +347,7 @@ impl Region {
         x0.max(s0 - j)..x1.min(s1 - j) + 1
     }
 
-    /// Returns the range of i in row j: an empty one of a row that is none of the region's.
+    /// Returns the range of i in row j. It is empty for a row outside the region.
     pub(crate) fn row_within(&self, j: i128) -> core::ops::Range<i128> {
         let row = self.row(j);
         if self.y().contains(&j) {
@@ -355,7 +357,7 @@ impl Region {
         }
     }
 
-    /// Returns the six corners in turn. Where a side has one site only, two corners are one place.
+    /// Returns the six corners in cyclic order. Two corners coincide if the side between them has only one site.
     ///
     /// # Examples
     /// ```
@@ -378,12 +380,12 @@ impl Region {
         ]
     }
 
-    /// Returns the number of sites on a side less one, by i, j and i+j.
+    /// Returns the differences between upper and lower bound of i, j and i+j.
     pub(crate) fn widths(&self) -> [i128; 3] {
         core::array::from_fn(|n| self.upper[n] - self.lower[n])
     }
 
-    /// After how many erosions of one sign each of the three sides that they shorten has vanished.
+    /// Returns the number of erosions of one sign after which each of the three sides that they shorten vanishes.
     pub(crate) const fn vanishing_sides(&self, sign: Sign) -> [i128; 3] {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         match sign {
@@ -392,7 +394,7 @@ impl Region {
         }
     }
 
-    /// Returns the layer this many + and − steps further down; bounds must stay within `i128`.
+    /// Returns the layer that is this many + and − steps further down. The bounds must stay within `i128`.
     #[doc(hidden)]
     #[inline]
     #[must_use]
@@ -403,14 +405,14 @@ impl Region {
         }
     }
 
-    /// Returns the layer this many + and − steps further up; `None` if no site is left.
+    /// Returns the layer that is this many + and − steps further up, or `None` if it is empty.
     #[doc(hidden)]
     #[must_use]
     pub fn shrunk(&self, plus: i128, minus: i128) -> Option<Self> {
         self.grown(-plus, -minus).tightened()
     }
 
-    /// Returns the rows, from y₀ up; every one of them has a site.
+    /// Returns the rows from y₀ to y₁, as rows of layer `k`. Each of them contains a site.
     ///
     /// # Examples
     /// ```
@@ -428,8 +430,8 @@ impl Region {
         })
     }
 
-    /// Tightens all six bounds once, each by the old ones of the others; after one round all are attained. `None` if
-    /// there is no site.
+    /// Tightens all six bounds once, each by the old values of the others. After this one round some site attains each
+    /// bound. Returns `None` if the region is empty.
     fn tightened(&self) -> Option<Self> {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let tight = Self {
@@ -450,8 +452,8 @@ impl Region {
     }
 }
 
-/// The number of sites of a parallelogram with these sides, without two triangles at its corners that are so many sites
-/// wide.
+/// Returns the number of sites of a parallelogram with these sides, without two triangles at its corners. `corners` are
+/// the sides of these triangles.
 fn sites<I: Integer + Clone>([width, height]: [I; 2], corners: [I; 2]) -> I {
     let two = I::one() + I::one();
     let triangle = |side: I| side.clone() * (side + I::one()) / two.clone();
@@ -460,8 +462,9 @@ fn sites<I: Integer + Clone>([width, height]: [I; 2], corners: [I; 2]) -> I {
 }
 
 impl fmt::Display for Region {
-    /// Prints the bounds, `x0..x1,y0..y1,s0..s1`; with `{:#}` the shape by its sides, `triangle:4`, if it is a triangle
-    /// or hexagon about (0, 0), and `region:` before the bounds if not. Both are read by [`FromStr`].
+    /// Prints the bounds, `x0..x1,y0..y1,s0..s1`. The format `{:#}` prints the shape by its sides, such as
+    /// `triangle:4`, if it is a triangle or hexagon about (0, 0). Otherwise it prints `region:` before the bounds.
+    /// [`FromStr`] reads both forms.
     ///
     /// # Examples
     /// ```
@@ -476,7 +479,7 @@ impl fmt::Display for Region {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let mut kind = "";
         if f.alternate() {
-            // Within ±10³⁶.
+            // The bounds are within ±10³⁶, so this cannot overflow.
             let (p, q) = (x1 + 1, 1 - x0);
             let about_zero = Self::hexagon(p, q).as_ref() == Ok(self);
             match (about_zero, p, q) {
@@ -493,8 +496,8 @@ impl fmt::Display for Region {
 impl FromStr for Region {
     type Err = Error;
 
-    /// Reads `hexagon:P,Q`, `hexagon:N`, `triangle:N` or `region:x0..x1,y0..y1,s0..s1`, bounds included; `region:` may
-    /// be left out.
+    /// Parses `hexagon:P,Q`, `hexagon:N`, `triangle:N` or `region:x0..x1,y0..y1,s0..s1` with bounds included. The
+    /// prefix `region:` is optional.
     ///
     /// # Errors
     /// [`Error::Syntax`]; those of [`Region::new`] and [`Region::hexagon`].
@@ -552,7 +555,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_sites_above_a_corner_are_those_with_as_great_coordinates() {
+    fn above_keeps_sites_with_coordinates_at_least_those_given() {
         let region = Region::new(-2..=3, -1..=4, -2..=5).unwrap();
         let sites = |region: Region| region.rows(0).flatten();
         for (x, s) in (-3..=4).flat_map(|x| (-3..=7).map(move |s| (x, s))) {

@@ -1,4 +1,4 @@
-//! Consecutive sites of a layer.
+//! Rows of consecutive sites in a layer.
 
 use core::iter::FusedIterator;
 use core::ops::Range;
@@ -6,7 +6,7 @@ use core::ops::Range;
 use super::Site;
 use crate::Error;
 
-/// Consecutive sites of one row: fixed k and j, a range of i.
+/// Consecutive sites in one row of a layer: fixed k and j, a range of i.
 ///
 /// # Examples
 /// ```
@@ -25,16 +25,16 @@ pub struct Row {
     /// The layer.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub k: i128,
-    /// The row within the layer.
+    /// The row in the layer.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub j: i128,
-    /// The places within the row.
+    /// The positions in the row.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub i: Range<i128>,
 }
 
 impl Row {
-    /// Returns the sites in rows of at most `sites` of them, which is one at the least.
+    /// Returns the sites as consecutive rows of at most `sites` sites. A value below 1 counts as 1.
     ///
     /// # Examples
     /// ```
@@ -56,10 +56,10 @@ impl Row {
         })
     }
 
-    /// Returns how many sites they are: none where the range ends before it starts.
+    /// Returns the number of sites. It is 0 if the range ends before it starts.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for more than any memory holds.
+    /// [`Error::TooLarge`] if the number does not fit in `usize`.
     #[doc(hidden)]
     pub fn length(&self) -> Result<usize, Error> {
         let Range { start, end } = self.i;
@@ -92,7 +92,7 @@ impl IntoIterator for Row {
 pub struct Sites(Row);
 
 impl Sites {
-    /// Returns how many sites are still to come.
+    /// Returns the number of remaining sites.
     pub(crate) fn remaining(&self) -> u128 {
         let Range { start, end } = self.0.i;
         if start < end { end.abs_diff(start) } else { 0 }

@@ -1,4 +1,4 @@
-//! The Hägg sign of a step between layers.
+//! The Hägg sign of a step between two layers.
 
 use core::fmt;
 use core::ops::Neg;
@@ -7,7 +7,7 @@ use core::str::FromStr;
 use super::Direction;
 use crate::Error;
 
-/// The Hägg sign of a step from a layer to the one below.
+/// The Hägg sign of a step from a layer to the one below. It says at which positions a sphere is supported.
 ///
 /// # Examples
 /// ```
@@ -17,14 +17,14 @@ use crate::Error;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Sign {
-    /// (i, j) rests on (i, j), (i+1, j), (i, j+1).
+    /// The sphere (i, j) is supported by (i, j), (i+1, j), (i, j+1).
     Plus,
-    /// (i, j) rests on (i, j), (i−1, j), (i, j−1).
+    /// The sphere (i, j) is supported by (i, j), (i−1, j), (i, j−1).
     Minus,
 }
 
 impl Sign {
-    /// Returns the step (Δi, Δj) to the support in a direction.
+    /// Returns the step (Δi, Δj) from a sphere to its support in a direction.
     ///
     /// # Examples
     /// ```
@@ -83,7 +83,7 @@ impl fmt::Display for Sign {
 impl FromStr for Sign {
     type Err = Error;
 
-    /// Reads a sign: `+` or `-`.
+    /// Parses a sign: `+` or `-`.
     ///
     /// # Errors
     /// [`Error::Syntax`].

@@ -1,4 +1,4 @@
-//! Double-doubles as scalars: an unevaluated sum of two floats, twice the precision of one.
+//! The scalar traits for double-doubles: unevaluated sums of two `f64`, with about twice the precision of one.
 
 use core::num::NonZeroI64;
 

@@ -1,8 +1,7 @@
-//! Rationals of fixed width, reached through checked arithmetic only.
+//! Rationals of fixed width with checked arithmetic.
 //!
-//! `Ratio<i64>` wraps silently in release builds. [`FixedRational`] holds one, and does every
-//! operation in its checked form: the first that does not fit leaves a *fault*, which no later
-//! operation removes.
+//! `Ratio<i64>` wraps silently in release builds. [`FixedRational`] contains one and uses checked operations only. The
+//! first result that does not fit becomes a *fault*, and every operation on a fault gives a fault.
 
 use alloc::format;
 use core::cmp::Ordering;
@@ -24,7 +23,7 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// A signed machine integer that [`FixedRational`] can be built on. Sealed.
+/// A signed machine integer that can be the base of a [`FixedRational`]. This trait is sealed.
 pub trait FixedInteger:
     sealed::Sealed
     + Copy
@@ -59,9 +58,9 @@ fixed_integer!(i8 i16 i32 i64 i128);
 
 /// A rational n/d in lowest terms with |n|, d ≤ `I::MAX`, or a fault.
 ///
-/// `I::MIN` is not in the range, so that negation never overflows. A result whose computation
-/// leaves the range, be it in an intermediate product, is a fault: never a wrong number. A fault
-/// is sticky and unequal to everything, itself included.
+/// `I::MIN` is excluded from the range, so negation never overflows. If a result or an intermediate product leaves the
+/// range, the result is a fault, never a wrong number. Every operation on a fault gives a fault. A fault is unequal to
+/// every value, including itself.
 ///
 /// # Examples
 /// ```
@@ -80,13 +79,14 @@ fixed_integer!(i8 i16 i32 i64 i128);
 pub struct FixedRational<I: FixedInteger>(Option<Ratio<I>>);
 
 impl<I: FixedInteger> FixedRational<I> {
-    /// The sticky result of an operation that did not fit.
+    /// The result of an operation that did not fit.
     pub const FAULT: Self = Self(None);
 
-    /// Returns the rational `numer / denom`, or silently a [fault](Self::FAULT) where there is none: `new(1, 0)` does not
-    /// panic.
+    /// Returns the rational `numer / denom`, or a [fault](Self::FAULT) if it has no value in this type. It never
+    /// panics: `new(1, 0)` is a fault.
     ///
-    /// A fault comes of a denominator of zero, and of `I::MIN` as either part. [`parts`](Self::parts) tells.
+    /// The result is a fault for a denominator of zero, and for `I::MIN` as either part. [`parts`](Self::parts) returns
+    /// `None` for a fault.
     ///
     /// # Examples
     /// ```
@@ -118,7 +118,7 @@ impl<I: FixedInteger> FixedRational<I> {
         self.0.as_ref().map(|r| (*r.numer(), *r.denom()))
     }
 
-    /// Returns the number in big integers, or `None` for a fault.
+    /// Returns the value as a `BigRational`, or `None` for a fault.
     ///
     /// # Examples
     /// ```
@@ -133,7 +133,7 @@ impl<I: FixedInteger> FixedRational<I> {
             .map(|(n, d)| BigRational::new_raw(n.into(), d.into()))
     }
 
-    /// Returns the nearest `f64`, and not-a-number for a fault.
+    /// Returns the correctly rounded `f64`, or not-a-number for a fault.
     ///
     /// # Examples
     /// ```
@@ -148,11 +148,11 @@ impl<I: FixedInteger> FixedRational<I> {
             .to_rational()
             .as_ref()
             .and_then(f64::nearest_to_rational);
-        // Not a default: no number of 128 bits is beyond the floats, and a fault is not a number.
+        // Not a default: every number of 128 bits is within the range of floats, and a fault is not a number.
         nearest.unwrap_or(f64::NAN)
     }
 
-    /// Applies a checked operation to two numbers, and keeps `I::MIN` out of the result.
+    /// Applies a checked operation to two values. A result with `I::MIN` becomes a fault.
     fn checked(self, rhs: &Self, op: impl Fn(&Ratio<I>, &Ratio<I>) -> Option<Ratio<I>>) -> Self {
         let result = match (&self.0, &rhs.0) {
             (Some(a), Some(b)) => op(a, b),
@@ -172,7 +172,7 @@ impl<I: FixedInteger> PartialEq for FixedRational<I> {
 }
 
 impl<I: FixedInteger> PartialOrd for FixedRational<I> {
-    /// Compares exactly; a fault is neither less nor greater than anything.
+    /// Compares exactly. A fault is neither less nor greater than any value.
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.0.as_ref()?.cmp(other.0.as_ref()?))
     }
@@ -315,8 +315,8 @@ mod tests {
 
     use super::*;
 
-    /// Every pair of 8-bit rationals with these denominators, against rationals of 64 bits, which none of
-    /// the operations can overflow: the result is the true one or a fault.
+    /// Tests every pair of 8-bit rationals with these denominators against rationals of 64 bits, which cannot overflow
+    /// here. Each result is the true one or a fault.
     #[test]
     fn eight_bits_exhaustively() {
         let mut values: Vec<(i8, i8)> = Vec::new();
@@ -337,7 +337,7 @@ mod tests {
         };
         for &x in &values {
             for &y in &values {
-                // Denominator 0 makes the fault.
+                // Denominator 0 gives a fault.
                 let (a, b) = (FixedRational::new(x.0, x.1), FixedRational::new(y.0, y.1));
                 if x.1 == 0 || y.1 == 0 {
                     assert!(!(a + b).is_defined() && !(a * b).is_defined());
@@ -373,16 +373,16 @@ mod tests {
         }
         let fault = FixedRational::<i8>::FAULT;
         assert_eq!(fault.partial_cmp(&fault), None);
-        // No product of parts is needed that might not fit.
+        // The comparison must not multiply the parts, which might overflow.
         let [a, b] = [i128::MAX - 1, i128::MAX].map(|n| FixedRational::new(n, i128::MAX - 2));
         assert_eq!(a.partial_cmp(&b), Some(Ordering::Less));
         assert_eq!(b.partial_cmp(&a), Some(Ordering::Greater));
     }
 
-    /// Without `std` a `Ratio` is not padded.
+    /// Without `std`, `Ratio` ignores the width.
     #[cfg(feature = "std")]
     #[test]
-    fn width_fill_and_sign_are_as_of_big_rationals() {
+    fn width_fill_and_sign_match_big_rationals() {
         for (n, d) in [(22, 7), (-22, 7), (3, 1), (0, 1)] {
             let (short, long) = (FixedRational::new(n, d), ratio_of(n, d));
             for (short, long) in [

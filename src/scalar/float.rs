@@ -1,4 +1,4 @@
-//! `f32` and `f64`: rounded, fast.
+//! The scalar traits for `f32` and `f64`.
 
 use core::num::NonZeroI64;
 
@@ -15,7 +15,7 @@ macro_rules! float_scalar {
         impl Ring for $float {
             #[expect(
                 clippy::cast_precision_loss,
-                reason = "the nearest float is what is asked for"
+                reason = "the result is the nearest float"
             )]
             fn from_i128(n: i128) -> Self {
                 n as $float
@@ -29,13 +29,13 @@ macro_rules! float_scalar {
             const NAME: &'static str = stringify!($float);
 
             fn from_rational(r: &BigRational) -> Self {
-                // Not a default: a rational beyond the floats has no image, and not-a-number says so.
+                // Not a default: a rational beyond the range of floats becomes not-a-number, which is undefined.
                 $float::nearest_to_rational(r).unwrap_or($float::NAN)
             }
 
             #[expect(
                 clippy::cast_precision_loss,
-                reason = "a divisor that loses digits is taken another way"
+                reason = "a divisor that loses digits takes the other branch"
             )]
             #[inline]
             fn div_int(self, n: NonZeroI64) -> Self {
@@ -44,7 +44,7 @@ macro_rules! float_scalar {
                 if odd_part < 1 << $float::MANTISSA_DIGITS {
                     return self / divisor;
                 }
-                // Rounded once: through the rational, unless there is none.
+                // Divides the exact rational, so that the result is rounded once. Infinities and NaN have no rational.
                 match BigRational::from_float(self) {
                     Some(value) => Self::from_rational(&(value / BigInt::from(n.get()))),
                     None => self / divisor,
@@ -58,7 +58,10 @@ macro_rules! float_scalar {
         }
 
         impl OwnNumerators for $float {
-            #[expect(clippy::float_cmp, reason = "exactly 1, which nothing is divided by")]
+            #[expect(
+                clippy::float_cmp,
+                reason = "exactly 1, so that the division can be skipped"
+            )]
             #[inline]
             fn ratio(n: Self, d: &Self) -> Option<Self> {
                 if *d == 1.0 {

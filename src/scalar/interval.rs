@@ -1,4 +1,4 @@
-//! Intervals of floats: every result contains the true one.
+//! Intervals with `f64` ends. Every result contains the true result.
 
 use core::cmp::Ordering;
 use core::fmt;
@@ -15,12 +15,12 @@ use super::{
 use exact_surd::error_free::{is_ordinary, significand, two_product, two_sum};
 use exact_surd::layout::padded;
 
-/// A closed interval [lower, upper] of reals with `f64` ends, which may be infinite.
+/// A closed interval [lower, upper] of real numbers. Its ends are `f64` values and may be infinite.
 ///
-/// Operations round outward: the result contains every result for operands within the intervals, so
-/// whatever was computed, the true value lies inside. Each end is the tightest there is, but for products and
-/// quotients among the subnormals, where it is one float wider. A value that is known exactly stays a point as
-/// long as its results are floats.
+/// Operations round outward: the result contains all results for operands in the given intervals. So the true value
+/// always lies inside. Each end is the tightest possible `f64`, except for products and quotients in the subnormal
+/// range, where it may be one float wider. A value that is known exactly stays a single point as long as its results
+/// are floats.
 ///
 /// # Examples
 /// ```
@@ -31,7 +31,7 @@ use exact_surd::layout::padded;
 /// assert_eq!(third.upper(), third.lower().next_up());
 /// let rest = Interval::from_i128(1) - (third + third + third);
 /// assert_eq!(rest.sign(), RealSign::Unknown);
-/// // Around zero there is no quotient.
+/// // The divisor contains zero, so the quotient is undefined.
 /// assert_eq!(third.checked_div(&rest), None);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,13 +41,14 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The whole line: nothing is known.
+    /// The whole real line: the interval of an unknown value.
     pub const WHOLE: Self = Self {
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
     };
 
-    /// Returns the interval [`lower`, `upper`]; `None` unless `lower` ≤ `upper` and a real lies between.
+    /// Returns the interval [`lower`, `upper`]. Returns `None` unless `lower` ≤ `upper` and the interval contains a
+    /// real number.
     ///
     /// # Examples
     /// ```
@@ -64,7 +65,7 @@ impl Interval {
         holds.then_some(Self { lower, upper })
     }
 
-    /// Returns a float as a point; the whole line if it is not finite.
+    /// Returns the interval that contains only `value`, or the whole line if `value` is not finite.
     ///
     /// # Examples
     /// ```
@@ -75,7 +76,7 @@ impl Interval {
     /// ```
     #[must_use]
     pub fn point(value: f64) -> Self {
-        // Not a default: of a value that is not finite nothing is known.
+        // Not a default: a value that is not finite may be any number.
         Self::new(value, value).unwrap_or(Self::WHOLE)
     }
 
@@ -86,7 +87,7 @@ impl Interval {
     /// use cannonpile::scalar::{Algebra, Interval};
     /// use num_rational::BigRational;
     ///
-    /// // The float nearest to 1/10 is greater.
+    /// // The correctly rounded float of 1/10 is greater than 1/10.
     /// let tenth = Interval::from_rational(&BigRational::new(1.into(), 10.into()));
     /// assert_eq!(tenth.lower(), 0.1_f64.next_down());
     /// ```
@@ -102,7 +103,7 @@ impl Interval {
     /// use cannonpile::scalar::{Algebra, Interval};
     /// use num_rational::BigRational;
     ///
-    /// // The float nearest to 1/10 is greater.
+    /// // The correctly rounded float of 1/10 is greater than 1/10.
     /// let tenth = Interval::from_rational(&BigRational::new(1.into(), 10.into()));
     /// assert_eq!(tenth.upper(), 0.1);
     /// ```
@@ -111,7 +112,7 @@ impl Interval {
         self.upper
     }
 
-    /// Returns whether a rational lies inside, exactly.
+    /// Returns whether the interval contains a rational. The test is exact.
     ///
     /// # Examples
     /// ```
@@ -124,12 +125,12 @@ impl Interval {
     /// ```
     #[must_use]
     pub fn contains(&self, value: &BigRational) -> bool {
-        // An end that is no rational is infinite, and bounds nothing.
+        // An infinite end has no rational and does not limit the interval.
         let above = BigRational::from_float(self.lower).is_none_or(|lower| lower <= *value);
         above && BigRational::from_float(self.upper).is_none_or(|upper| *value <= upper)
     }
 
-    /// Returns whether a float lies inside; an infinity or not-a-number does not.
+    /// Returns whether the interval contains a finite float. The result is false for an infinity or not-a-number.
     ///
     /// # Examples
     /// ```
@@ -144,7 +145,7 @@ impl Interval {
         value.is_finite() && self.lower <= value && value <= self.upper
     }
 
-    /// Returns the width, upper − lower, rounded up: infinite without two finite ends.
+    /// Returns the width, upper − lower, rounded up. It is infinite unless both ends are finite.
     ///
     /// # Examples
     /// ```
@@ -162,7 +163,8 @@ impl Interval {
         (Self::point(self.upper) - Self::point(self.lower)).upper
     }
 
-    /// Returns a float inside, halfway between the ends up to rounding; an infinite end counts as the greatest float.
+    /// Returns a float in the interval, halfway between the ends up to rounding. An infinite end counts as the greatest
+    /// float.
     ///
     /// # Examples
     /// ```
@@ -177,7 +179,7 @@ impl Interval {
         self.lower.max(f64::MIN).midpoint(self.upper.min(f64::MAX))
     }
 
-    /// Returns the smallest interval with the four ends that corners of two intervals give.
+    /// Returns the smallest interval that contains `end` of all four corners.
     fn hull(corners: [(f64, f64); 4], end: impl Fn(f64, f64) -> (f64, f64)) -> Self {
         let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
         for (x, y) in corners {
@@ -188,7 +190,7 @@ impl Interval {
         Self { lower, upper }
     }
 
-    /// Returns the quotient; the divisor does not contain zero.
+    /// Returns the quotient. The divisor must not contain zero.
     fn over(self, divisor: &Self) -> Self {
         Self::hull(self.corners(divisor), quotient)
     }
@@ -208,10 +210,11 @@ impl Interval {
 }
 
 impl PartialOrd for Interval {
-    /// Orders intervals that are apart: one is less if all of it is below all of the other.
+    /// Compares disjoint intervals: one is less if all its values are below all values of the other.
     ///
-    /// Intervals that overlap are neither, but for two with the same ends, which are equal as `==` has it. That is said of
-    /// the ends: only if both are points do they hold the same number. So `<` and `>` are certain of the numbers inside.
+    /// Overlapping intervals are unordered, except that two intervals with the same ends are equal, as for `==`.
+    /// Equality compares the ends, not the unknown values inside, unless both are single points. The results `<` and
+    /// `>` are certain for the values inside.
     ///
     /// # Examples
     /// ```
@@ -235,7 +238,8 @@ impl PartialOrd for Interval {
 }
 
 impl fmt::Display for Interval {
-    /// Prints `[0.5, 0.75]`: each end is the shortest decimal that reads back the same, whatever the precision.
+    /// Prints `[0.5, 0.75]`. Each end is the shortest decimal that reads back the same. The precision of the format is
+    /// ignored.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (lower, upper) = (self.lower, self.upper);
         if f.sign_plus() {
@@ -246,11 +250,11 @@ impl fmt::Display for Interval {
     }
 }
 
-/// Returns the tightest floats around `value` + ε, where only the sign of ε counts; if that is not known (NaN),
-/// the neighbours.
+/// Returns the tightest floats around `value` + ε. Only the sign of ε = `error` is used. If it is unknown (NaN),
+/// returns both neighbours of `value`.
 fn outward(value: f64, error: f64) -> (f64, f64) {
     if value == f64::INFINITY {
-        // A finite result beyond the floats.
+        // The result is finite but exceeds the range of floats.
         return (f64::MAX, value);
     }
     if value == f64::NEG_INFINITY {
@@ -265,10 +269,10 @@ fn outward(value: f64, error: f64) -> (f64, f64) {
     (down, up)
 }
 
-/// Returns both ends of the product of two ends.
+/// Returns lower and upper bounds of the product of two ends.
 fn product(x: f64, y: f64) -> (f64, f64) {
     if x == 0.0 || y == 0.0 {
-        // Infinite ends stand for arbitrarily great reals: times zero, zero.
+        // An infinite end represents arbitrarily great real numbers, and their products with zero are zero.
         return (0.0, 0.0);
     }
     let p = x * y;
@@ -280,7 +284,8 @@ fn product(x: f64, y: f64) -> (f64, f64) {
     outward(p, if is_normal(p) { error } else { f64::NAN })
 }
 
-/// Returns the operands, or their significands: the error of the product or quotient has the same sign, and is exact.
+/// Returns the operands, or their significands if the operands are very great or small. The rounding error then has the
+/// same sign and is exact.
 fn in_reach(x: f64, y: f64) -> (f64, f64) {
     if is_ordinary(x) && is_ordinary(y) {
         (x, y)
@@ -289,16 +294,16 @@ fn in_reach(x: f64, y: f64) -> (f64, f64) {
     }
 }
 
-/// Returns whether the rounding error of a product or quotient has the sign of that of the significands: it was not
-/// rounded to the coarser grid of the subnormals.
+/// Returns whether the rounding error of a product or quotient has the sign of that of the significands. This fails
+/// where the result was rounded to the coarser grid of subnormals.
 fn is_normal(value: f64) -> bool {
     value.is_finite() && value.abs() > f64::MIN_POSITIVE
 }
 
-/// Returns both ends of the quotient of two ends; y is not zero.
+/// Returns lower and upper bounds of the quotient of two ends. `y` must not be zero.
 fn quotient(x: f64, y: f64) -> (f64, f64) {
     if x == 0.0 || y.is_infinite() {
-        // The limit for ever greater divisors.
+        // The quotient tends to zero as the divisor grows.
         return (0.0, 0.0);
     }
     let q = x / y;
@@ -307,7 +312,7 @@ fn quotient(x: f64, y: f64) -> (f64, f64) {
     }
     let (x, y) = in_reach(x, y);
     let (p, e) = two_product(x / y, y);
-    // x − p is exact: p is x to within some units in the last place.
+    // x − p is exact, because p equals x up to a few units in the last place.
     let remainder = (x - p) - e;
     let error = if y < 0.0 { -remainder } else { remainder };
     outward(q, if is_normal(q) { error } else { f64::NAN })
@@ -318,7 +323,7 @@ impl Add<&Self> for Interval {
 
     fn add(self, rhs: &Self) -> Self {
         let sum = |x: f64, y: f64| {
-            // The greater first: next to the largest float the other order overflows on the way.
+            // `two_sum` starts with the greater operand. The other order can overflow near the largest float.
             let (s, e) = if x.abs() < y.abs() {
                 two_sum(y, x)
             } else {
@@ -503,7 +508,7 @@ mod tests {
     }
 
     #[test]
-    fn midpoints_lie_inside_and_widths_reach_over_all() {
+    fn midpoints_lie_inside_and_widths_are_upper_bounds() {
         for x in intervals() {
             assert!(x.contains_f64(x.midpoint()), "{x}");
             if let Some(Enclosure { lower, upper }) = x.enclosure() {

@@ -1,10 +1,14 @@
-//! The laws of a scalar, as a suite that any scalar can be put through.
+//! Tests of the algebraic laws, for any scalar type.
 //!
-//! Each function takes operands and returns the law that they break, if any. It demands of a scalar what its
-//! [`Algebra::EXACTNESS`] promises, no less: equality from an exact one, a fault or equality from a
-//! fixed-width one, from bounds that they hold the true result, and from a rounded one the laws that survive
-//! rounding and the true result to within its precision. The crate's own scalars are put through it with fixed, random and
-//! fuzzed operands; do this with yours too.
+//! Each function takes operands and returns the first law that they break. It demands as much as [`Algebra::EXACTNESS`]
+//! promises:
+//!
+//! * An exact scalar must satisfy each law with equality.
+//! * A fixed-width scalar must satisfy it with equality or return a fault.
+//! * Bounds must contain the true result.
+//! * A rounded scalar must satisfy the laws that survive rounding, and must return the true result up to its precision.
+//!
+//! The scalars of this crate pass with fixed, random and fuzzed operands. Use the same functions to test your own.
 //!
 //! # Examples
 //! ```
@@ -28,14 +32,14 @@ use num_traits::{Signed, Zero};
 
 use super::{Algebra, Exactness, Field, RealEmbeddable, RealSign};
 
-/// A law that does not hold, and the operands that show it.
+/// A violated law, with the operands that violate it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BrokenLaw {
     /// The law, as a formula.
     pub law: &'static str,
-    /// The scalar.
+    /// The name of the scalar type.
     pub scalar: &'static str,
-    /// The operands, and what came out.
+    /// The operands and the results.
     pub witness: String,
 }
 
@@ -49,11 +53,11 @@ impl core::error::Error for BrokenLaw {}
 
 /// Checks the laws of a commutative algebra over ℚ.
 ///
-/// Commutativity, neutral elements and negation are demanded of every scalar; associativity,
-/// distributivity and division by integers of exact ones.
+/// Every scalar must satisfy commutativity, neutral elements and negation. Associativity, distributivity and division
+/// by integers are not required of rounded scalars.
 ///
 /// # Errors
-/// The first law that a, b, c break.
+/// The first law that a, b and c break.
 ///
 /// # Examples
 /// ```
@@ -61,14 +65,14 @@ impl core::error::Error for BrokenLaw {}
 ///
 /// let [a, b, c] = ["a", "b", "c"].map(|name| Polynomial::from(Symbol(name)));
 /// laws::algebra(&a, &b, &c)?;
-/// // Of floats no associativity is demanded.
+/// // Floats need not be associative.
 /// assert_ne!((1e16 - 1e16) + 1.0, 1e16 + (1.0 - 1e16));
 /// laws::algebra(&1e16, &-1e16, &1.0)?;
 /// # Ok::<(), laws::BrokenLaw>(())
 /// ```
 pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), BrokenLaw> {
     let law = |law: &'static str, left: T, right: T| {
-        // A fault or an overflow on either side excuses a scalar that may have them.
+        // A fault or an overflow on either side is allowed, unless the scalar is exact.
         let excused =
             T::EXACTNESS != Exactness::Exact && !(left.is_defined() && right.is_defined());
         if left.may_equal(&right) || excused {
@@ -114,15 +118,15 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), BrokenLaw> {
     Ok(())
 }
 
-/// Checks the laws that tie a field in the reals to the rationals: x and y are taken into the scalar, and
-/// every operation there is compared with the same one on the values stored.
+/// Checks that operations agree with those on rationals. It converts x and y to the scalar type and compares the result
+/// of each operation with the exact one on the stored values.
 ///
-/// A rounded scalar is tested where |result| lies between 2^−e and 2^e, clear of its limits: e is 64, or for a format of a
-/// shorter range the greatest at which it holds 2^e and, with all its digits and one more, 2^−e: 13 for half precision. It is
-/// 8 at least.
+/// A rounded scalar is tested where 2^−e ≤ |result| ≤ 2^e, away from overflow and underflow. The exponent e is 64, or
+/// less for a format with a shorter range, but at least 8. It is the greatest e for which 2^e and 2^−e are
+/// representable with all digits and one more. For half precision it is 13.
 ///
 /// # Errors
-/// The first law that x, y break.
+/// The first law that x and y break.
 ///
 /// # Examples
 /// ```
@@ -141,7 +145,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
 ) -> Result<(), BrokenLaw> {
     let (a, b) = (T::from_rational(x), T::from_rational(y));
     stands_for("the image of x is x", &a, x)?;
-    // Bounds stand for the numbers they were made of, anything else for what is stored.
+    // Bounds represent the numbers that they were made from. Other scalars represent the stored value.
     let stored = |a: &T, x: &BigRational| match T::EXACTNESS {
         Exactness::Enclosure => Some(x.clone()),
         _ => point(a),
@@ -195,7 +199,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
     }
 }
 
-/// Checks that the integers go where the rationals with denominator 1 go.
+/// Checks that n and n/1 convert to the same value.
 ///
 /// # Errors
 /// The law, if n breaks it.
@@ -204,7 +208,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
 /// ```
 /// use cannonpile::scalar::laws;
 ///
-/// // No f32, and rounded to the same on both ways.
+/// // This integer is not an `f32`. Both conversions round it to the same value.
 /// laws::integers::<f32>((1 << 24) + 1)?;
 /// # Ok::<(), laws::BrokenLaw>(())
 /// ```
@@ -224,7 +228,7 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), BrokenLaw> {
     })
 }
 
-/// Checks that a numerator over its denominator is the value it was made of, in its own form.
+/// Checks that each numerator over the common denominator gives the original value in canonical form.
 ///
 /// # Errors
 /// The law, if x and y break it.
@@ -235,7 +239,7 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), BrokenLaw> {
 /// use num_rational::BigRational;
 ///
 /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-/// // 3/6 and 2/6, reduced again.
+/// // The numerators are 3/6 and 2/6, and are reduced at the end.
 /// laws::numerators::<BigRational>(&ratio(1, 2), &ratio(1, 3))?;
 /// # Ok::<(), laws::BrokenLaw>(())
 /// ```
@@ -247,8 +251,8 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
             T::from_ratio(numerator, &denominator),
             T::from_rational(value),
         );
-        // The text shows an unreduced fraction from the reduced one; equality may not. Bounds may widen, and
-        // zeros have signs.
+        // The text distinguishes unreduced fractions, and equality may not. Enclosures may widen, and floating-point
+        // zeros are signed, so these scalars are compared by value.
         let same = back.as_ref().is_some_and(|back| match T::EXACTNESS {
             Exactness::Enclosure | Exactness::Rounded { .. } => back.may_equal(&image),
             Exactness::Exact | Exactness::ExactOrFault => {
@@ -271,13 +275,13 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
     Ok(())
 }
 
-/// Returns the rational a scalar stands for, if it is one.
+/// Returns the rational that the scalar represents, if its enclosure is a single point.
 fn point<T: RealEmbeddable>(a: &T) -> Option<BigRational> {
     let enclosure = a.enclosure()?;
     (enclosure.lower == enclosure.upper).then_some(enclosure.lower)
 }
 
-/// Checks that `got` is as near to `want` as the scalar promises.
+/// Checks that `got` approximates `want` as well as the scalar promises.
 fn stands_for<T: Algebra + RealEmbeddable>(
     law: &'static str,
     got: &T,
@@ -288,7 +292,7 @@ fn stands_for<T: Algebra + RealEmbeddable>(
         (Exactness::ExactOrFault, None) => !got.is_defined(),
         (Exactness::ExactOrFault, Some(value)) => value == *want,
         (Exactness::Enclosure, _) => {
-            // Without finite bounds it holds everything.
+            // An enclosure without finite bounds contains everything.
             got.is_defined() && got.enclosure().is_none_or(|bounds| bounds.contains(want))
         }
         (Exactness::Rounded { bits }, None) => !in_range::<T>(want, bits),
@@ -308,14 +312,15 @@ fn stands_for<T: Algebra + RealEmbeddable>(
     })
 }
 
-/// Returns whether a rational is zero, or of a magnitude that a rounded scalar of so many bits holds with all its digits.
+/// Returns whether a rational is zero, or has a magnitude that a rounded scalar with `bits` bits represents with full
+/// precision.
 fn in_range<T: Algebra + RealEmbeddable>(want: &BigRational, bits: u32) -> bool {
     let power = |e: u32| BigRational::from_integer(BigInt::from(1) << e);
     let holds = |r: &BigRational| point(&T::from_rational(r)).is_some_and(|value| !value.is_zero());
-    // Where the last of more digits than it has is not lost, neither is one of its own.
+    // If 2^−(e+bits) does not underflow, then a value of magnitude 2^−e keeps all its digits.
     let in_reach = |e: &u32| holds(&power(*e)) && holds(&power(e + bits).recip());
     let least = 8;
-    // Not a default: without a floor, a scalar that holds nothing would break no law.
+    // Not a default: without this minimum, a scalar that represents no number would break no law.
     let limit = power((least..=64).rev().find(in_reach).unwrap_or(least));
     want.is_zero() || (want.abs() <= limit && want.abs() >= limit.recip())
 }

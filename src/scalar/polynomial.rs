@@ -1,4 +1,4 @@
-//! Polynomials over ℚ in named symbols: the scalar that proves.
+//! Polynomials over ℚ in named symbols: the scalar type for proofs.
 
 mod display;
 mod sum;
@@ -16,7 +16,7 @@ use num_traits::{One, Signed, Zero, pow};
 
 use super::{Algebra, Exactness, OwnNumerators, Ring, common_multiple};
 
-/// A symbol of a [`Polynomial`], known by its name.
+/// A symbol of a [`Polynomial`], identified by its name.
 ///
 /// # Examples
 /// ```
@@ -28,15 +28,15 @@ use super::{Algebra, Exactness, OwnNumerators, Ring, common_multiple};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Symbol(pub &'static str);
 
-/// A product of powers of symbols: pairs in the order of the symbols, no exponent zero.
+/// A product of powers of symbols: pairs in the order of the symbols, with positive exponents.
 ///
-/// Ordered by total degree, then lexicographically: an order that products respect.
+/// Monomials are ordered by total degree, then lexicographically. Multiplication preserves this order.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 struct Monomial(Vec<(Symbol, u32)>);
 
 impl Monomial {
     fn degree(&self) -> u64 {
-        // Fewer than 2^32 symbols, with powers below 2^32.
+        // The sum cannot overflow: at most 2^32 symbols, with exponents below 2^32.
         self.0.iter().map(|(_, power)| u64::from(*power)).sum()
     }
 
@@ -44,7 +44,7 @@ impl Monomial {
         self.0
             .iter()
             .find(|(s, _)| *s == symbol)
-            // Not a default: a symbol that does not occur has the power 0.
+            // Not a default: the exponent of an absent symbol is 0.
             .map_or(0, |(_, power)| *power)
     }
 
@@ -59,22 +59,22 @@ impl Monomial {
         )
     }
 
-    /// Returns the symbols of both monomials, sorted.
-    fn symbols(&self, other: &Self) -> Vec<Symbol> {
-        let mut symbols: Vec<Symbol> = self.0.iter().chain(&other.0).map(|(s, _)| *s).collect();
-        symbols.sort_unstable();
-        symbols.dedup();
-        symbols
+    /// Returns the product, or `None` if an exponent exceeds `u32`.
+    fn times(&self, other: &Self) -> Option<Self> {
+        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
+        for (symbol, power) in &other.0 {
+            let own = powers.entry(*symbol).or_default();
+            *own = own.checked_add(*power)?;
+        }
+        Some(Self(powers.into_iter().collect()))
     }
 
-    /// Combines the powers of each symbol; `None` if one combination is `None`.
-    fn combined(&self, other: &Self, combine: fn(u32, u32) -> Option<u32>) -> Option<Self> {
-        let mut powers = Vec::new();
-        for symbol in self.symbols(other) {
-            match combine(self.power(symbol), other.power(symbol))? {
-                0 => {}
-                power => powers.push((symbol, power)),
-            }
+    /// Returns the quotient `self` / `other`, or `None` if `other` does not divide `self`.
+    fn over(&self, other: &Self) -> Option<Self> {
+        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
+        for (symbol, power) in &other.0 {
+            let own = powers.get_mut(symbol)?;
+            *own = own.checked_sub(*power)?;
         }
         Some(Self(powers))
     }
@@ -92,7 +92,7 @@ impl Monomial {
 
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Lexicographic: the first symbol with different powers decides, and the greater power is greater.
+        // At the first symbol with different exponents, the greater exponent is greater.
         let lexicographic = || {
             let powers = |s: Symbol| self.power(s).cmp(&other.power(s));
             let mut orders = self.symbols(other).into_iter().map(powers);
@@ -109,13 +109,13 @@ impl PartialOrd for Monomial {
     }
 }
 
-/// A polynomial in several named symbols with rational coefficients: exact, canonical.
+/// A polynomial in named symbols with rational coefficients, exact and in canonical form.
 ///
-/// Two polynomials are equal if and only if they are the same function, so an identity is proved by
-/// comparing its sides. Inside are integers over one common denominator; no operation divides by a symbol.
+/// Two polynomials are equal if and only if they are the same function. So comparing the two sides proves an identity.
+/// The coefficients are stored as integers over one common denominator. No operation divides by a symbol.
 ///
 /// # Examples
-/// An identity, for every x and y:
+/// This identity holds for every x and y:
 /// ```
 /// use cannonpile::scalar::{Polynomial, Symbol};
 ///
@@ -126,14 +126,15 @@ impl PartialOrd for Monomial {
 /// assert_eq!(left.to_string(), "x^2 - y^2");
 /// ```
 ///
-/// A power beyond 2³²−1 leaves a fault, sticky and unequal to everything, as of [`FixedRational`].
+/// An exponent beyond 2³²−1 gives a fault, as for [`FixedRational`]. Every operation on a fault gives a fault, and a
+/// fault is unequal to every value.
 ///
 /// [`FixedRational`]: super::FixedRational
 #[derive(Clone, Debug)]
 pub struct Polynomial {
-    /// No coefficient is zero.
+    /// All coefficients are nonzero.
     terms: BTreeMap<Monomial, BigInt>,
-    /// Positive, and without a factor common to all coefficients; zero for the fault, which has no terms.
+    /// Positive and coprime to the coefficients. For the fault it is zero, and `terms` is empty.
     denominator: BigInt,
 }
 
@@ -162,7 +163,8 @@ impl Polynomial {
         Self::canonical(terms.into_iter().collect(), value.denom().clone())
     }
 
-    /// Returns Σ c_j · `symbol`^j over one denominator, c_j the `coefficients`; `None` if that is 0.
+    /// Returns Σ c_j · `symbol`^j / `denominator`, where c_j are the `coefficients`. Returns `None` if `denominator` is
+    /// 0.
     ///
     /// # Examples
     /// ```
@@ -193,7 +195,7 @@ impl Polynomial {
         polynomial.is_defined().then_some(polynomial)
     }
 
-    /// Returns the fault, for a power that does not fit.
+    /// Returns the fault, the result of an exponent that does not fit.
     fn fault() -> Self {
         Self {
             terms: BTreeMap::new(),
@@ -201,7 +203,7 @@ impl Polynomial {
         }
     }
 
-    /// Returns the value, if no symbol occurs.
+    /// Returns the value of a constant polynomial, or `None` if a symbol occurs.
     ///
     /// # Examples
     /// ```
@@ -220,7 +222,7 @@ impl Polynomial {
         }
     }
 
-    /// Returns the total degree; 0 for constants, zero included, and for the fault.
+    /// Returns the total degree. It is 0 for constants, zero included, and for the fault.
     ///
     /// # Examples
     /// ```
@@ -233,11 +235,11 @@ impl Polynomial {
     #[must_use]
     pub fn degree(&self) -> u64 {
         let greatest = self.terms.keys().next_back();
-        // Not a default: zero and the fault have no terms, and their degree is 0 by agreement.
+        // Not a default: zero and the fault have no terms, and their degree is 0 by definition.
         greatest.map_or(0, Monomial::degree)
     }
 
-    /// Returns the degree in one symbol; 0 if it does not occur.
+    /// Returns the degree in one symbol. It is 0 if the symbol does not occur.
     ///
     /// # Examples
     /// ```
@@ -253,7 +255,7 @@ impl Polynomial {
             .keys()
             .map(|monomial| monomial.power(symbol))
             .max()
-            // Not a default: zero and the fault have no terms, and their degree is 0 by agreement.
+            // Not a default: zero and the fault have no terms, and their degree is 0 by definition.
             .unwrap_or(0)
     }
 
@@ -266,7 +268,7 @@ impl Polynomial {
     /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
     /// let product = y.clone() * &x;
     /// assert_eq!(product.symbols(), [Symbol("x"), Symbol("y")]);
-    /// // What cancels does not occur.
+    /// // A symbol whose terms cancel does not occur.
     /// assert_eq!((product.clone() + &y - &product).symbols(), [Symbol("y")]);
     /// ```
     #[must_use]
@@ -281,7 +283,7 @@ impl Polynomial {
         symbols
     }
 
-    /// Returns the polynomial with `value` put in for `symbol`.
+    /// Returns the polynomial with `value` substituted for `symbol`.
     ///
     /// # Examples
     /// ```
@@ -297,13 +299,13 @@ impl Polynomial {
         if !value.is_defined() {
             return Self::fault();
         }
-        // Nothing times a power beyond all bounds is nothing.
+        // Zero times a power is zero, even if the exponent does not fit in `usize`.
         let times_power = |sum: Self, power: u32| match usize::try_from(power) {
             _ if sum.is_zero() => sum,
             Ok(power) => sum * &pow(value.clone(), power),
             Err(_) => Self::fault(),
         };
-        // Horner in the one symbol, over coefficients that are polynomials in the others.
+        // Horner scheme in `symbol`, with coefficients that are polynomials in the other symbols.
         let (mut sum, mut last) = (Self::zero(), self.degree_in(symbol));
         for (power, coefficient) in self.coefficients(symbol).into_iter().rev() {
             (sum, last) = (times_power(sum, last - power) + &coefficient, power);
@@ -311,11 +313,11 @@ impl Polynomial {
         times_power(sum, last)
     }
 
-    /// Returns the value in any scalar, for given values of the symbols; `None` if one has no value, and for the
-    /// fault.
+    /// Returns the value in any scalar type, for given values of the symbols. Returns `None` if a symbol has no value,
+    /// and for the fault.
     ///
-    /// A term is multiplied by its powers one after the other; those beyond 64 are squared up first, and may leave the range of a
-    /// scalar where the whole term would not.
+    /// Each term is computed as a product, factor by factor. Exponents above 64 use repeated squaring, and such a power
+    /// may leave the range of the scalar although the whole term would not.
     ///
     /// # Examples
     /// ```
@@ -354,7 +356,7 @@ impl Polynomial {
         Some(sum)
     }
 
-    /// Returns the polynomial that times `divisor` is this one, or `None` if there is none.
+    /// Returns the quotient `self` / `divisor`, or `None` if `divisor` does not divide this polynomial.
     ///
     /// # Examples
     /// ```
@@ -374,8 +376,8 @@ impl Polynomial {
             return None;
         }
         let (mut rest, mut quotient) = (self.clone(), Self::zero());
-        // The order of monomials respects products: what the leading term of the divisor does not divide
-        // stays in the remainder for good.
+        // Multiplication preserves the order of monomials. So a term that the leading term of the divisor does not
+        // divide remains in the remainder.
         while let Some((monomial, numer)) = rest.terms.iter().next_back() {
             let numer = BigRational::new(numer.clone(), rest.denominator.clone());
             let factor = Self::term(monomial.over(leading)?, &(numer / &coefficient));
@@ -385,8 +387,8 @@ impl Polynomial {
         Some(quotient)
     }
 
-    /// Returns the coefficients of the powers of `symbol` that occur, as polynomials in the others; of
-    /// the fault, the fault.
+    /// Returns the nonzero coefficients of the powers of `symbol`, as polynomials in the other symbols. For the fault
+    /// it returns the fault as the only coefficient.
     #[doc(hidden)]
     #[must_use]
     pub fn coefficients(&self, symbol: Symbol) -> BTreeMap<u32, Self> {
@@ -412,7 +414,7 @@ impl Polynomial {
         Self::canonical(terms, coefficient.denom().clone())
     }
 
-    /// Drops zeros and reduces; `denominator` is positive.
+    /// Removes zero coefficients and reduces the fraction. `denominator` must not be negative.
     fn canonical(mut terms: BTreeMap<Monomial, BigInt>, denominator: BigInt) -> Self {
         if denominator.is_zero() {
             return Self::fault();

@@ -1,8 +1,8 @@
-//! Rationals written as literals.
+//! A macro for rational literals.
 
 use num_rational::BigRational;
 
-/// Makes a [`BigRational`](crate::num_rational::BigRational) of integer literals, `ratio!(6/5)` or `ratio!(6)`.
+/// Returns a [`BigRational`](crate::num_rational::BigRational) from integer literals: `ratio!(6/5)` or `ratio!(6)`.
 ///
 /// The result is in lowest terms. A denominator of zero does not compile.
 ///

@@ -1,4 +1,4 @@
-//! `BigRational`: exact, of any size.
+//! The scalar traits for `BigRational`: exact values of any size.
 
 use core::num::NonZeroI64;
 
@@ -42,7 +42,7 @@ impl Numerators for BigRational {
     }
 
     fn divide_numerator(_: BigInt, _: NonZeroI64) -> Option<BigInt> {
-        // Integers are numerators; their quotients may not be.
+        // The numerators are integers, and a quotient of integers need not be one.
         None
     }
 

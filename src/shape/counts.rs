@@ -1,4 +1,4 @@
-//! How many spheres a pile has, in closed form.
+//! Closed forms for the numbers of spheres and rows.
 
 use core::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::lattice::Site;
 use crate::shape::Numbering;
 
 impl Shape {
-    /// Returns the number of spheres, of any size.
+    /// Returns the number of spheres, which may exceed any machine integer.
     ///
     /// # Examples
     /// ```
@@ -31,8 +31,8 @@ impl Shape {
 
     /// Returns the number of spheres in these layers.
     ///
-    /// Between the layers where a sign changes, or a side of the region ends, the spheres of a layer are a polynomial
-    /// of degree two in k: Newton's forward differences sum it.
+    /// Sign changes, and layers where a side of the region vanishes, divide the pile into pieces. Within a piece the
+    /// number of spheres in layer k is a polynomial of degree two in k, and Newton's forward differences give its sum.
     pub(crate) fn spheres_in(&self, layers: Range<i128>) -> BigUint {
         let mut sum = BigUint::zero();
         let mut from = layers.start.max(0);
@@ -45,7 +45,7 @@ impl Shape {
         sum
     }
 
-    /// Returns the number of rows in these layers: within a piece it is a linear function of k.
+    /// Returns the number of rows in these layers. Within a piece the number of rows in layer k is linear in k.
     pub(super) fn rows_in(&self, layers: Range<i128>) -> BigUint {
         let rows = |k| {
             let region = self.region(k);
@@ -62,7 +62,7 @@ impl Shape {
         twice_sum / 2_u32
     }
 
-    /// The first layer past `k` where the count of spheres begins to follow another polynomial.
+    /// Returns the first layer of the next piece after layer `k`.
     fn end_of_piece(&self, k: i128) -> i128 {
         let Some(Stretch { sign, to, .. }) = self.stretch_to(k + 1) else {
             return k + 1;
@@ -70,7 +70,7 @@ impl Shape {
         let (Anchor::Base(_), Some(bottom)) = (self.anchor, self.region(to)) else {
             return to + 1;
         };
-        // Going up from the bottom of the run, sides shrink to nothing.
+        // Upwards from the bottom of the run, sides shrink and may vanish.
         let breaks = bottom.vanishing_sides(sign).map(|steps| to - steps);
         breaks
             .into_iter()
@@ -95,14 +95,14 @@ impl Shape {
         let triples = (&pairs * (&n - 2_u32)).div_floor(&3.into());
         let first = &c1 - &c0;
         let second = c2 - &c1 - &first;
-        // A count: not negative.
+        // A count is not negative, so its magnitude is the value.
         (n * c0 + pairs * first + triples * second).into_parts().1
     }
 
     /// Returns the number of spheres before this one, in row order from the top.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`].
+    /// As for [`check`](Self::check).
     ///
     /// # Examples
     /// ```
@@ -110,7 +110,7 @@ impl Shape {
     /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
-    /// // Layer 2 begins after 1 + 3 spheres, its second row 3 later.
+    /// // Layer 2 begins after 1 + 3 spheres, and its second row 3 spheres later.
     /// assert_eq!(pyramid.before(Site { i: 1, j: 1, k: 2 })?, 8_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -121,7 +121,7 @@ impl Shape {
         Ok(self.spheres_in(0..k) + in_layer)
     }
 
-    /// Returns the numbers of all spheres, both ways.
+    /// Returns the [`Numbering`] of all spheres, which converts between sites and numbers.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10¹¹ spheres.

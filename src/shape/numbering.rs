@@ -1,4 +1,4 @@
-//! The spheres of a pile by number.
+//! Numbers of the spheres of a pile.
 
 use alloc::vec::Vec;
 
@@ -8,14 +8,13 @@ use super::{Shape, Site};
 use crate::Error;
 use crate::error::{bug, refuse_beyond};
 
-/// The most spheres that are numbered: each has one number in a `u64`, and each layer one offset in memory.
+/// The greatest number of spheres in a numbering. Numbers fit in a `u64`, and the offsets of all layers fit in memory.
 const MOST: u64 = 100_000_000_000;
 
-/// The numbers of the spheres of a pile: 1, 2, 3, … in row order from the top, as in the table of spheres and in every
-/// file made of a pile.
+/// The numbers 1, 2, 3, … of the spheres of a pile, in row order from the top. Tables and exported files use them.
 ///
-/// It keeps one offset a layer, so that a sphere is numbered in the time that its layer takes to find, and found again
-/// by two bisections. The spheres of the bottom layer have the last numbers.
+/// A numbering stores one offset per layer. It finds the number of a site by its layer, and the site of a number by two
+/// bisections. The spheres of the bottom layer have the greatest numbers.
 ///
 /// # Examples
 /// ```
@@ -32,9 +31,9 @@ const MOST: u64 = 100_000_000_000;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Numbering<'p> {
     shape: &'p Shape,
-    /// The spheres before each layer.
+    /// The number of spheres above each layer.
     before: Vec<u64>,
-    /// Those before the bottom layer.
+    /// The number of spheres above the bottom layer.
     above_floor: u64,
     spheres: u64,
 }
@@ -62,7 +61,7 @@ impl<'p> Numbering<'p> {
         })
     }
 
-    /// Returns the shape whose spheres these are.
+    /// Returns the shape that contains the spheres.
     ///
     /// # Examples
     /// ```
@@ -77,7 +76,7 @@ impl<'p> Numbering<'p> {
         self.shape
     }
 
-    /// Returns the number of spheres, which is the greatest number of a sphere.
+    /// Returns the number of spheres, which is also the greatest number of a sphere.
     ///
     /// # Examples
     /// ```
@@ -91,7 +90,7 @@ impl<'p> Numbering<'p> {
         self.spheres
     }
 
-    /// Returns the number of the first sphere of the bottom layer. All spheres from it on are on the floor.
+    /// Returns the number of the first sphere of the bottom layer. All spheres from this number on are on the floor.
     ///
     /// # Examples
     /// ```
@@ -105,7 +104,7 @@ impl<'p> Numbering<'p> {
         self.above_floor + 1
     }
 
-    /// Returns the number of a sphere.
+    /// Returns the number of the sphere at `site`.
     ///
     /// # Errors
     /// As for [`Shape::check`].
@@ -117,7 +116,7 @@ impl<'p> Numbering<'p> {
     ///
     /// let pile = Pile::under(Region::SITE, "+-".parse()?)?;
     /// let numbering = pile.numbering()?;
-    /// // One sphere, three, and the first row of the hexagon, which begins at i = 0.
+    /// // Four spheres lie above. The first row of the hexagon begins at i = 0.
     /// assert_eq!(numbering.id(Site { i: 0, j: -1, k: 2 })?, 5);
     /// assert!(numbering.id(Site { i: -1, j: -1, k: 2 }).is_err());
     /// # Ok::<(), cannonpile::Error>(())
@@ -131,7 +130,7 @@ impl<'p> Numbering<'p> {
         Ok(before + few(in_layer)? + 1)
     }
 
-    /// Returns the sphere of a number, or `None` for 0 and for numbers past the last.
+    /// Returns the site of the sphere with number `id`, or `None` for 0 and for numbers beyond the last.
     ///
     /// # Examples
     /// ```
@@ -147,18 +146,18 @@ impl<'p> Numbering<'p> {
     /// ```
     #[must_use]
     pub fn site(&self, id: u64) -> Option<Site> {
-        let place = id.checked_sub(1)?;
+        let position = id.checked_sub(1)?;
         if id > self.spheres {
             return None;
         }
-        // The last layer that begins at or before it.
-        let begun = self.before.partition_point(|before| *before <= place);
+        // The last layer that begins at or before the position.
+        let begun = self.before.partition_point(|before| *before <= position);
         let layer = begun.checked_sub(1)?;
-        let in_layer = BigUint::from(place - self.before.get(layer)?);
+        let in_layer = BigUint::from(position - self.before.get(layer)?);
         let k = i128::try_from(layer).ok()?;
         let region = self.shape.layer(k).ok()?;
         let first_of = |j| region.sites_before(region.row(j).start, j);
-        // The last row that begins at or before it.
+        // The last row that begins at or before the position.
         let (mut row, mut past) = (*region.y().start(), *region.y().end() + 1);
         while past - row > 1 {
             let middle = row + (past - row) / 2;
@@ -174,7 +173,7 @@ impl<'p> Numbering<'p> {
     }
 }
 
-/// A part of the spheres of a pile that are few enough to be numbered.
+/// Converts the number of some spheres of a pile. It fits in a `u64`, because the number of all spheres does.
 fn few(spheres: BigUint) -> Result<u64, Error> {
     u64::try_from(spheres).map_err(|_| bug("a part of the spheres is no more than all"))
 }

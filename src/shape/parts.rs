@@ -1,4 +1,4 @@
-//! Rows in parts that threads share.
+//! Splitting of rows into parts for threads.
 
 use alloc::boxed::Box;
 use core::ops::Range;
@@ -7,21 +7,21 @@ use super::{Rows, Shape};
 use crate::Error;
 use crate::lattice::{Region, Row, Site};
 
-/// Layers of a pile, or sites of one of its layers.
+/// A range of layers of a pile, or a region of one layer.
 #[derive(Clone, Debug)]
 pub(crate) enum Part<'p> {
     Layers(&'p Shape, Range<i128>),
     Layer(i128, Region),
 }
 
-/// So few sites of a layer are not split.
+/// A region of at most this many sites is not split.
 const FEW: i128 = 256;
 
 impl<'p> Part<'p> {
-    /// Returns all rows still to come: whole layers, or a single site.
+    /// Returns the remaining rows as a part: whole layers, or a single site.
     ///
     /// # Errors
-    /// Those of [`Region::new`], which a site of a pile does not have.
+    /// Those of [`Region::new`], which do not occur for a site of a pile.
     pub(crate) fn of(rows: &Rows<'p>) -> Result<Self, Error> {
         Ok(match rows.one() {
             None => Self::Layers(rows.shape(), rows.layers()),
@@ -29,7 +29,8 @@ impl<'p> Part<'p> {
         })
     }
 
-    /// Returns both halves, in order: of layers, else of rows, else of the sites of a row. A few sites stay together.
+    /// Returns both halves, in order. It splits layers if it can, else rows, else the sites of a row. A small region is
+    /// returned whole, without a second half.
     pub(crate) fn halves(self) -> (Self, Option<Self>) {
         let middle = |start: i128, end: i128| start + (end - start) / 2;
         let (k, region) = match self {
@@ -82,7 +83,7 @@ mod tests {
     use crate::lattice::Dimension;
     use crate::shape::Selection;
 
-    /// Splits as long as there are halves, and returns the rows of all parts in order, and how many parts there are.
+    /// Splits recursively. Returns the sites of all parts in order, and the number of parts.
     fn split(part: Part<'_>) -> (Vec<Site>, usize) {
         match part.halves() {
             (before, Some(behind)) => {

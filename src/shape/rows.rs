@@ -1,4 +1,4 @@
-//! Walking a pile row by row.
+//! Iteration over a pile by rows.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -12,7 +12,7 @@ use crate::Error;
 use crate::lattice::{Row, Site};
 use num_bigint::BigUint;
 
-/// A part of a pile.
+/// A part of a pile: the argument of most queries.
 ///
 /// # Examples
 /// ```
@@ -61,7 +61,7 @@ impl fmt::Display for Selection {
     }
 }
 
-/// The rows of a [`Selection`], from the top, made as they are asked for.
+/// A lazy iterator over the rows of a [`Selection`], from the top.
 ///
 /// # Examples
 /// ```
@@ -79,13 +79,13 @@ impl fmt::Display for Selection {
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Rows<'p> {
     shape: &'p Shape,
-    /// The layer of the next row, if there is one before `end`.
+    /// The layer of the next row. The iterator ends at layer `end`.
     k: i128,
-    /// The next row of that layer, once its first is given.
+    /// The next row of that layer, or `None` before its first row.
     j: Option<i128>,
-    /// The layer to stop before.
+    /// The end of the layers, exclusive.
     end: i128,
-    /// A single sphere instead of layers.
+    /// A single sphere, instead of layers.
     one: Option<Site>,
 }
 
@@ -116,7 +116,7 @@ impl<'p> Rows<'p> {
         }
     }
 
-    /// Leaves out the bottom layer: the spheres left all have spheres below them.
+    /// Removes the bottom layer. Every remaining sphere has supports.
     ///
     /// # Examples
     /// ```
@@ -135,7 +135,7 @@ impl<'p> Rows<'p> {
         self
     }
 
-    /// Returns the pile whose rows they are.
+    /// Returns the shape of the whole pile.
     ///
     /// # Examples
     /// ```
@@ -143,7 +143,7 @@ impl<'p> Rows<'p> {
     /// use cannonpile::shape::{Selection, Shape};
     ///
     /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
-    /// // The rows are of one layer, and their pile is the whole of it.
+    /// // The selection is one layer, and the shape has all four.
     /// assert_eq!(pyramid.rows(Selection::Layer(1))?.shape(), &pyramid);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -152,21 +152,21 @@ impl<'p> Rows<'p> {
         self.shape
     }
 
-    /// Returns the layers that are not yet done, or none if this is a single sphere.
+    /// Returns the range of the remaining layers. It is empty for a single sphere.
     #[doc(hidden)]
     #[must_use]
     pub fn layers(&self) -> Range<i128> {
         self.k..self.end
     }
 
-    /// Returns the single sphere, if it is one.
+    /// Returns the single sphere, if the selection was one.
     #[doc(hidden)]
     #[must_use]
     pub fn one(&self) -> Option<Site> {
         self.one
     }
 
-    /// Returns the number of sites still to come, of any size.
+    /// Returns the number of remaining sites, which may exceed any machine integer.
     ///
     /// # Examples
     /// ```
@@ -190,27 +190,28 @@ impl<'p> Rows<'p> {
         }
         let all = self.shape.spheres_in(self.k..self.end);
         match (self.j, self.shape.layer(self.k)) {
-            // Some rows of the layer have been given already.
+            // The iterator has already returned some rows of this layer.
             (Some(j), Ok(region)) => all - region.sites_before(region.row(j).start, j),
             _ => all,
         }
     }
 
-    /// Returns how many rows are still to come.
+    /// Returns the number of remaining rows.
     fn remaining(&self) -> BigUint {
         if self.one.is_some() {
             return 1_u32.into();
         }
         let all = self.shape.rows_in(self.k..self.end);
         match (self.j, self.shape.layer(self.k)) {
-            // Some rows of the layer have been given already.
+            // The iterator has already returned some rows of this layer.
             (Some(j), Ok(region)) => all - j.abs_diff(*region.y().start()),
             _ => all,
         }
     }
 
-    /// Returns the corner sites of the first and the last layer. A linear function of (i, j, k), or its norm, is
-    /// extreme at one of them on a straight pile. Rows that were given already still count.
+    /// Returns the corner sites of the first and the last layer. On a straight pile, a linear function of (i, j, k)
+    /// attains its extremes at these sites. The norm of a vector of such functions attains its maximum there. Rows of
+    /// the current layer that were already returned are included.
     ///
     /// # Examples
     /// ```

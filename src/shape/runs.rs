@@ -1,9 +1,9 @@
-//! The runs of a pile's stacking, each with the layers it leads from and to.
+//! The runs of a stacking, each with its first and last layer.
 
 use super::{Anchor, Shape};
 use crate::lattice::Sign;
 
-/// A number of steps of each sign.
+/// The numbers of + steps and of − steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct Steps {
     pub(super) plus: i128,
@@ -11,7 +11,7 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// Returns these steps and some more of one sign.
+    /// Returns these steps with `steps` more of one sign.
     pub(super) fn and(mut self, sign: Sign, steps: i128) -> Self {
         match sign {
             Sign::Plus => self.plus += steps,
@@ -21,10 +21,10 @@ impl Steps {
     }
 }
 
-/// A [`Run`](crate::stacking::Run) with its place in a pile: the layers it leads from and to.
+/// A [`Run`](crate::stacking::Run) with its first and last layer in a pile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Stretch {
-    /// The number of changes of sign before the run.
+    /// The number of sign changes above the run.
     pub(crate) index: usize,
     pub(crate) sign: Sign,
     /// The layer above the first step.
@@ -36,7 +36,7 @@ pub(crate) struct Stretch {
 }
 
 impl Shape {
-    /// The place of the run whose steps lead down to layer k; none for the top.
+    /// Returns the index of the run whose steps lead down to layer k, or `None` for the top layer.
     #[inline]
     fn run_to(&self, k: i128) -> Option<usize> {
         if let [_] = *self.stretches {
@@ -56,14 +56,14 @@ impl Shape {
         }
     }
 
-    /// Returns the number of + steps from the top to layer k less that of − steps: where site (0, 0) of layer k lies,
-    /// in units of −ê_a.
+    /// Returns the number of + steps minus the number of − steps from the top to layer k. This is the horizontal offset
+    /// of site (0, 0) of layer k, in units of −ê_a.
     pub(crate) fn shift(&self, k: i128) -> i128 {
         let Steps { plus, minus } = self.steps_to(k);
         plus - minus
     }
 
-    /// Returns the [`shift`](Self::shift) from the site under which x = y = 0.
+    /// Returns the [`shift`](Self::shift) relative to the layer whose site (0, 0) has x = y = 0.
     #[doc(hidden)]
     #[must_use]
     pub fn shift_from_origin(&self, k: i128) -> i128 {
@@ -73,26 +73,26 @@ impl Shape {
         }
     }
 
-    /// Returns the run whose steps lead down to layer k; none for the top.
+    /// Returns the run whose steps lead down to layer k, or `None` for the top layer.
     #[inline]
     pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
         self.stretch(self.run_to(k)?)
     }
 
-    /// Returns how many changes of sign lie above layer k, one at k itself not among them.
+    /// Returns the number of sign changes above layer k. A sign change at layer k itself does not count.
     pub(crate) fn changes_above(&self, k: i128) -> usize {
         let run = self.run_to(k);
-        // Not a default: no run leads to the top, and nothing changes above it.
+        // Not a default: the top layer has no run and no sign change above it.
         run.unwrap_or(0)
     }
 
-    /// Returns the run after this many changes of sign.
+    /// Returns the run below this many sign changes.
     #[inline]
     pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
         self.stretches.get(index).copied()
     }
 
-    /// Returns the sign of the step down from layer k; none from the floor.
+    /// Returns the sign of the step down from layer k, or `None` for the bottom layer.
     ///
     /// # Examples
     /// ```

@@ -1,4 +1,4 @@
-//! Walking a pile site by site.
+//! Iteration over a pile by sites.
 
 use core::iter::FusedIterator;
 
@@ -8,10 +8,10 @@ use num_traits::ToPrimitive;
 use super::rows::Rows;
 use crate::lattice::{self, Site};
 
-/// The sites of a [`Selection`](super::Selection), from the top, made as they are asked for.
+/// A lazy iterator over the sites of a [`Selection`](super::Selection), from the top.
 ///
-/// [`Pile::sites`](crate::Pile::sites) and [`Rows::sites`] make it. Its `size_hint` is exact where the number of sites
-/// fits a `usize`.
+/// [`Pile::sites`](crate::Pile::sites) and [`Rows::sites`] return it. Its `size_hint` is exact if the number of sites
+/// fits in `usize`.
 ///
 /// # Examples
 /// ```
@@ -30,12 +30,12 @@ use crate::lattice::{self, Site};
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Sites<'p> {
     rows: Rows<'p>,
-    /// What is left of the row that was reached.
+    /// The remaining sites of the current row.
     row: Option<lattice::Sites>,
 }
 
 impl Sites<'_> {
-    /// Returns how many sites are still to come.
+    /// Returns the number of remaining sites.
     pub(crate) fn remaining(&self) -> BigUint {
         let in_row = self.row.iter().map(lattice::Sites::remaining);
         in_row.fold(self.rows.site_count(), |sites, row| sites + row)
@@ -43,7 +43,7 @@ impl Sites<'_> {
 }
 
 impl<'p> Rows<'p> {
-    /// Returns the sites of the rows still to come, one by one.
+    /// Returns the sites of the remaining rows, one by one.
     ///
     /// # Examples
     /// ```
@@ -83,7 +83,7 @@ impl Iterator for Sites<'_> {
 
 impl FusedIterator for Sites<'_> {}
 
-/// Returns the `size_hint` of an iterator with so many items: exact where a `usize` holds the number.
+/// Returns the `size_hint` of an iterator with `items` items. It is exact if the number fits in `usize`.
 pub(crate) fn exact_hint(items: &BigUint) -> (usize, Option<usize>) {
     match items.to_usize() {
         Some(items) => (items, Some(items)),
@@ -124,7 +124,7 @@ mod tests {
         layers.chain([Selection::All, Selection::Base, Selection::One(site)])
     }
 
-    /// Goes through an iterator, and checks its hint before each item and twice behind the last.
+    /// Exhausts an iterator. Checks its hint before each item and after the last.
     fn check<I: Iterator + Clone>(mut items: I) {
         let mut left = items.clone().count();
         loop {

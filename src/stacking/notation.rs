@@ -1,4 +1,4 @@
-//! The notations: printed as they are written, and read back.
+//! Printing and parsing of stackings in four notations.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -10,13 +10,14 @@ use super::{Run, Stacking};
 use crate::Error;
 use crate::lattice::Sign;
 
-/// The longest text read, in bytes.
+/// The greatest length of a parsed text, in bytes.
 const LONGEST: usize = 4_000_000;
 
-/// The longest text with a fault that is quoted whole; in a longer one the fault is located.
+/// The greatest length of an invalid text, in characters, that the error message quotes in full. For a longer text it
+/// gives the position.
 const QUOTED: usize = 60;
 
-/// The ways to write a stacking.
+/// The notations of a stacking.
 ///
 /// # Examples
 /// ```
@@ -33,21 +34,21 @@ const QUOTED: usize = 60;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Notation {
-    /// A sign for each step: `++-+`.
+    /// One sign per step: `++-+`.
     Hagg,
-    /// A letter for each layer, `ABCBC`; the top one is A.
+    /// One letter per layer: `ABCBC`. The top layer is A.
     Abc,
-    /// A letter for each inner layer: `chh`. It leaves the first sign open.
+    /// One letter per inner layer: `chh`. The first sign remains undetermined.
     Jagodzinski,
-    /// The lengths of the runs: `(2,1,1)`. It leaves the first sign open.
+    /// The lengths of the runs: `(2,1,1)`. The first sign remains undetermined.
     Zhdanov,
 }
 
 impl Stacking {
-    /// Returns the stacking in a notation, for display.
+    /// Returns the stacking in a notation, as a value to print.
     ///
-    /// All but [`Notation::Zhdanov`] are as long as the stacking; [`Display`](fmt::Display) of the stacking itself
-    /// stays short.
+    /// The length of the text grows with the number of layers, except for [`Notation::Zhdanov`].
+    /// [`Display`](fmt::Display) of the stacking itself is always short.
     ///
     /// # Examples
     /// ```
@@ -63,7 +64,7 @@ impl Stacking {
     }
 }
 
-/// A stacking in a notation.
+/// A stacking in a notation, with padding.
 struct Written<'a>(&'a Stacking, Notation);
 
 impl fmt::Display for Written<'_> {
@@ -72,7 +73,7 @@ impl fmt::Display for Written<'_> {
     }
 }
 
-/// A stacking in a notation after a prefix, which nothing pads.
+/// A stacking in a notation after a prefix, without padding.
 struct Plain<'a>(&'a Stacking, Notation, &'static str);
 
 impl fmt::Display for Plain<'_> {
@@ -122,12 +123,12 @@ fn write_zhdanov(stacking: &Stacking, f: &mut fmt::Formatter<'_>) -> fmt::Result
     f.write_str(")")
 }
 
-/// The longest stacking shown sign by sign.
+/// The greatest number of steps that are printed sign by sign.
 const LONGEST_HAGG: i128 = 64;
 
 impl fmt::Display for Stacking {
-    /// Prints what reads back the same: the signs of up to 65 layers, Zhdanov's lengths beyond, with `-` before them if
-    /// the first sign is −. One layer is `A`.
+    /// Prints the signs of up to 65 layers. More layers are printed in Zhdanov's notation, with a prefix `-` if the
+    /// first sign is −. A single layer is `A`. Parsing the text gives the same stacking.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (notation, prefix) = match self.layers() {
             1 => (Notation::Abc, ""),
@@ -142,12 +143,13 @@ impl fmt::Display for Stacking {
 impl FromStr for Stacking {
     type Err = Error;
 
-    /// Reads any of the four notations; its characters show which one it is.
+    /// Parses any of the four notations, which is recognised by its characters.
     ///
-    /// One layer is `A` or `()`; an empty text is refused. A `-` before Zhdanov's lengths makes the first sign −.
+    /// A single layer is `A` or `()`. An empty text is an error. A `-` before Zhdanov's notation makes the first sign
+    /// −.
     ///
     /// # Errors
-    /// [`Error::Syntax`], for a long text [`Error::Misspelled`]; those of [`from_runs`](Self::from_runs).
+    /// [`Error::Syntax`], or [`Error::Misspelled`] for a long text; those of [`from_runs`](Self::from_runs).
     ///
     /// # Examples
     /// ```
@@ -182,12 +184,12 @@ impl FromStr for Stacking {
     }
 }
 
-/// The error for a text with a fault at this byte.
+/// Returns the error for a text that is invalid at byte `fault`.
 fn misspelled(text: &str, fault: usize) -> Error {
     if text.chars().nth(QUOTED).is_none() {
         return Error::syntax(text, "a stacking such as ++-+, ABCBC, chh or (2,1,1)");
     }
-    // Before the fault all characters are of the notation, and a byte long.
+    // All characters before the fault belong to the notation, and each is one byte long.
     Error::Misspelled {
         text: exact_surd::short::quoted(text),
         position: fault + 1,
@@ -195,14 +197,14 @@ fn misspelled(text: &str, fault: usize) -> Error {
     }
 }
 
-/// Whether this is a number with more digits than any number of layers has.
+/// Returns whether the text is a number that exceeds `i128`.
 fn is_beyond_i128(length: &str) -> bool {
     length.len() > 38
         && length.bytes().all(|byte| byte.is_ascii_digit())
         && length.parse::<i128>().is_err()
 }
 
-// The readers return the byte at which a text breaks the rules of its notation.
+// The following parsers return the position of the first invalid byte as the error.
 
 fn signs_of_hagg(text: &str) -> Result<Vec<Sign>, usize> {
     let sign = |(n, byte)| match byte {
@@ -218,7 +220,7 @@ fn signs_of_abc(text: &str) -> Result<Vec<Sign>, usize> {
     let sign = |(n, pair): (usize, (u8, u8))| match pair {
         (b'A', b'B') | (b'B', b'C') | (b'C', b'A') => Ok(Sign::Plus),
         (b'B', b'A') | (b'C', b'B') | (b'A', b'C') => Ok(Sign::Minus),
-        // Two equal letters in sequence would be spheres on top of each other.
+        // Two equal letters in sequence would put spheres vertically above each other.
         _ => Err(n + 1),
     };
     pairs.map(sign).collect()
@@ -244,11 +246,11 @@ fn runs_of_zhdanov(text: &str) -> Result<Vec<Run>, usize> {
     if inside.is_empty() {
         return Ok(Vec::new());
     }
-    let (mut sign, mut place) = (Sign::Minus, 1);
+    let (mut sign, mut position) = (Sign::Minus, 1);
     let run = |length: &str| {
         sign = -sign;
-        let start = place;
-        place += length.len() + 1;
+        let start = position;
+        position += length.len() + 1;
         if let Some(fault) = length.bytes().position(|byte| !byte.is_ascii_digit()) {
             return Err(start + fault);
         }

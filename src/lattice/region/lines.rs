@@ -1,4 +1,4 @@
-//! How many spheres lie on the lines above a site, within a run.
+//! Counts of spheres on the lines above a site, within a run.
 
 use core::cmp::Ordering;
 use core::ops::Range;
@@ -9,10 +9,11 @@ use crate::error::bug;
 use crate::lattice::{Sign, count};
 
 impl Region {
-    /// Returns how many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
+    /// Returns the number of spheres above (i, j) on each of its lines, within the `steps` layers above it that are
+    /// stacked with one sign.
     ///
-    /// The least of [`count::bounds_above`], each of which grows by one per step down and vanishes at its surface. None
-    /// outside the region, or of no steps.
+    /// Each number is the minimum of [`count::bounds_above`]. The numbers are zero outside the region, and for `steps`
+    /// < 1.
     ///
     /// # Examples
     /// ```
@@ -33,22 +34,23 @@ impl Region {
         bounds.map(|[m, a, b, c]| m.min(a).min(b).min(c))
     }
 
-    /// Returns how [`spheres_above`](Self::spheres_above) goes on along row `j` from the site (i, j) on, within the region.
+    /// Returns [`spheres_above`](Self::spheres_above) as a function of the position along row `j`, from the site (i, j)
+    /// on, within the region.
     pub(crate) fn row_counts(&self, [i, j]: [i128; 2], sign: Sign, steps: i128) -> [Trapezoid; 3] {
         let bounds = |i| count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
         Trapezoid::between(bounds(i), bounds(i + 1))
     }
 
-    /// Returns how [`spheres_above`](Self::spheres_above) goes on along any row of a region that fits in memory.
+    /// Returns [`spheres_above`](Self::spheres_above) for the rows of a region that fits in memory.
     ///
     /// # Errors
-    /// [`Error::Bug`] if it does not.
+    /// [`Error::Bug`] if the region does not fit in memory.
     pub(crate) fn counts(&self, sign: Sign, steps: i128) -> Result<Counts, Error> {
         let ([x0, y0, _], [x1, y1, s1]) = (self.lower, self.upper);
         let [x, y] = [small(x1 - x0)?, small(y1 - y0)?];
         Ok(Counts {
             first: [x0, y0],
-            // Of i − x₀, j − y₀ and their sum.
+            // The bounds of i − x₀, of j − y₀ and of their sum.
             lower: [0, 0, small(self.lower[2] - x0 - y0)?],
             upper: [x, y, small(s1 - x0 - y0)?],
             steps: small(steps)?,
@@ -57,16 +59,16 @@ impl Region {
     }
 }
 
-/// A number within [`LONG`].
+/// Returns `n` as an `i64` if |n| ≤ [`LONG`].
 fn small(n: i128) -> Result<i64, Error> {
     let small = i64::try_from(n).ok();
     let small = small.filter(|n| (-LONG..=LONG).contains(n));
     small.ok_or_else(|| bug("a layer that is swept fits in memory"))
 }
 
-/// What bounds the counts on the lines above the sites of a region that fits in memory.
+/// The bounds of the counts above the sites of a region that fits in memory.
 pub(crate) struct Counts {
-    /// The least i and j, which all else is counted from.
+    /// The least i and j. All other fields are relative to them.
     first: [i128; 2],
     lower: [i64; 3],
     upper: [i64; 3],
@@ -75,10 +77,10 @@ pub(crate) struct Counts {
 }
 
 impl Counts {
-    /// Returns how the counts go on from the site (i, j) on, for `n` places.
+    /// Returns the counts along the row from the site (i, j) on, for `n` positions.
     ///
     /// # Errors
-    /// [`Error::Bug`] for a site that is far from the region.
+    /// [`Error::Bug`] for a site that is too far from the region.
     #[inline]
     pub(crate) fn in_row(&self, [i, j]: [i128; 2], n: usize) -> Result<[Slopes; 3], Error> {
         let [i, j] = [small(i - self.first[0])?, small(j - self.first[1])?];
@@ -90,7 +92,7 @@ impl Counts {
         } = self;
         let bounds = |i, sign| count::bounds_above(&i, &j, lower, upper, steps, sign);
         let counts = |sign| Trapezoid::between(bounds(i, sign), bounds(i + 1, sign));
-        // The compiler knows of either sign which bounds rise, and which fall.
+        // With a constant sign, the compiler can determine which bounds rise and which fall.
         let [a, b, c] = match self.sign {
             Sign::Plus => counts(Sign::Plus),
             Sign::Minus => counts(Sign::Minus),
@@ -99,7 +101,7 @@ impl Counts {
     }
 }
 
-/// min(cap, rises + p, falls − p): how a count runs along a row, p places from where it is looked at.
+/// A count along a row, min(cap, rises + p, falls − p), where p is the position relative to a starting site.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Trapezoid<N = i128> {
     pub(crate) cap: N,
@@ -108,8 +110,8 @@ pub(crate) struct Trapezoid<N = i128> {
 }
 
 impl<N: Copy + Ord> Trapezoid<N> {
-    /// From what bounds the counts at one place and at the next: each bound rises by one along the row, falls by one, or is
-    /// level, as the first of each count is.
+    /// Returns the counts from their bounds at one position and at the next. Along the row, the first bound of each
+    /// count is constant. Each other bound rises by one, falls by one, or is constant.
     #[inline]
     fn between([a, b, c]: [[N; 4]; 3], [a_next, b_next, c_next]: [[N; 4]; 3]) -> [Self; 3] {
         let count = |[cap, x, y, z]: [N; 4], [_, x_next, y_next, z_next]: [N; 4]| {
@@ -145,10 +147,11 @@ impl<N: Copy + Ord> Trapezoid<N> {
 }
 
 impl Trapezoid {
-    /// Returns the count as it runs along a row that fits in memory.
+    /// Returns the count with machine integers, for a row that fits in memory.
     pub(crate) fn near(self) -> Trapezoid<i64> {
         #[expect(clippy::cast_possible_truncation, reason = "|n| ≤ LONG")]
-        // Not a default: what is further off than any row is long is on the same side of the row from there.
+        // Not a default: a bound that is farther away than the length of any row takes effect on the same side of the
+        // row after clamping.
         let near = |n: i128| n.clamp(-i128::from(LONG), LONG.into()) as i64;
         Trapezoid {
             cap: near(self.cap),
@@ -165,53 +168,55 @@ impl Trapezoid {
     }
 }
 
-/// No row in memory is as long.
+/// A length that exceeds the length of every row in memory.
 const LONG: i64 = FAR / 16;
 
-/// Where a count that does not rise, or fall, would: further off than sums of a few that are no more than [`LONG`].
+/// The value of a bound that does not exist. It exceeds sums of a few numbers of magnitude up to [`LONG`].
 const FAR: i64 = i64::MAX / 4;
 
-/// A count along a row: it rises by one from place to place, then it is level, then it falls by one.
+/// A count along a row. It rises by one per position, then is constant, then falls by one per position.
 pub(crate) struct Slopes {
-    /// The counts where it rises.
+    /// The counts on the rising part.
     up: Range<usize>,
-    /// The count between the slopes, of as many as one; none if there is nothing between them.
+    /// The constant count between the slopes, as a range of length one. It is empty if the constant part is empty.
     level: Range<usize>,
-    /// The counts where it falls, from the last of them to the first.
+    /// The counts on the falling part, from the last position to the first.
     down: Range<usize>,
 }
 
-/// Values by count, along a row.
+/// The values that belong to the counts along a row.
 pub(crate) struct Along<'v, V> {
-    /// Where the count rises.
+    /// The values on the rising part.
     pub(crate) up: &'v [V],
-    /// Between the slopes; none if there is nothing between them.
+    /// The value between the slopes, or `None` if the constant part is empty.
     pub(crate) level: Option<&'v V>,
-    /// Where it falls: from the last of them to the first.
+    /// The values on the falling part, from the last position to the first.
     pub(crate) down: &'v [V],
 }
 
 impl Slopes {
-    /// Of a row of `n` places, as many as fit in memory, and sums of a few numbers within [`LONG`].
+    /// Returns the slopes for a row of `n` positions. The row must fit in memory, and the bounds must be sums of a few
+    /// numbers within [`LONG`].
     #[inline]
     pub(crate) fn new(Trapezoid { cap, rises, falls }: Trapezoid<i64>, n: usize) -> Self {
-        // Not a default: a count that does not rise, or fall, would be as high as this.
+        // Not a default: a missing bound is replaced by one that never takes effect.
         let (rises, falls) = (rises.unwrap_or(FAR), falls.unwrap_or(FAR));
-        let inside = |place: i64| usize::try_from(place.max(0)).map_or(n, |place| place.min(n));
-        // It may fall again before it has risen to the cap.
+        let inside =
+            |position: i64| usize::try_from(position.max(0)).map_or(n, |position| position.min(n));
+        // The count may begin to fall before it reaches the cap.
         let meet = (falls - rises).div_euclid(2) + 1;
         let rise = inside(meet.min(cap - rises));
         let fall = inside(falls - cap + 1).max(rise);
-        let counts = |least: i64, places: usize| {
-            // Not a default: there are no values for a count below zero, which is refused.
+        let counts = |least: i64, positions: usize| {
+            // Not a default: `along` rejects a count below zero, since it has no value.
             let least = usize::try_from(least).unwrap_or(usize::MAX);
-            if places == 0 {
+            if positions == 0 {
                 0..0
             } else {
-                least..least.saturating_add(places)
+                least..least.saturating_add(positions)
             }
         };
-        // Not a default: no row in memory is as long.
+        // Not a default: every row in memory is shorter.
         let last = falls + 1 - i64::try_from(n).unwrap_or(FAR);
         Self {
             up: counts(rises, rise),
@@ -220,10 +225,10 @@ impl Slopes {
         }
     }
 
-    /// Returns `values[count]` along the row: as many as there are places.
+    /// Returns `values[count]` for each position of the row.
     ///
     /// # Errors
-    /// [`Error::Bug`] if a count has no value.
+    /// [`Error::Bug`] if `values` is too short for a count.
     #[inline]
     pub(crate) fn along<'v, V>(&self, values: &'v [V]) -> Result<Along<'v, V>, Error> {
         let of = |counts: &Range<usize>| values.get(counts.clone());
@@ -239,10 +244,10 @@ impl Slopes {
 }
 
 impl<'v, V> Along<'v, V> {
-    /// Returns the value at a place of a row that has `after` more behind it, with `level` between the slopes.
+    /// Returns the value at a position that is followed by `after` more. `level` is the value between the slopes.
     #[inline]
-    pub(crate) fn at(&self, place: usize, after: usize, level: &'v V) -> &'v V {
-        let slope = self.up.get(place).or_else(|| self.down.get(after));
+    pub(crate) fn at(&self, position: usize, after: usize, level: &'v V) -> &'v V {
+        let slope = self.up.get(position).or_else(|| self.down.get(after));
         slope.unwrap_or(level)
     }
 }
@@ -253,7 +258,7 @@ mod tests {
 
     use super::*;
 
-    /// The counts along a row, and again place by place.
+    /// Returns the counts along a row, after comparing them with the counts position by position.
     fn met(slopes: &Slopes, length: usize) -> Vec<i128> {
         let counts: Vec<i128> = (0..20).collect();
         let along = slopes.along(&counts).unwrap();
@@ -263,12 +268,13 @@ mod tests {
         let level = level.map_or_else(Vec::new, |count| alloc::vec![*count; same]);
         let down: Vec<i128> = down.iter().rev().copied().collect();
         let met = [up, &level, &down].concat();
-        let places = (0..length).map(|place| *along.at(place, length - 1 - place, between));
-        assert_eq!(met, places.collect::<Vec<_>>());
+        let by_position =
+            (0..length).map(|position| *along.at(position, length - 1 - position, between));
+        assert_eq!(met, by_position.collect::<Vec<_>>());
         met
     }
 
-    /// A row at a time or a site at a time, it is the same count.
+    /// Counting by rows and counting by sites give the same result.
     #[test]
     fn rows_count_as_sites_do() {
         let shapes = [
@@ -292,14 +298,14 @@ mod tests {
                     assert_eq!(in_memory, along);
                     for (p, i) in (0..).zip(row.i.clone()) {
                         let of_site = region.spheres_above(i, row.j, sign, steps);
-                        let place = usize::try_from(p).unwrap();
+                        let position = usize::try_from(p).unwrap();
                         assert_eq!(
                             counts.map(|count| count.at(p)),
                             of_site,
                             "{region} {i} {}",
                             row.j
                         );
-                        assert_eq!(along.each_ref().map(|counts| counts[place]), of_site);
+                        assert_eq!(along.each_ref().map(|counts| counts[position]), of_site);
                         compared += 1;
                     }
                 }

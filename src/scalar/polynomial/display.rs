@@ -1,4 +1,4 @@
-//! Polynomials as a person writes them: `(L^3 + 3 L^2 + 2 L)/6`.
+//! Display of polynomials in common notation: `(L^3 + 3 L^2 + 2 L)/6`.
 
 use alloc::string::ToString;
 use core::fmt;
@@ -10,8 +10,8 @@ use crate::scalar::Algebra;
 
 impl fmt::Display for Monomial {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (place, (symbol, power)) in self.0.iter().enumerate() {
-            if place > 0 {
+        for (position, (symbol, power)) in self.0.iter().enumerate() {
+            if position > 0 {
                 f.write_str(" ")?;
             }
             f.write_str(symbol.0)?;
@@ -24,13 +24,13 @@ impl fmt::Display for Monomial {
 }
 
 impl fmt::Display for Polynomial {
-    /// Writes the terms by falling degree, with the common denominator outside.
+    /// Writes the terms by decreasing degree, over the common denominator.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.is_defined() {
             return f.pad("overflow");
         }
         let text = Terms(self).to_string();
-        // A minus inside brackets is not the sign of the whole.
+        // A minus sign inside parentheses is not the sign of the whole fraction.
         match text.strip_prefix('-') {
             Some(magnitude) => f.pad_integral(false, "", magnitude),
             None => f.pad_integral(true, "", &text),
@@ -38,7 +38,7 @@ impl fmt::Display for Polynomial {
     }
 }
 
-/// The terms of a polynomial, which nothing pads.
+/// The terms of a polynomial, without padding.
 struct Terms<'p>(&'p Polynomial);
 
 impl fmt::Display for Terms<'_> {
@@ -54,8 +54,8 @@ impl fmt::Display for Terms<'_> {
         if bracketed {
             f.write_str("(")?;
         }
-        for (place, (monomial, coefficient)) in terms.iter().rev().enumerate() {
-            f.write_str(match (place, coefficient.is_negative()) {
+        for (position, (monomial, coefficient)) in terms.iter().rev().enumerate() {
+            f.write_str(match (position, coefficient.is_negative()) {
                 (0, false) => "",
                 (0, true) => "-",
                 (_, false) => " + ",
@@ -87,7 +87,7 @@ mod tests {
     use crate::scalar::Ring;
 
     #[test]
-    fn as_a_person_writes() {
+    fn uses_common_notation() {
         let l = Polynomial::from(Symbol("L"));
         let n = Polynomial::from_i128;
         let six = 6.try_into().unwrap();

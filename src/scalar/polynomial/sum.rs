@@ -1,4 +1,4 @@
-//! Definite sums of polynomials: polynomials again (Faulhaber).
+//! Definite sums of polynomials by Faulhaber's formula. The results are polynomials.
 
 use alloc::vec::Vec;
 use core::num::{NonZeroI64, NonZeroU32};
@@ -11,9 +11,9 @@ use crate::scalar::Algebra;
 impl Polynomial {
     /// Returns Σ `self` over the integers `symbol` = `from` … `to`, as a polynomial in the other symbols.
     ///
-    /// Written F(`to` + 1) − F(`from`) with F(x+1) − F(x) = `self`: for `to` ≥ `from` − 1 this is the sum term
-    /// by term, the empty one included, and beyond that its analytic continuation. The bounds may contain any
-    /// symbols, `symbol` too: there it is the one outside the sum.
+    /// The result is F(`to` + 1) − F(`from`), where F(x+1) − F(x) = `self`. For `to` ≥ `from` − 1 it equals the sum
+    /// term by term, which is empty for `to` = `from` − 1. For smaller `to` it is the analytic continuation. The bounds
+    /// may contain any symbols. If they contain `symbol`, it denotes the symbol outside the sum.
     ///
     /// # Examples
     /// ```
