@@ -1,9 +1,10 @@
-//! The stable stackings, at spacings without further contacts than α, β, γ.
+//! The stable stackings, for spacings at which α, β, γ are the only contacts.
 //!
 //! # Under one sphere
-//! The forces above a layer do not depend on the layers below. So every continuation of an unstable stacking is
-//! unstable. A search from the top, run by run, finds the stable stackings and abandons each unstable beginning. The
-//! numbers of stable stackings with L layers are, counting one of each mirror pair,
+//! The forces above a layer do not depend on the layers below. Call the upper part of a stacking, down to some layer, a
+//! prefix. If a prefix is unstable, the whole stacking is unstable. A search from the top, run by run, finds the stable
+//! stackings and abandons each unstable prefix. The numbers of stable stackings with L layers are, counting one of each
+//! mirror pair,
 //!
 //! | L | 1 | 2 | 3 | 4 | 5 | 6 and more |
 //! |---|---|---|---|---|---|---|
@@ -62,14 +63,14 @@ pub struct Entry {
     pub standing: Standing,
 }
 
-/// A pile with a verdict on its stability: an entry of a census. Implement it to [search](search) with another
+/// A pile with a verdict on its stability: an entry of a census. Implement this trait to [`search`] with another
 /// criterion of stability.
 pub trait Judged: Sized {
     /// The error of the criterion.
     type Error: From<Error>;
 
-    /// The numbers m and n in the bound m·L − n for the number of entries of a census of L ≥ 6 layers, unstable
-    /// beginnings included.
+    /// The numbers m and n of the bound m·L − n on the number of entries with L ≥ 6 layers, unstable prefixes
+    /// included.
     const ENTRIES: [i128; 2];
 
     /// Examines a pile.
@@ -115,14 +116,14 @@ impl Entry {
 }
 
 /// Iterates over the stable stackings of `layers` layers under one sphere, one of each mirror pair: the one that begins
-/// with +. With `failing` it also returns the shortest unstable beginnings. The order is that of the runs.
+/// with +. With `failing` it also returns the shortest unstable prefixes. The order is that of the runs.
 ///
-/// At most eleven stackings are stable (see the module documentation). With unstable beginnings there are 11L − 50
+/// At most eleven stackings are stable (see the module documentation). With unstable prefixes there are 11L − 50
 /// entries for L ≥ 6 layers, and the time for all of them grows as L³.
 ///
 /// # Errors
 /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooManyRows`] for more than [`MAX_ENTRIES`] entries with
-/// unstable beginnings; in an entry, [`Error::TooLarge`] for unstable beginnings of thousands of layers.
+/// unstable prefixes; in an entry, [`Error::TooLarge`] for unstable prefixes of thousands of layers.
 ///
 /// # Examples
 /// ```
@@ -149,7 +150,7 @@ pub fn under_one_sphere(
 
 /// Searches the stackings of `layers` layers under one sphere from the top, with the criterion of stability of `E`.
 ///
-/// The criterion must satisfy three conditions. Every beginning of a stable stacking is stable. A stable stacking with
+/// The criterion must satisfy three conditions. Every prefix of a stable stacking is stable. A stable stacking with
 /// its last step repeated is stable. A stacking with more than four steps before a sign change is unstable.
 ///
 /// # Errors
@@ -168,8 +169,8 @@ pub fn search<E: Judged>(
 ) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
     // `fcc` checks the number of layers. A single layer has zero steps.
     let steps = Stacking::fcc(layers)?.layers() - 1;
-    // An upper bound of the number of entries. For fewer than six layers it may be smaller, but `MAX_ENTRIES` is then
-    // irrelevant.
+    // An upper bound of the number of entries for six layers or more. With fewer layers the number is far below
+    // `MAX_ENTRIES`.
     let [of_a_layer, less] = E::ENTRIES;
     let rows = of_a_layer * layers - less;
     if failing && rows > MAX_ENTRIES.into() {
@@ -182,8 +183,8 @@ pub fn search<E: Judged>(
     Ok(Search {
         steps,
         failing,
-        waiting: alloc::vec![Waiting {
-            beginning: Beginning::default(),
+        pending: alloc::vec![Pending {
+            prefix: Prefix::default(),
             next: None,
         }],
         judged: PhantomData,
@@ -198,9 +199,9 @@ const LONGEST_RUN: i128 = 4;
 
 /// The lengths of runs of alternating signs, + first. Another run follows each of them.
 #[derive(Clone, Debug, Default)]
-struct Beginning(Vec<i128>);
+struct Prefix(Vec<i128>);
 
-impl Beginning {
+impl Prefix {
     /// Returns the pile of these runs and a last run of `last` steps.
     fn pile(&self, last: i128) -> Result<Pile, Error> {
         let signs = [Sign::Plus, Sign::Minus].into_iter().cycle();
@@ -216,43 +217,43 @@ impl Beginning {
     }
 }
 
-/// A depth-first search over beginnings. The last element of `waiting` comes next.
+/// A depth-first search over prefixes. The last element of `pending` comes next.
 struct Search<E> {
     steps: i128,
     failing: bool,
-    waiting: Vec<Waiting>,
+    pending: Vec<Pending>,
     judged: PhantomData<E>,
 }
 
-/// A beginning to visit if `next` is `None`. Otherwise the beginnings that continue it by one run, from the length
+/// A prefix to visit if `next` is `None`. Otherwise the prefixes that continue it by one run, from the length
 /// `next` on.
-struct Waiting {
-    beginning: Beginning,
+struct Pending {
+    prefix: Prefix,
     next: Option<i128>,
 }
 
 impl<E: Judged> Search<E> {
-    /// Visits a beginning. If it is stable one step after its last sign change, returns its continuation to all layers
-    /// and schedules the longer beginnings. Otherwise returns the unstable beginning, if `failing`.
-    fn visit(&mut self, beginning: Beginning) -> Result<Option<E>, E::Error> {
+    /// Visits a prefix. If it is stable one step after its last sign change, returns its continuation to all layers
+    /// and schedules the longer prefixes. Otherwise returns the unstable prefix, if `failing`.
+    fn visit(&mut self, prefix: Prefix) -> Result<Option<E>, E::Error> {
         check_interrupt()?;
-        if !beginning.0.is_empty() {
-            let first_step = E::judge(beginning.pile(1)?)?;
+        if !prefix.0.is_empty() {
+            let first_step = E::judge(prefix.pile(1)?)?;
             if !first_step.stands() {
                 return Ok(Some(first_step).filter(|_| self.failing));
             }
         }
-        let entry = E::judge(beginning.pile(self.left(&beginning))?)?;
-        self.waiting.push(Waiting {
-            beginning,
+        let entry = E::judge(prefix.pile(self.left(&prefix))?)?;
+        self.pending.push(Pending {
+            prefix,
             next: Some(1),
         });
         Ok(Some(entry))
     }
 
-    /// Returns the number of steps after a beginning.
-    fn left(&self, beginning: &Beginning) -> i128 {
-        self.steps - beginning.0.iter().sum::<i128>()
+    /// Returns the number of steps after a prefix.
+    fn left(&self, prefix: &Prefix) -> i128 {
+        self.steps - prefix.0.iter().sum::<i128>()
     }
 }
 
@@ -261,11 +262,11 @@ impl<E: Judged> Iterator for Search<E> {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let Waiting { beginning, next } = self.waiting.pop()?;
+            let Pending { prefix, next } = self.pending.pop()?;
             let visited = match next {
-                None => beginning,
+                None => prefix,
                 Some(run) => {
-                    let left = self.left(&beginning) - 1;
+                    let left = self.left(&prefix) - 1;
                     let longest = if self.failing {
                         left
                     } else {
@@ -274,9 +275,9 @@ impl<E: Judged> Iterator for Search<E> {
                     if run > longest {
                         continue;
                     }
-                    let longer = beginning.followed_by(run);
+                    let longer = prefix.followed_by(run);
                     let next = Some(run + 1);
-                    self.waiting.push(Waiting { beginning, next });
+                    self.pending.push(Pending { prefix, next });
                     longer
                 }
             };
@@ -337,13 +338,13 @@ pub fn carried_up<E: Judged>(
         });
     }
     let one_of_two = base.is_its_own_mirror_image();
-    // `signs` contains the steps from the base to the current layer. `waiting` contains the layers still to visit, each
+    // `signs` contains the steps from the base to the current layer. `pending` contains the layers still to visit, each
     // with its height and the step that leads to it.
     let mut signs: Vec<Sign> = Vec::new();
-    let mut waiting: Vec<(usize, Option<Sign>, Region)> = alloc::vec![(0, None, base)];
+    let mut pending: Vec<(usize, Option<Sign>, Region)> = alloc::vec![(0, None, base)];
     Ok(core::iter::from_fn(move || {
         loop {
-            let (height, last, top) = waiting.pop()?;
+            let (height, last, top) = pending.pop()?;
             signs.truncate(height.saturating_sub(1));
             signs.extend(last);
             let mut higher = false;
@@ -353,7 +354,7 @@ pub fn carried_up<E: Judged>(
                 };
                 higher = true;
                 if height > 0 || !one_of_two || sign == Sign::Plus {
-                    waiting.push((height + 1, Some(sign), above));
+                    pending.push((height + 1, Some(sign), above));
                 }
             }
             if !higher {

@@ -42,8 +42,8 @@ use core::ops::Add;
 use crate::geometry::Vector;
 use crate::scalar::Ring;
 
-/// Returns the increments that a sphere adds to its three lines of contacts, in f₀: (1, 1, 2s), with s = sin φ, 0 < s <
-/// 1.
+/// Returns the increments that a sphere adds to its three lines of contacts, in f₀: (1, 1, 2s), where s = sin φ and 0 <
+/// s < 1.
 ///
 /// This is (6) of the paper, whose denominator 2(1+s)cosθ is part of f₀. For s = ½ it is (7). At s = 0 the γ lines
 /// carry no force, as in the pile of discs.
@@ -93,8 +93,8 @@ pub fn force<T: Ring>(n: T, increment: &T) -> T {
     n * increment
 }
 
-/// Returns the force on a line below one or several spheres, the sum of `received` and `own`. `received` is the force
-/// from above on this line, and `own` is the increment of the spheres. Both have the same unit.
+/// Returns the force on a line below one or several spheres: `received` + `own`. `received` is the force from above on
+/// this line, and `own` is the increment of the spheres. Both have the same unit.
 ///
 /// These are (4) and (5) of the paper: α = α′ + Δα. A load on a sphere is transmitted in the same way as its weight.
 ///
@@ -130,8 +130,8 @@ pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> V
     -Vector::combination(from_above, directions)
 }
 
-/// Returns the force of a sphere on its supports or on the floor: the forces from above plus its weight, F_s = a′ + b′
-/// + c′ + w.
+/// Returns the force F_s = a′ + b′ + c′ + w of a sphere on its supports or on the floor: the forces from above plus its
+/// weight.
 ///
 /// This is (11) of the paper, and with (10) it is (12). Its vertical part over W is the normal force on the floor (13),
 /// and its horizontal part over W is the shear (14). `weight` is w in the unit of the forces. In f₀ this is [`weight`],

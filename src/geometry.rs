@@ -122,9 +122,8 @@ pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<
 /// Returns the squared distance between two sphere centres over 4R². The centres differ by n_a ê_a + n_b ê_b + n_c ê_c,
 /// in units of 2R.
 ///
-/// The Gram matrix is ê·ê = 1, ê_a·ê_b = cos²θ + (2s²−1) sin²θ, ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ. For discs use s =
-/// 0 and n_c = 0. Two spheres overlap if the result is below 1 and touch if it is 1. The result is exact in exact
-/// scalars.
+/// The Gram matrix is ê·ê = 1, ê_a·ê_b = cos²θ + (2s²−1) sin²θ, ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ. For discs, `s` and
+/// n_c are 0. Two spheres overlap if the result is below 1 and touch if it is 1. The result is exact in exact scalars.
 ///
 /// # Examples
 /// ```

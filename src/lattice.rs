@@ -13,7 +13,7 @@
 //! The three counts are the barycentric coordinates of the site in its layer, and they sum to k. All symmetries of the
 //! pile permute them.
 //!
-//! Iterators over a pile return it as [`Row`]s: fixed k and j, consecutive i.
+//! Iterators over a pile visit it by [`Row`]s: fixed k and j, consecutive i.
 
 mod axis;
 pub mod count;

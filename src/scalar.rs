@@ -2,12 +2,12 @@
 //!
 //! The traits are small. Each formula requires only the traits it needs:
 //!
-//! | trait | operations | implemented at most to here by |
+//! | trait | operations | implemented by |
 //! |---|---|---|
-//! | [`Ring`] | `+ − ×` and conversion from integers | big integers |
-//! | [`Algebra`] | conversion from rationals, division by a nonzero machine integer | polynomials |
-//! | [`Field`] | division by any nonzero value | |
-//! | [`RealEmbeddable`] | comparison with rationals: a sign and rational bounds | |
+//! | [`Ring`] | `+ − ×` and conversion from integers | all scalar types, and `BigInt` |
+//! | [`Algebra`] | conversion from rationals, division by a nonzero machine integer | all scalar types |
+//! | [`Field`] | division by any nonzero value | all but [`Polynomial`] |
+//! | [`RealEmbeddable`] | comparison with rationals: a sign and rational bounds | all but [`Polynomial`] |
 //!
 //! [`Field`] and [`RealEmbeddable`] are independent: the first is algebraic structure, the second is order. The traits
 //! do not require `num_traits::{Num, Float}` or `Copy`, and the formulas contain no float literal. So a polynomial and
@@ -99,8 +99,8 @@ pub enum Exactness {
     ExactOrFault,
     /// Every operation gives bounds that contain the true value.
     Enclosure,
-    /// Every operation has a relative error of at most 2^(−`bits`): 24 for `f32`, 53 for `f64`. This holds for finite
-    /// operands if the operation neither overflows nor underflows.
+    /// Every operation has a relative error of at most 2^(−`bits`), where `bits` is 24 for `f32` and 53 for `f64`. This
+    /// holds for finite operands if the operation neither overflows nor underflows.
     Rounded {
         /// The precision p of the significand, in bits.
         bits: u32,

@@ -32,8 +32,8 @@ use crate::stacking::{Pattern, Run, Stacking};
 /// The sites of a pile: a [`Region`] for each layer, and the [`Stacking`] that relates them.
 ///
 /// A shape is built downwards from a top layer or upwards from a base. Downwards, each layer consists of all supports
-/// of the layer above (dilation). Upwards, each layer consists of all sites whose three supports exist (erosion). One
-/// sphere on top of + steps gives the paper's pile, [`pyramid`](Self::pyramid).
+/// of the layer above (dilation). Upwards, each layer consists of all sites whose three supports exist (erosion). A
+/// single sphere at the top and + steps only give the paper's pile, [`pyramid`](Self::pyramid).
 ///
 /// The memory grows with the number of sign changes, not with the number of layers.
 ///

@@ -404,11 +404,11 @@ impl Stacking {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Pattern {
-    /// + + + …
+    /// The signs `+ + + …`: face-centred cubic.
     Fcc,
-    /// + − + − …
+    /// The signs `+ − + − …`: hexagonal close packing.
     Hcp,
-    /// + + − − …
+    /// The signs `+ + − − …`: double hexagonal close packing.
     Dhcp,
     /// The steps of a given stacking.
     Spelled(Stacking),

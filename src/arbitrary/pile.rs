@@ -215,7 +215,8 @@ pub fn light_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(ratio(u.int_in_range(0..=9)?, *u.choose(&[1, 1, 2, 3, 7])?))
 }
 
-/// Draws a weight or load between 0 and 300 mg, with the denominator 1, 2, 3 or 7. Three loads on one sphere stay below 1000 mg.
+/// Draws a weight or load between 0 and 300 mg, with the denominator 1, 2, 3 or 7. Three loads on one sphere stay below
+/// 1000 mg.
 fn moderate_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
     if rarely(u, 6)? {
         return Ok(ratio(0, 1));
@@ -224,12 +225,12 @@ fn moderate_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(ratio(u.int_in_range(0..=300 * denom)?, denom))
 }
 
-/// Draws a pile of up to ten layers. The weight of each sphere and the load on it lie between 0 and 1000 mg, with denominators of
-/// at most 42.
+/// Draws a pile of up to ten layers. The weight of each sphere and the load on it lie between 0 and 1000 mg, with
+/// denominators of at most 42.
 ///
-/// Three in four have any stacking, on or under a small region. The others are straight piles of up to five layers under
-/// one sphere: equilateral, of discs, or isosceles with a sin φ between 1/12 and 11/12. All contact forces are below 10⁶
-/// in units of f₀, so every scalar type down to `f32` can represent them.
+/// Three in four have any stacking, on or under a small region. The others are straight piles of up to five layers
+/// under one sphere: equilateral, of discs, or isosceles with a sin φ between 1/12 and 11/12. All contact forces are
+/// below 10⁶ in units of f₀, so even `f32` does not overflow.
 ///
 /// # Errors
 /// Those of [`Unstructured`].

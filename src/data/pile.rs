@@ -60,7 +60,7 @@ impl Parts {
         }
     }
 
-    fn pile(self) -> Result<Pile, Refused> {
+    fn pile(self) -> Result<Pile, Invalid> {
         let mut pile = self.bare()?;
         for OnSite { site, weight } in self.weights {
             pile = pile.with_weight(site, weight)?;
@@ -79,7 +79,7 @@ impl Parts {
     }
 
     /// Returns the pile without weights, loads and horizontal forces.
-    fn bare(&self) -> Result<Pile, Refused> {
+    fn bare(&self) -> Result<Pile, Invalid> {
         let layers = self.stacking.layers();
         let pile = match (self.dimension, self.anchor) {
             (Dimension::Two, _) => Pile::discs(layers)?,
@@ -101,36 +101,36 @@ impl Parts {
         } else {
             return Ok(pile);
         };
-        let beside = match self.dimension {
+        let other = match self.dimension {
             Dimension::Two => "dimension 2",
             Dimension::Three => "stacking",
         };
-        Err(Refused::Excluded { given, beside })
+        Err(Invalid::Excluded { given, other })
     }
 }
 
 /// The reason why parts do not form a pile.
-enum Refused {
+enum Invalid {
     Core(Error),
     Excluded {
         given: &'static str,
-        beside: &'static str,
+        other: &'static str,
     },
 }
 
-impl From<Error> for Refused {
+impl From<Error> for Invalid {
     fn from(error: Error) -> Self {
         Self::Core(error)
     }
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for Invalid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Core(error) => error.fmt(f),
-            Self::Excluded { given, beside } => write!(
+            Self::Excluded { given, other } => write!(
                 f,
-                "{given} has no meaning with {beside}: leave one of the two out"
+                "{given} has no meaning with {other}: leave one of the two out"
             ),
         }
     }

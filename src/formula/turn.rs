@@ -6,9 +6,9 @@ use num_traits::One;
 
 use crate::scalar::{Algebra, Exactness, THREE};
 
-/// Returns the forces G g that a sphere at a sign change transmits for forces g from above. Here G = (2/3)J − I with J
-/// all ones, so G g = (2/3)(g_α + g_β + g_γ)(1, 1, 1) − g. If the numerators do not allow division by 3, the result is
-/// 3G g, and the denominator is three times that of g.
+/// Returns G g, the contribution of the forces g from above to the forces that a sphere at a sign change transmits.
+/// Here G = (2/3)J − I with J all ones, so G g = (2/3)(g_α + g_β + g_γ)(1, 1, 1) − g. If the numerators do not allow
+/// division by 3, the result is 3G g, and the denominator is three times that of g.
 ///
 /// G is the half-turn about (1, 1, 1): orthogonal, symmetric and its own inverse. So a sign change does not amplify
 /// errors. The result is exact in exact scalars. Integers use [`tripled_half_turn`]. Bounds use [`tripled_apart`] and a

@@ -26,7 +26,7 @@ use crate::lattice::Dimension;
 use crate::scalar::Ring;
 use crate::shape::Shape;
 
-/// The number of layers between two spheres that touch or overlap.
+/// The difference of the layers of two spheres that touch or overlap.
 ///
 /// # Examples
 /// ```
@@ -42,7 +42,7 @@ use crate::shape::Shape;
     serde(deny_unknown_fields)
 )]
 pub struct LayerGap {
-    /// The difference of their layers, 0 for neighbours in one layer.
+    /// The difference of their layers. It is 0 for neighbours in one layer.
     pub layers: u8,
 }
 
@@ -57,13 +57,13 @@ impl fmt::Display for LayerGap {
     }
 }
 
-/// The value of q at which a pair of spheres touches, with the layers between them.
+/// The value of q at which a pair of spheres touches, with the difference of their layers.
 type Touch = (BigRational, LayerGap);
 
 /// The spacings a/R at which no two spheres of a pile overlap.
 ///
-/// [`Pile::clearance`](crate::Pile::clearance) returns it. For an equilateral base and L ≥ 4 layers it is 1 ≤ a/R ≤
-/// √(8/3). At these bounds further spheres touch.
+/// [`Pile::clearance`](crate::Pile::clearance) returns it. For an equilateral base and L ≥ 4 layers the range is 1 ≤
+/// a/R ≤ √(8/3). At these bounds further spheres touch.
 ///
 /// # Examples
 /// ```
@@ -241,7 +241,8 @@ impl Clearance {
     }
 }
 
-/// Returns the differences n that decide (see the module documentation), one of each ±n, with the layers between.
+/// Returns the differences n that decide (see the module documentation), one of each ±n, with the difference of the
+/// layers.
 fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
     let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].map(|n| (0, n));
     let stacked = (1..=3_u8).flat_map(|m| {

@@ -29,7 +29,8 @@ where
 }
 
 /// Returns four upper bounds for each count of spheres above (i, j) on its lines α, β, γ, within a run. The minimum of
-/// each four is the count N. The site lies in a layer `steps` steps below the first layer of the run, in any region.
+/// each four is the count N. The site lies `steps` steps below the first layer of the run, and the layer may be any
+/// region.
 ///
 /// Here `lower` = (x₀, y₀, s₀) and `upper` = (x₁, y₁, s₁) bound i, j and i+j in that layer, and m = `steps`. For +
 /// steps N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀), N_γ = min(m, j−y₀, x₁−i, i+j−s₀). For −

@@ -144,7 +144,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
     y: &BigRational,
 ) -> Result<(), BrokenLaw> {
     let (a, b) = (T::from_rational(x), T::from_rational(y));
-    stands_for("the image of x is x", &a, x)?;
+    check_value("the image of x is x", &a, x)?;
     // Bounds represent the numbers that they were made from. Other scalars represent the stored value.
     let stored = |a: &T, x: &BigRational| match T::EXACTNESS {
         Exactness::Enclosure => Some(x.clone()),
@@ -153,11 +153,11 @@ pub fn embedding<T: Field + RealEmbeddable>(
     let (Some(p), Some(q)) = (stored(&a, x), stored(&b, y)) else {
         return Ok(());
     };
-    stands_for("a + b", &(a.clone() + &b), &(&p + &q))?;
-    stands_for("a - b", &(a.clone() - &b), &(&p - &q))?;
-    stands_for("a b", &(a.clone() * &b), &(&p * &q))?;
+    check_value("a + b", &(a.clone() + &b), &(&p + &q))?;
+    check_value("a - b", &(a.clone() - &b), &(&p - &q))?;
+    check_value("a b", &(a.clone() * &b), &(&p * &q))?;
     match a.checked_div(&b) {
-        Some(quotient) if !q.is_zero() => stands_for("a / b", &quotient, &(&p / &q))?,
+        Some(quotient) if !q.is_zero() => check_value("a / b", &quotient, &(&p / &q))?,
         None if q.is_zero() || b.sign() == RealSign::Unknown => {}
         _ => {
             let (law, witness) = ("a / b is undefined just for b = 0", format!("b = {b:?}"));
@@ -179,7 +179,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
             continue;
         };
         let quotient = &p / BigInt::from(n.get());
-        stands_for("a / n", &a.clone().div_int(n), &quotient)?;
+        check_value("a / n", &a.clone().div_int(n), &quotient)?;
     }
     let sign = match p.numer().sign() {
         num_bigint::Sign::Minus => RealSign::Negative,
@@ -282,7 +282,7 @@ fn point<T: RealEmbeddable>(a: &T) -> Option<BigRational> {
 }
 
 /// Checks that `got` approximates `want` as well as the scalar promises.
-fn stands_for<T: Algebra + RealEmbeddable>(
+fn check_value<T: Algebra + RealEmbeddable>(
     law: &'static str,
     got: &T,
     want: &BigRational,

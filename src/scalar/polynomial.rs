@@ -163,8 +163,7 @@ impl Polynomial {
         Self::canonical(terms.into_iter().collect(), value.denom().clone())
     }
 
-    /// Returns Σ c_j · `symbol`^j / `denominator`, where c_j are the `coefficients`. Returns `None` if `denominator` is
-    /// 0.
+    /// Returns Σ c_j · `symbol`^j / `denominator`, where c_j are the `coefficients`, or `None` for the `denominator` 0.
     ///
     /// # Examples
     /// ```

@@ -86,7 +86,7 @@ impl Shape {
         run.unwrap_or(0)
     }
 
-    /// Returns the run below this many sign changes.
+    /// Returns the run with this many sign changes above it.
     #[inline]
     pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
         self.stretches.get(index).copied()

@@ -145,8 +145,8 @@ impl FromStr for Stacking {
 
     /// Parses any of the four notations, which is recognised by its characters.
     ///
-    /// A single layer is `A` or `()`. An empty text is an error. A `-` before Zhdanov's notation makes the first sign
-    /// −.
+    /// A single layer is `A` or `()`. An empty text is an error. A `-` before Zhdanov's notation means that the first
+    /// sign is −.
     ///
     /// # Errors
     /// [`Error::Syntax`], or [`Error::Misspelled`] for a long text; those of [`from_runs`](Self::from_runs).

@@ -12,7 +12,7 @@ impl Region {
     /// Returns the number of spheres above (i, j) on each of its lines, within the `steps` layers above it that are
     /// stacked with one sign.
     ///
-    /// Each number is the minimum of [`count::bounds_above`]. The numbers are zero outside the region, and for `steps`
+    /// Each number is the minimum of [`count::bounds_above`]. All are zero if the site is outside the region or `steps`
     /// < 1.
     ///
     /// # Examples
@@ -259,7 +259,7 @@ mod tests {
     use super::*;
 
     /// Returns the counts along a row, after comparing them with the counts position by position.
-    fn met(slopes: &Slopes, length: usize) -> Vec<i128> {
+    fn counts_along(slopes: &Slopes, length: usize) -> Vec<i128> {
         let counts: Vec<i128> = (0..20).collect();
         let along = slopes.along(&counts).unwrap();
         let Along { up, level, down } = along;
@@ -292,9 +292,13 @@ mod tests {
                     let start = [row.i.start, row.j];
                     let counts = region.row_counts(start, sign, steps);
                     let length = usize::try_from(row.i.end - row.i.start).unwrap();
-                    let along = counts.map(|count| met(&Slopes::new(count.near(), length), length));
+                    let along = counts
+                        .map(|count| counts_along(&Slopes::new(count.near(), length), length));
                     let slopes = region.counts(sign, steps).unwrap().in_row(start, length);
-                    let in_memory = slopes.unwrap().each_ref().map(|slopes| met(slopes, length));
+                    let in_memory = slopes
+                        .unwrap()
+                        .each_ref()
+                        .map(|slopes| counts_along(slopes, length));
                     assert_eq!(in_memory, along);
                     for (p, i) in (0..).zip(row.i.clone()) {
                         let of_site = region.spheres_above(i, row.j, sign, steps);
