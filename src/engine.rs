@@ -51,7 +51,7 @@ pub(crate) use plan::{Keeping, trees_are_cheaper, unless_too_large};
 pub use question::{Method, Quantity, Question};
 pub(crate) use rows::{Engine, exact_sweep, received_in, shortest_exact_sweep};
 pub(crate) use single::{plain_sweep, received};
-pub(crate) use slices::{fill_layers, fill_rows, split_front};
+pub(crate) use slices::{fill_rows, split_front};
 pub(crate) use sweep::Descent;
 pub(crate) use table::Table;
 pub(crate) use tree::{Wanted, nodes};

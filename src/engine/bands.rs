@@ -19,7 +19,7 @@ use crate::lattice::{Along, Counts};
 use crate::{Error, formula};
 
 /// How many numbers are worth a thread of their own, each time one of them is changed.
-pub(super) const WORTH_A_THREAD: usize = 1 << 13;
+const WORTH_A_THREAD: usize = 1 << 13;
 
 /// Passes that follow each other, with what each adds in every plane.
 pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];

@@ -3,12 +3,11 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use num_traits::{ToPrimitive, Zero};
+use num_traits::Zero;
 
-use super::bands::{WORTH_A_THREAD, make};
+use super::bands::make;
 use super::grid::{Grid, Layer, Moves, Pass};
 use super::plane::{Plane, Ramps};
-use crate::lattice::Region;
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
@@ -20,15 +19,6 @@ const WAITING: usize = 8;
 pub(crate) struct Cells<V> {
     plane: Plane<V>,
     waiting: Vec<(Pass, [V; 3])>,
-}
-
-/// Whether a thread should stand by while so many passes are made on the way down to a layer: where bands of those that wait
-/// for each other are worth threads, again and again.
-pub(super) fn are_worth_one_standing_by(passes: usize, to: &Region) -> bool {
-    // Not a default: only whether threads are worth it hangs on it.
-    let sites = to.site_count().to_usize().unwrap_or(usize::MAX);
-    let numbers = sites.saturating_mul(3 * WAITING);
-    passes > WAITING && numbers >= 2 * WORTH_A_THREAD
 }
 
 impl<V: Clone> Cells<V> {
@@ -99,21 +89,5 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
             "passes come before what they lead to"
         );
         self.plane.carried(cells).map(Clone::clone)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Nine passes and more, of which eight are made together, over two threads' worth of numbers: three of each sphere in each pass.
-    #[test]
-    fn somebody_stands_by_where_several_bands_are_made_again_and_again() {
-        let is_worth =
-            |passes, side| are_worth_one_standing_by(passes, &Region::triangle(side).unwrap());
-        // 666 and 703 spheres.
-        assert!(!is_worth(9, 36) && is_worth(9, 37));
-        assert!(!is_worth(8, 37) && !is_worth(8, 1000));
-        assert!(!is_worth(1000, 36) && is_worth(1000, 37));
     }
 }

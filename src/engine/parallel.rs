@@ -54,8 +54,7 @@ pub(crate) fn join<A: Send, B: Send>(
     (one(), other())
 }
 
-/// Does two things, at once where there are threads: one of them on this thread, also if it is none of the pool's, so that it
-/// need not be woken when the other ends.
+/// Does two things, at once where there are threads.
 ///
 /// # Errors
 /// Those of both.
@@ -63,119 +62,8 @@ pub(crate) fn share(
     one: impl FnOnce() -> Result<(), Error> + Send,
     other: impl FnOnce() -> Result<(), Error> + Send,
 ) -> Result<(), Error> {
-    #[cfg(feature = "rayon")]
-    if rayon::current_thread_index().is_none() {
-        return standing_by::share_from_outside(one, other);
-    }
     let (ones, others) = join(one, other);
     ones.and(others)
-}
-
-/// Does something while a thread of the pool looks out for what is shared meanwhile ([`share`]): one that sleeps is woken in as
-/// long as a layer takes.
-pub(crate) fn with_one_standing_by<A>(work: impl FnOnce() -> A) -> A {
-    #[cfg(feature = "rayon")]
-    if threads() > 1 {
-        return standing_by::during(work);
-    }
-    work()
-}
-
-#[cfg(feature = "rayon")]
-mod standing_by {
-    use alloc::sync::Arc;
-    use core::cell::Cell;
-    use core::sync::atomic::{AtomicBool, Ordering};
-    use std::thread::yield_now;
-
-    use crate::Error;
-    use crate::engine::interrupt;
-    use crate::error::bug;
-
-    std::thread_local! {
-        /// Whether this thread stands by, or works while another does: then it does not stand by for others as well, who would
-        /// keep it from what it waits for.
-        static IS_ENGAGED: Cell<bool> = const { Cell::new(false) };
-    }
-
-    /// How often a thread looks for the end of what it shared, about a microsecond each time, before it sleeps.
-    const PATIENCE: usize = 200;
-
-    /// Set when what it is made for ends, in whatever way.
-    pub(super) struct Ends<'e>(pub(super) &'e AtomicBool);
-
-    impl Drop for Ends<'_> {
-        fn drop(&mut self) {
-            self.0.store(true, Ordering::Release);
-        }
-    }
-
-    /// Whether this thread was engaged before; it is, until this is dropped.
-    struct Engaged(bool);
-
-    impl Engaged {
-        fn new() -> Self {
-            Self(IS_ENGAGED.replace(true))
-        }
-    }
-
-    impl Drop for Engaged {
-        fn drop(&mut self) {
-            IS_ENGAGED.set(self.0);
-        }
-    }
-
-    /// Does something while another thread stands by. Nobody waits for that thread, which may have taken on other work, or have
-    /// had no time at all.
-    pub(super) fn during<A>(work: impl FnOnce() -> A) -> A {
-        let _engaged = Engaged::new();
-        let ended = Arc::new(AtomicBool::new(false));
-        let _ends = Ends(&ended);
-        let ended = Arc::clone(&ended);
-        rayon::spawn(move || stand_by(&ended));
-        work()
-    }
-
-    pub(super) fn stand_by(ended: &AtomicBool) {
-        let engaged = Engaged::new();
-        if engaged.0 {
-            return;
-        }
-        while !ended.load(Ordering::Acquire) {
-            if rayon::yield_now() != Some(rayon::Yield::Executed) {
-                // Both threads may be on one core.
-                yield_now();
-            }
-        }
-    }
-
-    /// Does one thing on this thread, which is none of the pool's, and the other on one that is.
-    pub(super) fn share_from_outside(
-        one: impl FnOnce() -> Result<(), Error>,
-        other: impl FnOnce() -> Result<(), Error> + Send,
-    ) -> Result<(), Error> {
-        let asked = interrupt::current();
-        let ended = &AtomicBool::new(false);
-        let mut others = None;
-        let to_others = &mut others;
-        let ones = rayon::in_place_scope(|scope| {
-            scope.spawn(|_| {
-                let _ends = Ends(ended);
-                *to_others = Some(interrupt::within(asked.as_ref(), other));
-            });
-            let ones = one();
-            // It ends soon, if it was begun as soon: this thread would not be woken as soon.
-            let mut looks = 0..PATIENCE;
-            while looks.next().is_some() && !ended.load(Ordering::Acquire) {
-                yield_now();
-            }
-            ones
-        });
-        match others {
-            Some(others) => ones.and(others),
-            None => Err(bug("a scope ends when all of it is done")),
-        }
-    }
 }
 
 /// Does something with each item, in any order, at once where there are threads. Of items that fail, returns one's error.
@@ -214,7 +102,6 @@ pub fn map<I: Send, O: Send>(
 #[cfg(feature = "rayon")]
 #[cfg(test)]
 mod tests {
-    use core::sync::atomic::AtomicBool;
     use std::panic::{AssertUnwindSafe, catch_unwind};
     use std::thread;
 
@@ -226,25 +113,23 @@ mod tests {
         pool.build().unwrap()
     }
 
-    /// 1 + 2 + … + n, by halves of halves, each with somebody standing by.
+    /// 1 + 2 + … + n, by halves of halves.
     fn sum(numbers: core::ops::Range<u64>) -> u64 {
         let middle = numbers.start.midpoint(numbers.end);
         if middle == numbers.start {
             return middle;
         }
         let (mut lower, mut upper) = (0, 0);
-        let shared = with_one_standing_by(|| {
-            share(
-                || {
-                    lower = sum(numbers.start..middle);
-                    Ok(())
-                },
-                || {
-                    upper = sum(middle..numbers.end);
-                    Ok(())
-                },
-            )
-        });
+        let shared = share(
+            || {
+                lower = sum(numbers.start..middle);
+                Ok(())
+            },
+            || {
+                upper = sum(middle..numbers.end);
+                Ok(())
+            },
+        );
         assert_eq!(shared, Ok(()));
         lower + upper
     }
@@ -270,12 +155,6 @@ mod tests {
         });
     }
 
-    /// Nobody knows when a thread comes to stand by: it may be too late.
-    #[test]
-    fn nothing_stands_by_for_what_has_ended() {
-        standing_by::stand_by(&AtomicBool::new(true));
-    }
-
     #[test]
     fn what_is_shared_is_done_in_and_outside_of_pools() {
         for threads in [1, 2, 3] {
@@ -292,18 +171,6 @@ mod tests {
         });
     }
 
-    /// Else a thread would stand by for ever.
-    #[test]
-    fn ends_are_seen_however_work_ends() {
-        let (ended, unwound) = (AtomicBool::new(false), AtomicBool::new(false));
-        drop(standing_by::Ends(&ended));
-        let panicked = catch_unwind(|| {
-            let _ends = standing_by::Ends(&unwound);
-            panic!("on purpose");
-        });
-        assert!(panicked.is_err() && ended.into_inner() && unwound.into_inner());
-    }
-
     #[test]
     fn errors_panics_and_requests_are_heard_in_both_halves() {
         let refused = || Err(Error::Interrupted);
@@ -315,8 +182,6 @@ mod tests {
             let one = catch_unwind(AssertUnwindSafe(|| share(panics, || Ok(()))));
             let other = catch_unwind(AssertUnwindSafe(|| share(|| Ok(()), panics)));
             assert!(one.is_err() && other.is_err());
-            let whole = catch_unwind(|| with_one_standing_by(|| panic!("on purpose")));
-            assert!(whole.is_err());
             let interrupt = Interrupt::new();
             interrupt.request();
             assert_eq!(interrupt.during(|| share(|| Ok(()), check)), refused());

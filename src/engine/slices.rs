@@ -8,7 +8,7 @@ use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Region, Row};
 
-/// From so many spheres on a part of a layer is worth a thread that stands by.
+/// From so many spheres on a part of a layer is worth a thread.
 const WORTH_A_THREAD: usize = 1 << 12;
 
 const AS_LONG: &str = "slices are as long as the layer has spheres";
@@ -41,15 +41,6 @@ pub(crate) fn fill_rows<V: Send>(
     let parts = worth.min(parallel::threads()).max(1);
     let rows = *layer.y().start()..layer.y().end() + 1;
     fill_parts(parts, (layer, k), rows, slices, &write)
-}
-
-/// Does something that fills slices of so many numbers layer by layer, with a thread standing by if it does so by
-/// [`fill_rows`], and that is worth it.
-pub(crate) fn fill_layers<A>(by_rows: bool, numbers: usize, fill: impl FnOnce() -> A) -> A {
-    if by_rows && numbers >= 2 * WORTH_A_THREAD {
-        return parallel::with_one_standing_by(fill);
-    }
-    fill()
 }
 
 fn fill_parts<V: Send>(

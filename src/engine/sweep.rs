@@ -9,14 +9,13 @@ use core::ops::Range;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use super::cells::{Cells, are_worth_one_standing_by};
+use super::cells::Cells;
 use super::grid::{Grid, Layer, Pass};
 use super::interrupt::check as check_interrupt;
 use super::limbs::{Least, Planes};
 use super::lines::{Lines, Received};
 use super::meter::Meter;
 use super::nearest::{Readout, Unit};
-use super::parallel;
 use super::thirds::turned;
 use crate::Error;
 use crate::error::bug;
@@ -66,17 +65,6 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     /// # Errors
     /// [`Error::Bug`].
     pub(crate) fn advance(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
-        if k > self.k {
-            let shape = self.grid.shape;
-            let passes = shape.changes_above(k) - shape.changes_above(self.k);
-            if are_worth_one_standing_by(passes, &shape.layer(k)?) {
-                return parallel::with_one_standing_by(|| self.make_passes(k, meter));
-            }
-        }
-        self.make_passes(k, meter)
-    }
-
-    fn make_passes(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
         while k > self.k {
             check_interrupt()?;
             if self.k == self.grid.last {

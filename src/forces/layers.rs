@@ -19,7 +19,7 @@ use super::terms::Terms;
 use crate::Error;
 use crate::engine::{
     Cells, Descent, Meter, Method, Plan, Planes, Quantity, Received, Table, exact_sweep,
-    fill_layers, plain_sweep, received_in, split_front,
+    plain_sweep, received_in, split_front,
 };
 use crate::formula::triples;
 use crate::lattice::Row;
@@ -231,15 +231,11 @@ impl<'p, T: Algebra> Layers<'p, T> {
         check_lengths(self.slice_len()?, &slices)?;
         let mut rest = slices;
         self.ahead = self.above_the_floor();
-        // Exact numbers are written by one thread.
-        let by_rows = matches!(self.way, Way::Plain(_));
-        fill_layers(by_rows, rest[0].len(), || {
-            while let Some(layer) = self.next_layer()? {
-                let front = split_front(&mut rest, layer.sphere_count())?;
-                layer.fill(front)?;
-            }
-            Ok(())
-        })
+        while let Some(layer) = self.next_layer()? {
+            let front = split_front(&mut rest, layer.sphere_count())?;
+            layer.fill(front)?;
+        }
+        Ok(())
     }
 
     /// Writes what a table says of all layers still to come into slices.

@@ -14,7 +14,7 @@ use source::{Asked, Source};
 
 use super::layers::{Layer, Layers, check_lengths};
 use crate::Error;
-use crate::engine::{Table, Unit, fill_layers, split_front};
+use crate::engine::{Table, Unit, split_front};
 use crate::error::bug;
 use crate::lattice::{Row, Site};
 use crate::scalar::{NearestFloat, Surd};
@@ -184,17 +184,14 @@ impl<'p, F: NearestFloat> NearestLayers<'p, F> {
         }
         check_lengths(self.slice_len()?, &slices)?;
         let mut rest = slices;
-        let by_rows = self.layers.exact_sweep().is_some();
-        fill_layers(by_rows, rest[0].len(), || {
-            while let Some(layer) = self.next_layer()? {
-                if layer.is_floor() {
-                    break;
-                }
-                let front = split_front(&mut rest, layer.sphere_count())?;
-                layer.fill(front)?;
+        while let Some(layer) = self.next_layer()? {
+            if layer.is_floor() {
+                break;
             }
-            Ok(())
-        })
+            let front = split_front(&mut rest, layer.sphere_count())?;
+            layer.fill(front)?;
+        }
+        Ok(())
     }
 
     /// Writes the forces below consecutive spheres of a row into slices, one for each direction: for what is larger than
