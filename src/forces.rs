@@ -24,6 +24,7 @@ pub use layers::{Layer, Layers};
 pub(crate) use nearest::Units;
 pub use nearest::{NearestLayer, NearestLayers};
 pub use numerators::{NumeratorLayer, NumeratorLayers};
+pub use walk::Answers;
 
 use crate::engine::{
     Counters, Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact,
@@ -37,6 +38,7 @@ use crate::shape::{Rows, Selection};
 use crate::{Error, Pile};
 
 use terms::{Terms, edge, edge_all, of_direction};
+use walk::Walk;
 
 /// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
 ///
@@ -375,7 +377,10 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T>, Error> {
-        Contacts::new(self, part)
+        let rows = self.pile.rows(part)?.off_the_floor();
+        let by_site = self.pile.dimension().directions().len();
+        let asked = (Quantity::ContactMultiples, by_site);
+        Answers::new(self, rows, asked, Walk::contacts_in)
     }
 
     /// Returns the forces of bottom spheres on the floor, one by one in row order.
@@ -395,7 +400,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn base(&self, part: Selection) -> Result<FloorForces<'p, T>, Error> {
-        FloorForces::new(self, part)
+        let rows = self.pile.rows(part)?;
+        Answers::new(self, rows, (Quantity::FloorMultiples, 1), Walk::on_floor_in)
     }
 
     /// Walks down the layers of `part`. Each layer writes its contact forces, in f₀, into slices of yours. The fastest way to
@@ -528,7 +534,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// Returns the forces to the spheres below.
     fn passed_on(&self, site: Site) -> Result<Received<T>, Error> {
         self.check_off_the_floor(site)?;
-        self.terms.passed_on(site, self.method, self.meter)
+        let above = self.received(site, Wanted::All)?;
+        Ok(self.terms.lines.to_below(site, above, self.meter))
     }
 
     /// Errors unless the pile has the site and it rests on spheres.

@@ -179,7 +179,7 @@ pub use error::Error;
 #[cfg_attr(docsrs, doc(cfg(feature = "rayon")))]
 pub use forces::parallel;
 pub use forces::{
-    ContactForce, Contacts, FloorForce, FloorForces, Forces, Layer, Layers, NearestLayer,
+    Answers, ContactForce, Contacts, FloorForce, FloorForces, Forces, Layer, Layers, NearestLayer,
     NearestLayers, NumeratorLayer, NumeratorLayers,
 };
 pub use packing::{PackedContact, Packing, Places};

@@ -406,7 +406,9 @@ pub(super) fn limbs(value: &BigInt, planes: usize) -> Option<Vec<i64>> {
 mod tests {
     use super::*;
     use crate::Pile;
-    use crate::engine::{Cells, Descent, Lines, exact_sweep, plain_sweep};
+    use crate::engine::rows::exact_sweep;
+    use crate::engine::single::plain_sweep;
+    use crate::engine::{Cells, Descent, Lines};
     use crate::lattice::{Dimension, Region, Site};
     use crate::shape::Shape;
 

@@ -238,7 +238,8 @@ mod tests {
 
     use super::*;
     use crate::Pile;
-    use crate::engine::{Lines, exact_sweep};
+    use crate::engine::Lines;
+    use crate::engine::rows::exact_sweep;
     use crate::formula::tripled_half_turn;
     use crate::lattice::Region;
 

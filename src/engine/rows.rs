@@ -17,8 +17,7 @@ use super::sweep::Descent;
 use super::thirds::are_thirds_alike;
 use super::tree::Wanted;
 use crate::Error;
-use crate::error::bug;
-use crate::lattice::{Row, Site};
+use crate::lattice::Row;
 use crate::pile::System;
 use crate::scalar::Algebra;
 use crate::shape::Rows;
@@ -29,17 +28,9 @@ pub(crate) enum Engine<'p, T: Algebra, L> {
     /// Each sphere by itself.
     Single(Option<Method>),
     /// A piece of a row at a time.
-    Tree(Option<Piece<T>>),
+    Tree,
     /// One layer in memory.
     Sweep(Box<Descent<'p, T, L>>),
-}
-
-/// Consecutive spheres of a row with the forces from above on them.
-#[derive(Clone, Debug)]
-pub(crate) struct Piece<T: Algebra> {
-    first: Site,
-    forces: Vec<[T::Numerator; 3]>,
-    changes: usize,
 }
 
 impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
@@ -49,52 +40,13 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         sweep: impl FnOnce(i128) -> Result<Descent<'p, T, L>, Error>,
     ) -> Result<Self, Error> {
         Ok(match plan.method {
-            Method::Tree if rows.one().is_none() => Self::Tree(None),
+            Method::Tree if rows.one().is_none() => Self::Tree,
             // A method that is cheapest is found again for each sphere, with what it falls back on.
             method @ (Method::Closed | Method::Tree) => Self::Single(Some(method)),
             Method::Sweep => Self::Sweep(Box::new(sweep(last_of(rows))?)),
         })
     }
 
-    /// Returns the forces from above on a sphere, which is not above the one asked before.
-    pub(crate) fn received(
-        &mut self,
-        pile: (&Lines<'p, T>, &System<'p>),
-        site: Site,
-        meter: Meter<'_>,
-    ) -> Result<Received<T>, Error> {
-        match self {
-            Self::Single(method) => received(pile, (site, Wanted::All), *method, meter),
-            Self::Tree(piece) => Piece::at(piece, pile.0, site, meter),
-            Self::Sweep(sweep) => {
-                sweep.advance(site.k, meter)?;
-                meter.visit(1);
-                sweep.received(site)
-            }
-        }
-    }
-
-    /// Returns the forces to the spheres below one, which is not above the one asked before and not on the floor.
-    pub(crate) fn passed_on(
-        &mut self,
-        pile: (&Lines<'p, T>, &System<'p>),
-        site: Site,
-        meter: Meter<'_>,
-    ) -> Result<Received<T>, Error> {
-        if let Self::Sweep(sweep) = self {
-            // Where the sign changes the cells are turned already.
-            sweep.advance(site.k, meter)?;
-            meter.visit(1);
-            return sweep.passed_on(site, meter);
-        }
-        let above = self.received(pile, site, meter)?;
-        Ok(pile.0.to_below(site, above, meter))
-    }
-}
-
-/// For the threads that share a layer.
-#[cfg(feature = "rayon")]
-impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     pub(crate) const fn is_sweep(&self) -> bool {
         matches!(self, Self::Sweep(_))
     }
@@ -102,7 +54,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     /// Returns how many spheres of a row are best asked for at once: what a tree shares among them, or what a cache holds.
     pub(crate) const fn sites_at_once(&self) -> i128 {
         match self {
-            Self::Tree(_) => CHUNK,
+            Self::Tree => CHUNK,
             Self::Single(_) | Self::Sweep(_) => 64,
         }
     }
@@ -114,7 +66,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     pub(crate) fn go_down_to(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
         match self {
             Self::Sweep(sweep) => sweep.advance(k, meter),
-            Self::Single(_) | Self::Tree(_) => Ok(()),
+            Self::Single(_) | Self::Tree => Ok(()),
         }
     }
 
@@ -129,7 +81,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         let one = |method, site| received(pile, (site, Wanted::All), method, meter);
         match self {
             Self::Single(method) => sites.map(|site| one(*method, site)).collect(),
-            Self::Tree(_) => match received_in(pile.0, piece, meter) {
+            Self::Tree => match received_in(pile.0, piece, meter) {
                 Ok(received) => received.into_iter().map(Ok).collect(),
                 Err(error) => sites.map(|_| Err(error.clone())).collect(),
             },
@@ -212,7 +164,7 @@ pub(crate) fn exact_sweep<'p>(
 ///
 /// # Errors
 /// [`Error::TooLarge`] if they are too far below too many changes of sign.
-pub(crate) fn received_in<T: Algebra>(
+fn received_in<T: Algebra>(
     lines: &Lines<'_, T>,
     row: &Row,
     meter: Meter<'_>,
@@ -243,39 +195,4 @@ pub(crate) fn shortest_exact_sweep<'p>(
     let grid = Grid::of_thirds(lines.shape, last, system.size_of_sweep(last).planes)?;
     let layer = Planes::new(&grid, system.bound_of_sweep(last));
     Ok(Descent::new(lines.clone(), grid, layer))
-}
-
-impl<T: Algebra> Piece<T> {
-    /// Returns the forces from above on a sphere: from the piece it is in, or from a new one that begins with it.
-    fn at(
-        piece: &mut Option<Self>,
-        lines: &Lines<'_, T>,
-        site: Site,
-        meter: Meter<'_>,
-    ) -> Result<Received<T>, Error> {
-        if let Some(found) = piece.as_ref().and_then(|piece| piece.get(site)) {
-            return Ok(found);
-        }
-        let Site { i, j, k } = site;
-        let end = lines.shape.layer(k)?.row(j).end;
-        let sites: Vec<[i128; 2]> = (i..end.min(i + CHUNK)).map(|i| [i, j]).collect();
-        let above = by_tree(lines, k, &sites, Wanted::All, meter)?;
-        let new = piece.insert(Self {
-            first: site,
-            forces: above.forces,
-            changes: above.changes,
-        });
-        new.get(site)
-            .ok_or_else(|| bug("a piece of a row begins with the sphere asked for"))
-    }
-
-    fn get(&self, site: Site) -> Option<Received<T>> {
-        let same_row = (site.k, site.j) == (self.first.k, self.first.j);
-        let place = usize::try_from(site.i.checked_sub(self.first.i)?).ok()?;
-        let forces = self.forces.get(place).filter(|_| same_row)?;
-        Some(Received {
-            forces: forces.clone(),
-            changes: self.changes,
-        })
-    }
 }

@@ -220,7 +220,7 @@ mod tests {
 
     use super::*;
     use crate::Pile;
-    use crate::engine::exact_sweep;
+    use crate::engine::rows::exact_sweep;
     use crate::scalar::Surd;
 
     fn pile() -> Pile {

@@ -183,7 +183,8 @@ mod tests {
 
     use super::*;
     use crate::Pile;
-    use crate::engine::{Cells, Descent, Lines, exact_sweep, shortest_exact_sweep};
+    use crate::engine::rows::{exact_sweep, shortest_exact_sweep};
+    use crate::engine::{Cells, Descent, Lines};
 
     /// One sphere, six-sided and three-sided tops, one elsewhere, and a base; changes everywhere, seldom, and mixed.
     fn piles() -> Vec<Pile> {

@@ -1,21 +1,15 @@
 //! Forces on the floor.
 
 use core::fmt;
-use core::iter::FusedIterator;
 
 use exact_surd::layout::{padded, part};
 
-use super::Forces;
-use super::walk::Walk;
-use crate::Error;
-use crate::engine::{Meter, Plan, Quantity};
+use super::Answers;
 use crate::lattice::Site;
-use crate::scalar::Algebra;
-use crate::shape::{Selection, Sites};
 
 /// The force of one bottom sphere on the floor.
 ///
-/// Paper, (13) and (14). In the units below from [`Forces`]; from a [`Packing`](crate::Packing) all three in units of
+/// Paper, (13) and (14). In the units below from [`Forces`](crate::Forces); from a [`Packing`](crate::Packing) all three in units of
 /// force.
 ///
 /// # Examples
@@ -87,7 +81,7 @@ impl<T: fmt::Display> fmt::Display for FloorForce<T> {
 
 /// The forces of bottom spheres on the floor, one by one in row order.
 ///
-/// Made by [`Forces::base`]. An item is an error if the scalar overflows.
+/// Made by [`Forces::base`](crate::Forces::base). An item is an error if the scalar overflows.
 ///
 /// # Examples
 /// ```
@@ -99,60 +93,7 @@ impl<T: fmt::Display> fmt::Display for FloorForce<T> {
 /// assert!(base.iter().all(|force| force.normal == 4.0));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug)]
-#[must_use = "iterators are lazy and do nothing unless consumed"]
-pub struct FloorForces<'p, T: Algebra> {
-    plan: Plan,
-    sites: Sites<'p>,
-    walk: Walk<'p, T>,
-    meter: Meter<'p>,
-}
-
-impl<'p, T: Algebra> FloorForces<'p, T> {
-    pub(super) fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
-        let rows = forces.pile.rows(part)?;
-        let plan = forces.plan(&rows, Quantity::FloorMultiples)?;
-        Ok(Self {
-            walk: Walk::new(&plan, &rows, &forces.terms)?,
-            plan,
-            sites: rows.sites(),
-            meter: forces.meter,
-        })
-    }
-
-    /// Returns how the forces are found, and what that takes at most.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::{Method, Pile};
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let base = pile.forces::<f64>().base(Selection::Base)?;
-    /// assert_eq!(base.plan().method, Method::Closed);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-}
-
-impl<T: Algebra> Iterator for FloorForces<'_, T> {
-    type Item = Result<FloorForce<T>, Error>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let site = self.sites.next()?;
-        self.meter.answer(1);
-        Some(self.walk.on_floor(site, self.meter))
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        self.sites.size_hint()
-    }
-}
-
-impl<T: Algebra> FusedIterator for FloorForces<'_, T> {}
+pub type FloorForces<'p, T> = Answers<'p, T, FloorForce<T>>;
 
 #[cfg(test)]
 mod tests {

@@ -1,17 +1,11 @@
 //! Forces between spheres.
 
 use core::fmt;
-use core::iter::{FusedIterator, Zip};
 
 use exact_surd::layout::{padded, part};
 
-use super::Forces;
-use super::walk::Walk;
-use crate::Error;
-use crate::engine::{Meter, Plan, Quantity};
+use super::Answers;
 use crate::lattice::{Direction, Site};
-use crate::scalar::Algebra;
-use crate::shape::{Selection, Sites, exact_hint};
 
 /// The force of contact between a sphere and the one below it.
 ///
@@ -62,7 +56,7 @@ impl<T: fmt::Display> fmt::Display for ContactForce<T> {
 
 /// The contact forces of a part of a pile, one by one in row order: of each sphere those with the spheres below it.
 ///
-/// Made by [`Forces::contacts`]. An item is an error if the scalar overflows.
+/// Made by [`Forces::contacts`](crate::Forces::contacts). An item is an error if the scalar overflows.
 ///
 /// # Examples
 /// ```
@@ -75,87 +69,7 @@ impl<T: fmt::Display> fmt::Display for ContactForce<T> {
 /// assert_eq!(contacts.count(), 495);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug)]
-#[must_use = "iterators are lazy and do nothing unless consumed"]
-pub struct Contacts<'p, T: Algebra> {
-    plan: Plan,
-    sites: Sites<'p>,
-    walk: Walk<'p, T>,
-    directions: &'static [Direction],
-    /// The sphere that was reached, and its forces that were not given yet.
-    reached: Option<(Site, Below<T>)>,
-    meter: Meter<'p>,
-}
-
-/// The forces below a sphere, with their directions.
-type Below<T> =
-    Zip<core::array::IntoIter<Result<T, Error>, 3>, core::slice::Iter<'static, Direction>>;
-
-impl<'p, T: Algebra> Contacts<'p, T> {
-    pub(super) fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
-        let rows = forces.pile.rows(part)?.off_the_floor();
-        let plan = forces.plan(&rows, Quantity::ContactMultiples)?;
-        Ok(Self {
-            walk: Walk::new(&plan, &rows, &forces.terms)?,
-            plan,
-            sites: rows.sites(),
-            directions: forces.pile.dimension().directions(),
-            reached: None,
-            meter: forces.meter,
-        })
-    }
-
-    /// Returns how the forces are found, and what that takes at most.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::{Method, Pile};
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let contacts = Pile::triangular(10)?;
-    /// let contacts = contacts.forces::<f64>().contacts(Selection::Layer(3))?;
-    /// assert_eq!(contacts.plan().method, Method::Closed);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-}
-
-impl<T: Algebra> Iterator for Contacts<'_, T> {
-    type Item = Result<ContactForce<T>, Error>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        loop {
-            if let Some((site, below)) = &mut self.reached
-                && let Some((force, &direction)) = below.next()
-            {
-                let site = *site;
-                return Some(force.map(|force| ContactForce {
-                    site,
-                    direction,
-                    force,
-                }));
-            }
-            let site = self.sites.next()?;
-            self.meter.answer(self.directions.len());
-            let forces = match self.walk.passed_on(site, self.meter) {
-                Ok(forces) => forces.map(Ok),
-                Err(error) => [(); 3].map(|()| Err(error.clone())),
-            };
-            self.reached = Some((site, forces.into_iter().zip(self.directions)));
-        }
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        let reached = self.reached.iter().map(|(_, below)| below.len());
-        let further = self.sites.remaining() * self.directions.len();
-        exact_hint(&reached.fold(further, |further, reached| further + reached))
-    }
-}
-
-impl<T: Algebra> FusedIterator for Contacts<'_, T> {}
+pub type Contacts<'p, T> = Answers<'p, T, ContactForce<T>>;
 
 #[cfg(test)]
 mod tests {

@@ -89,12 +89,12 @@ impl Forces<'_, BigRational> {
                     }
                 }
             } else {
-                let mut engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
-                for site in rows.flatten() {
-                    meet(
-                        site,
-                        &engine.received((lines, &terms.system), site, Meter::NONE)?,
-                    );
+                let engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
+                for row in rows {
+                    let received = engine.received_in((lines, &terms.system), &row, Meter::NONE);
+                    for (site, above) in row.into_iter().zip(received) {
+                        meet(site, &above?);
+                    }
                 }
             }
         }

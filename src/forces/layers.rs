@@ -5,7 +5,6 @@ mod layer;
 
 pub use layer::Layer;
 
-use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
@@ -16,11 +15,12 @@ use num_traits::ToPrimitive;
 
 use super::Forces;
 use super::terms::Terms;
+use super::walk::Walk;
 use crate::Error;
 use crate::engine::{
-    Cells, Descent, Meter, Method, Plan, Planes, Quantity, Received, Table, exact_sweep,
-    plain_sweep, received_in, split_front,
+    Descent, Engine, Meter, Method, Plan, Planes, Quantity, Received, Table, split_front,
 };
+use crate::error::bug;
 use crate::formula::triples;
 use crate::lattice::Row;
 use crate::pile::System;
@@ -44,7 +44,9 @@ use crate::shape::{Selection, Shape};
 /// ```
 pub struct Layers<'p, T: Algebra> {
     pub(super) terms: Terms<'p, T>,
-    way: Way<'p, T>,
+    walk: Walk<'p, T>,
+    /// The distinct forces of a straight pile, which are copied.
+    pub(super) table: Option<Table<T>>,
     /// The layers still to come.
     ahead: Range<i128>,
     /// The layer that was reached.
@@ -56,50 +58,20 @@ pub struct Layers<'p, T: Algebra> {
     meter: Meter<'p>,
 }
 
-/// How the layers are gone through.
-enum Way<'p, T: Algebra> {
-    /// By copying the distinct forces of a straight pile.
-    Table(Box<Table<T>>),
-    /// Sphere by sphere, or by the lines that lead to pieces of a row.
-    Single {
-        method: Option<Method>,
-        in_pieces: bool,
-    },
-    /// By a sweep in the numerators of the scalar.
-    Plain(Box<Descent<'p, T, Cells<T::Numerator>>>),
-    /// By a sweep in the limbs of the exact engine.
-    Exact(
-        Box<Terms<'p, BigRational>>,
-        Box<Descent<'p, BigRational, Planes>>,
-    ),
-}
-
 impl<'p, T: Algebra> Layers<'p, T> {
     pub(super) fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
         let (pile, terms) = (forces.pile, forces.terms.clone());
-        let floor = pile.layers() - 1;
         let part = match part {
             Selection::One(site) => Selection::Layer(pile.shape().check(site)?.k),
             part => part,
         };
         let rows = pile.rows(part)?;
-        let ahead = match part {
-            Selection::All => 0..floor + 1,
-            Selection::Base => floor..floor + 1,
-            // The pile has rows of it, so one more is no overflow.
-            Selection::Layer(k) => k..k + 1,
-            Selection::One(site) => site.k..site.k + 1,
-        };
+        let ahead = rows.layers();
         // Of the contacts there is nothing on the floor; what leads to it is the same.
-        let quantity = Quantity::ContactMultiples;
-        let plan = terms.system.plan(
-            &rows,
-            quantity,
-            forces.method,
-            crate::engine::Keeping::of::<T>(),
-        )?;
+        let plan = forces.plan(&rows, Quantity::ContactMultiples)?;
         Ok(Self {
-            way: Way::of(&plan, &terms, forces.method, ahead.end - 1)?,
+            walk: Walk::new(&plan, &rows, &terms)?,
+            table: table(&plan, &terms, ahead.end - 1)?,
             may_overflow: may_overflow::<T>(&terms.system, ahead.end - 1),
             terms,
             ahead,
@@ -136,12 +108,12 @@ impl<'p, T: Algebra> Layers<'p, T> {
         let region = self.shape().layer(k)?;
         let sites = region.site_count();
         let Some(spheres) = sites.to_usize() else {
-            return Err(Error::TooLarge {
-                quantity: "a layer",
-                needed: sites,
-                limit: usize::MAX as u64,
-                remedy: "ask for one sphere",
-            });
+            return Err(Error::too_large(
+                "a layer",
+                sites,
+                usize::MAX as u64,
+                "ask for one sphere",
+            ));
         };
         Ok(Some(Layer {
             layers: self,
@@ -166,14 +138,8 @@ impl<'p, T: Algebra> Layers<'p, T> {
             };
             return Err(Error::OtherLayer { layer: k, at });
         }
-        match &mut self.way {
-            Way::Table(_) | Way::Single { .. } => {}
-            Way::Plain(sweep) => {
-                sweep.advance(k, self.meter)?;
-                self.stops += 1;
-            }
-            Way::Exact(_, sweep) => sweep.advance(k, self.meter)?,
-        }
+        self.walk.go_down_to(k, self.meter)?;
+        self.stops += usize::from(self.walk.is_sweep());
         (self.at, self.ahead.start) = (Some(k), k + 1);
         Ok(())
     }
@@ -196,12 +162,12 @@ impl<'p, T: Algebra> Layers<'p, T> {
     /// ```
     pub fn slice_len(&self) -> Result<usize, Error> {
         let spheres = self.shape().spheres_in(self.above_the_floor());
-        spheres.to_usize().ok_or(Error::TooLarge {
-            quantity: "all contact forces",
-            needed: spheres,
-            limit: usize::MAX as u64,
-            remedy: "fill layer by layer",
-        })
+        spheres.to_usize().ok_or(Error::too_large(
+            "all contact forces",
+            spheres,
+            usize::MAX as u64,
+            "fill layer by layer",
+        ))
     }
 
     /// Writes the contact forces of all layers still to come into slices, one for each direction, layer after layer, in f₀;
@@ -225,15 +191,24 @@ impl<'p, T: Algebra> Layers<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill(mut self, slices: [&mut [T]; 3]) -> Result<(), Error> {
-        if let Way::Table(table) = &self.way {
+        if let Some(table) = &self.table {
             return self.fill_from_table(table, slices);
         }
+        self.fill_each(slices, |layer, [a, b, c]| layer.fill([a, b, c]))
+    }
+
+    /// Has each layer still to come that is above the floor written into its part of the slices.
+    pub(super) fn fill_each<V>(
+        &mut self,
+        slices: [&mut [V]; 3],
+        fill: impl Fn(&Layer<'_, 'p, T>, [&mut [V]; 3]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         check_lengths(self.slice_len()?, &slices)?;
         let mut rest = slices;
         self.ahead = self.above_the_floor();
         while let Some(layer) = self.next_layer()? {
             let front = split_front(&mut rest, layer.sphere_count())?;
-            layer.fill(front)?;
+            fill(&layer, front)?;
         }
         Ok(())
     }
@@ -251,19 +226,6 @@ impl<'p, T: Algebra> Layers<'p, T> {
     /// The most increments that a contact force of the part is.
     pub(super) fn most_increments(&self) -> i128 {
         most_increments(self.shape(), self.ahead.end - 1)
-    }
-
-    /// Whether the layers are filled from the distinct forces of a straight pile.
-    pub(super) fn is_from_table(&self) -> bool {
-        self.table().is_some()
-    }
-
-    /// Returns the distinct forces, if the layers are filled from them.
-    pub(super) fn table(&self) -> Option<&Table<T>> {
-        match &self.way {
-            Way::Table(table) => Some(table),
-            _ => None,
-        }
     }
 
     pub(super) fn above_the_floor(&self) -> Range<i128> {
@@ -290,48 +252,25 @@ fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
 /// Errors unless each slice has as many elements as are needed.
 pub(crate) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
     match slices.iter().find(|slice| slice.len() != needed) {
-        Some(slice) => Err(Error::Length {
-            needed,
-            given: slice.len(),
-        }),
+        Some(slice) => Err(Error::length(needed, slice.len())),
         None => Ok(()),
     }
 }
 
-impl<'p, T: Algebra> Way<'p, T> {
-    fn of(
-        plan: &Plan,
-        terms: &Terms<'p, T>,
-        method: Option<Method>,
-        last: i128,
-    ) -> Result<Self, Error> {
-        let Terms { lines, system, .. } = terms;
-        if plan.method == Method::Sweep {
-            if T::EXACTNESS == Exactness::Exact {
-                let terms = Terms::<BigRational>::new(system.clone());
-                let sweep = exact_sweep(&terms.lines, &terms.system, last)?;
-                return Ok(Self::Exact(Box::new(terms), Box::new(sweep)));
-            }
-            let sweep = plain_sweep(lines, system, last)?;
-            return Ok(Self::Plain(Box::new(sweep)));
-        }
-        let scale = lines.scale(0);
-        let multiple = |n: i128, line: usize| {
-            let force = lines.ordinary(T::Numerator::from_i128(n), line);
-            super::edge("a contact force", force, &scale)
-        };
-        let table = match plan.method {
-            Method::Closed => Table::new(system, most_increments(system.shape, last), multiple)?,
-            Method::Tree | Method::Sweep => None,
-        };
-        Ok(match table {
-            Some(table) => Self::Table(Box::new(table)),
-            None => Self::Single {
-                method,
-                in_pieces: plan.method == Method::Tree,
-            },
-        })
+/// Returns the distinct forces of a straight pile down to layer `last`, if they are few.
+fn table<T: Algebra>(
+    plan: &Plan,
+    Terms { lines, system, .. }: &Terms<'_, T>,
+    last: i128,
+) -> Result<Option<Table<T>>, Error> {
+    if plan.method != Method::Closed {
+        return Ok(None);
     }
+    let scale = lines.scale(0);
+    Table::new(system, most_increments(system.shape, last), |n, line| {
+        let force = lines.ordinary(T::Numerator::from_i128(n), line);
+        super::edge("a contact force", force, &scale)
+    })
 }
 
 /// The most increments on a line of contacts down to layer `last`.
@@ -352,45 +291,31 @@ impl<'p> Layers<'p, BigRational> {
 
     /// Returns the forces from above on consecutive spheres of a row of the layer that was reached.
     pub(super) fn received_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
-        let (terms, meter) = (&self.terms, self.meter);
-        let sites = row.clone().into_iter();
-        match &self.way {
-            Way::Exact(_, sweep) => sites.map(|site| sweep.received(site)).collect(),
-            Way::Plain(sweep) => sites.map(|site| sweep.received(site)).collect(),
-            Way::Single {
-                in_pieces: true, ..
-            } => received_in(&terms.lines, row, meter),
-            Way::Single { method, .. } => sites
-                .map(|site| terms.received(site, *method, meter))
-                .collect(),
-            Way::Table(_) => sites
-                .map(|site| terms.received(site, None, meter))
-                .collect(),
-        }
+        let (terms, engine) = self.exact()?;
+        let system = (&terms.lines, &terms.system);
+        let received = engine.received_in(system, row, self.meter);
+        received.into_iter().collect()
     }
 
     /// Returns the forces to the spheres below consecutive ones of a row of the layer that was reached.
     pub(super) fn passed_on_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
-        let meter = self.meter;
-        let sites = row.clone().into_iter();
-        match &self.way {
-            // Where the sign changes the cells are turned already.
-            Way::Exact(_, sweep) => sites.map(|site| sweep.passed_on(site, meter)).collect(),
-            Way::Plain(sweep) => sites.map(|site| sweep.passed_on(site, meter)).collect(),
-            Way::Table(_) | Way::Single { .. } => {
-                let above = self.received_in(row)?.into_iter();
-                let below = |(site, above)| self.terms.lines.to_below(site, above, meter);
-                Ok(sites.zip(above).map(below).collect())
-            }
+        let (terms, engine) = self.exact()?;
+        let system = (&terms.lines, &terms.system);
+        let below = engine.passed_on_in(system, row, self.meter);
+        below.into_iter().collect()
+    }
+
+    fn exact(&self) -> Result<(&Terms<'p, BigRational>, &Engine<'p, BigRational, Planes>), Error> {
+        match &self.walk {
+            Walk::Exact(terms, engine) => Ok((terms, engine)),
+            Walk::Plain(..) => Err(bug("rationals are computed by the exact engine")),
         }
     }
 
-    /// Returns the sweep in limbs, if there is one, and what its numbers are made of.
-    pub(super) fn exact_sweep(
-        &self,
-    ) -> Option<(&Terms<'p, BigRational>, &Descent<'p, BigRational, Planes>)> {
-        match &self.way {
-            Way::Exact(terms, sweep) => Some((terms, sweep)),
+    /// Returns the sweep in limbs, if there is one.
+    pub(super) fn exact_sweep(&self) -> Option<&Descent<'p, BigRational, Planes>> {
+        match &self.walk {
+            Walk::Exact(_, Engine::Sweep(sweep)) => Some(sweep),
             _ => None,
         }
     }

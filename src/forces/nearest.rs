@@ -6,6 +6,7 @@ pub(crate) use source::Units;
 
 use alloc::vec::Vec;
 use core::fmt;
+use core::ops::Deref;
 
 use num_rational::BigRational;
 use num_traits::One;
@@ -14,7 +15,7 @@ use source::{Asked, Source};
 
 use super::layers::{Layer, Layers, check_lengths};
 use crate::Error;
-use crate::engine::{Table, Unit, split_front};
+use crate::engine::{Table, Unit};
 use crate::error::bug;
 use crate::lattice::{Row, Site};
 use crate::scalar::{NearestFloat, Surd};
@@ -182,16 +183,10 @@ impl<'p, F: NearestFloat> NearestLayers<'p, F> {
         if let Some(table) = &self.table {
             return self.layers.fill_from_table(table, slices);
         }
-        check_lengths(self.slice_len()?, &slices)?;
-        let mut rest = slices;
-        while let Some(layer) = self.next_layer()? {
-            if layer.is_floor() {
-                break;
-            }
-            let front = split_front(&mut rest, layer.sphere_count())?;
-            layer.fill(front)?;
-        }
-        Ok(())
+        let units = &self.units;
+        self.layers.fill_each(slices, |layer, slices| {
+            layer.fill_nearest(units, Asked::Contacts, slices)
+        })
     }
 
     /// Writes the forces below consecutive spheres of a row into slices, one for each direction: for what is larger than
@@ -337,60 +332,6 @@ impl<'p, F: NearestFloat> NearestLayers<'p, F> {
 }
 
 impl<F: NearestFloat> NearestLayer<'_, '_, F> {
-    /// Returns the number of the layer, counted from 0 at the top.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.nearest::<f64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.k()), Some(3));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn k(&self) -> i128 {
-        self.layer.k()
-    }
-
-    /// Returns the number of spheres of the layer: the length of each slice to fill.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.nearest::<f64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.sphere_count()), Some(10));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn sphere_count(&self) -> usize {
-        self.layer.sphere_count()
-    }
-
-    /// Whether the layer is the one on the floor, which has no contacts below it.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.nearest::<f64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.is_floor()), Some(true));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn is_floor(&self) -> bool {
-        self.layer.is_floor()
-    }
-
     /// Writes the forces below the layer into slices, one for each direction, row after row, each the float nearest to the
     /// exact force; zero along γ for discs.
     ///
@@ -417,7 +358,7 @@ impl<F: NearestFloat> NearestLayer<'_, '_, F> {
             return self.layer.fill_from_table(table, slices);
         }
         self.layer.check_above_the_floor()?;
-        self.write(Asked::Contacts, slices)
+        self.layer.fill_nearest(self.units, Asked::Contacts, slices)
     }
 
     /// Writes the forces of the bottom layer on the floor into slices, row after row: normal, shear along x and shear
@@ -442,13 +383,15 @@ impl<F: NearestFloat> NearestLayer<'_, '_, F> {
     /// ```
     pub fn fill_base(&self, slices: [&mut [F]; 3]) -> Result<(), Error> {
         self.layer.check_on_the_floor()?;
-        self.write(Asked::Floor, slices)
+        self.layer.fill_nearest(self.units, Asked::Floor, slices)
     }
+}
 
-    fn write(&self, asked: Asked, slices: [&mut [F]; 3]) -> Result<(), Error> {
-        check_lengths(self.sphere_count(), &slices)?;
-        let source = self.layer.layers.source(self.units, asked, self.k())?;
-        self.layer.write((asked, &source), slices)
+impl<'l, 'p, F> Deref for NearestLayer<'l, 'p, F> {
+    type Target = Layer<'l, 'p, BigRational>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.layer
     }
 }
 

@@ -2,13 +2,14 @@
 
 use core::any::type_name;
 use core::fmt;
+use core::ops::Deref;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::layers::{Layer, Layers, check_lengths};
+use super::layers::{Layer, Layers};
 use crate::Error;
-use crate::engine::{Table, split_front};
+use crate::engine::Table;
 
 /// A way down through the layers of a part of a pile, in integers `V` over a denominator that a layer shares.
 ///
@@ -145,78 +146,17 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayers<'p, V> {
     /// ```
     pub fn fill(mut self, slices: [&mut [V]; 3]) -> Result<BigInt, Error> {
         let lowest = self.layers.lowest_denominator();
-        if let Some(table) = &self.table {
-            self.layers.fill_from_table(table, slices)?;
-            return Ok(lowest);
-        }
-        check_lengths(self.slice_len()?, &slices)?;
-        let mut rest = slices;
-        while let Some(layer) = self.next_layer()? {
-            if layer.is_floor() {
-                break;
-            }
-            let front = split_front(&mut rest, layer.sphere_count())?;
-            layer.fill_over(&lowest, front)?;
+        match &self.table {
+            Some(table) => self.layers.fill_from_table(table, slices)?,
+            None => self
+                .layers
+                .fill_each(slices, |layer, slices| fill_over(layer, &lowest, slices))?,
         }
         Ok(lowest)
     }
 }
 
 impl<V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayer<'_, '_, V> {
-    /// Returns the number of the layer, counted from 0 at the top.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.numerators::<i64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.k()), Some(3));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn k(&self) -> i128 {
-        self.layer.k()
-    }
-
-    /// Returns the number of spheres of the layer: the length of each slice to fill.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.numerators::<i64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.sphere_count()), Some(10));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn sphere_count(&self) -> usize {
-        self.layer.sphere_count()
-    }
-
-    /// Whether the layer is the one on the floor, which has no contacts below it.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.numerators::<i64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.is_floor()), Some(true));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn is_floor(&self) -> bool {
-        self.layer.is_floor()
-    }
-
     /// Returns the denominator of the forces below the layer, in f₀.
     ///
     /// # Examples
@@ -261,20 +201,32 @@ impl<V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayer<'_, '_, V> {
         if let Some(table) = self.table {
             return self.layer.fill_from_table(table, slices);
         }
-        self.fill_over(&self.denominator(), slices)
+        fill_over(&self.layer, &self.denominator(), slices)
     }
+}
 
-    /// Writes numerators over a multiple of the denominator.
-    fn fill_over(&self, denominator: &BigInt, slices: [&mut [V]; 3]) -> Result<(), Error> {
-        let factor = denominator / self.denominator();
-        self.layer.fill_numerators(slices, |[a, b, c]| {
-            Ok([
-                numerator(a * &factor)?,
-                numerator(b * &factor)?,
-                numerator(c * &factor)?,
-            ])
-        })
+impl<'l, 'p, V> Deref for NumeratorLayer<'l, 'p, V> {
+    type Target = Layer<'l, 'p, BigRational>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.layer
     }
+}
+
+/// Writes the numerators over a multiple of the denominator of a layer.
+fn fill_over<V: TryFrom<BigInt>>(
+    layer: &Layer<'_, '_, BigRational>,
+    denominator: &BigInt,
+    slices: [&mut [V]; 3],
+) -> Result<(), Error> {
+    let factor = denominator / layer.denominator();
+    layer.fill_numerators(slices, |[a, b, c]| {
+        Ok([
+            numerator(a * &factor)?,
+            numerator(b * &factor)?,
+            numerator(c * &factor)?,
+        ])
+    })
 }
 
 fn numerator<V: TryFrom<BigInt>>(numerator: BigInt) -> Result<V, Error> {

@@ -56,35 +56,7 @@ pub fn contacts<'p, T: Algebra>(
     part: Selection,
 ) -> Result<impl ParallelIterator<Item = Result<ContactForce<T>, Error>> + use<'p, T>, Error> {
     let rows = forces.pile.rows(part)?.off_the_floor();
-    let directions = forces.pile.dimension().directions();
-    let answer = |walk: &Walk<'p, T>, piece: &Row, meter: Meter<'_>| {
-        let forces = walk.passed_on_in(piece, meter);
-        meter.answer(forces.len() * directions.len());
-        let with_directions = |(site, forces): (_, Result<[T; 3], Error>)| {
-            let forces = match forces {
-                Ok(forces) => forces.map(Ok),
-                Err(error) => [(); 3].map(|()| Err(error.clone())),
-            };
-            directions
-                .iter()
-                .zip(forces)
-                .map(move |(&direction, force)| {
-                    let force = force?;
-                    Ok(ContactForce {
-                        site,
-                        direction,
-                        force,
-                    })
-                })
-        };
-        piece
-            .clone()
-            .into_iter()
-            .zip(forces)
-            .flat_map(with_directions)
-            .collect()
-    };
-    Answers::new(forces, &rows, Quantity::ContactMultiples, answer)
+    Parallel::new(forces, &rows, Quantity::ContactMultiples, Walk::contacts_in)
 }
 
 /// Returns the forces of bottom spheres on the floor, as [`Forces::base`] does.
@@ -108,23 +80,18 @@ pub fn base<'p, T: Algebra>(
     part: Selection,
 ) -> Result<impl ParallelIterator<Item = Result<FloorForce<T>, Error>> + use<'p, T>, Error> {
     let rows = forces.pile.rows(part)?;
-    let answer = |walk: &Walk<'p, T>, piece: &Row, meter: Meter<'_>| {
-        let forces = walk.on_floor_in(piece, meter);
-        meter.answer(forces.len());
-        forces
-    };
-    Answers::new(forces, &rows, Quantity::FloorMultiples, answer)
+    Parallel::new(forces, &rows, Quantity::FloorMultiples, Walk::on_floor_in)
 }
 
 /// The answers on some rows, found by `answer` for a piece of a row at a time.
-struct Answers<'p, T: Algebra, A> {
+struct Parallel<'p, T: Algebra, A> {
     walk: Walk<'p, T>,
     part: Part<'p>,
     meter: Meter<'p>,
     answer: A,
 }
 
-impl<'p, T, I, A> Answers<'p, T, A>
+impl<'p, T, I, A> Parallel<'p, T, A>
 where
     T: Algebra,
     I: Send,
@@ -154,7 +121,11 @@ where
     ) -> C::Result {
         let (request, sites) = (current_request(), self.walk.sites_at_once());
         let answers = |piece: &Row| match check_interrupt() {
-            Ok(()) => (self.answer)(&self.walk, piece, self.meter),
+            Ok(()) => {
+                let answers = (self.answer)(&self.walk, piece, self.meter);
+                self.meter.answer(answers.len());
+                answers
+            }
             Err(error) => Vec::from([Err(error)]),
         };
         let parts = split(part, Part::halves).flat_map_iter(|part| {
@@ -194,7 +165,7 @@ where
     }
 }
 
-impl<'p, T, I, A> ParallelIterator for Answers<'p, T, A>
+impl<'p, T, I, A> ParallelIterator for Parallel<'p, T, A>
 where
     T: Algebra,
     I: Send,

@@ -1,12 +1,14 @@
 //! What forces are made of, as numerators over known denominators.
 
+use core::array;
+
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use super::FloorForce;
 use crate::Error;
-use crate::engine::{Lines, Meter, Method, Readout, Received, Unit, Wanted, received};
+use crate::engine::{Lines, Readout, Received, Unit};
 use crate::formula;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign, Site};
@@ -29,21 +31,17 @@ pub(super) struct Terms<'p, T: Algebra> {
 impl<'p, T: Algebra> Terms<'p, T> {
     pub(super) fn new(system: System<'p>) -> Self {
         let ([increment_sum], sum_scale) = T::numerators(&[formula::weight(&system.increments)]);
-        let [a, b, c] = system.directions.clone().map(Vector::into_array);
-        let [ax, ay, az] = a;
-        let [bx, by, bz] = b;
-        let [cx, cy, cz] = c;
-        let components = [ax, ay, az, bx, by, bz, cx, cy, cz];
-        let ([ax, ay, az, bx, by, bz, cx, cy, cz], direction_scale) = T::numerators(&components);
+        let directions = system.directions.clone().map(Vector::into_array);
+        let components = array::from_fn::<_, 9, _>(|n| directions[n / 3][n % 3].clone());
+        let (components, direction_scale) = T::numerators(&components);
         Self {
             lines: Lines::new(&system),
             system,
             increment_sum,
             sum_scale,
-            directions: [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(|[x, y, z]| Vector {
-                x,
-                y,
-                z,
+            directions: array::from_fn(|line| {
+                let [x, y, z] = array::from_fn(|n| components[3 * line + n].clone());
+                Vector { x, y, z }
             }),
             direction_scale,
         }
@@ -52,28 +50,6 @@ impl<'p, T: Algebra> Terms<'p, T> {
     pub(super) fn increment_sum(&self) -> Result<T, Error> {
         let sum = self.increment_sum.clone();
         edge("the sum of increments", sum, &self.sum_scale)
-    }
-
-    /// Returns the forces from above on a sphere.
-    pub(super) fn received(
-        &self,
-        site: Site,
-        method: Option<Method>,
-        meter: Meter<'_>,
-    ) -> Result<Received<T>, Error> {
-        let system = (&self.lines, &self.system);
-        received(system, (site, Wanted::All), method, meter)
-    }
-
-    /// Returns the forces of a sphere that is not on the floor to the spheres below.
-    pub(super) fn passed_on(
-        &self,
-        site: Site,
-        method: Option<Method>,
-        meter: Meter<'_>,
-    ) -> Result<Received<T>, Error> {
-        let above = self.received(site, method, meter)?;
-        Ok(self.lines.to_below(site, above, meter))
     }
 
     /// Returns contact forces in f₀.
@@ -238,10 +214,7 @@ pub(super) fn edge<T: Algebra>(
     d: &T::Numerator,
 ) -> Result<T, Error> {
     let value = T::from_ratio(n, d).filter(T::is_defined);
-    value.ok_or(Error::Overflow {
-        quantity,
-        scalar: T::NAME,
-    })
+    value.ok_or(Error::overflow(quantity, T::NAME))
 }
 
 /// Returns each of `n` over `d`, unless one of them is no number.

@@ -1,20 +1,18 @@
 //! The forces of sphere after sphere, from the engine that a plan has chosen.
 
 use alloc::boxed::Box;
-#[cfg(feature = "rayon")]
-use alloc::vec::Vec;
+use alloc::vec::{IntoIter, Vec};
+use core::iter::FusedIterator;
 
 use num_rational::BigRational;
 
-use super::FloorForce;
 use super::terms::Terms;
+use super::{ContactForce, FloorForce, Forces};
 use crate::Error;
-use crate::engine::{Cells, Engine, Meter, Plan, Planes};
-#[cfg(feature = "rayon")]
+use crate::engine::{Cells, Engine, Meter, Plan, Planes, Quantity};
 use crate::lattice::Row;
-use crate::lattice::Site;
 use crate::scalar::{Algebra, Exactness};
-use crate::shape::Rows;
+use crate::shape::{Rows, exact_hint};
 
 /// A way down through some rows of a pile.
 #[derive(Clone, Debug)]
@@ -36,44 +34,6 @@ impl<'p, T: Algebra> Walk<'p, T> {
         Ok(Self::Plain(Box::new(terms.clone()), engine))
     }
 
-    /// Returns the forces to the spheres below one that is not on the floor.
-    pub(super) fn passed_on(&mut self, site: Site, meter: Meter<'_>) -> Result<[T; 3], Error> {
-        match self {
-            Self::Plain(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                terms.contacts(engine.passed_on((lines, system), site, meter)?)
-            }
-            Self::Exact(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                let forces = terms.contacts(engine.passed_on((lines, system), site, meter)?)?;
-                Ok(forces.map(|force| T::from_rational(&force)))
-            }
-        }
-    }
-
-    /// Returns the force of a bottom sphere on the floor.
-    pub(super) fn on_floor(
-        &mut self,
-        site: Site,
-        meter: Meter<'_>,
-    ) -> Result<FloorForce<T>, Error> {
-        match self {
-            Self::Plain(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                terms.floor(site, &engine.received((lines, system), site, meter)?)
-            }
-            Self::Exact(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                let force = terms.floor(site, &engine.received((lines, system), site, meter)?)?;
-                Ok(force.map(|component| T::from_rational(&component)))
-            }
-        }
-    }
-}
-
-/// For the threads that share a layer.
-#[cfg(feature = "rayon")]
-impl<T: Algebra> Walk<'_, T> {
     pub(super) const fn is_sweep(&self) -> bool {
         match self {
             Self::Plain(_, engine) => engine.is_sweep(),
@@ -81,7 +41,7 @@ impl<T: Algebra> Walk<'_, T> {
         }
     }
 
-    /// Returns how many spheres of a row are best asked for at once.
+    /// Returns how many spheres of a row are best computed at once.
     pub(super) const fn sites_at_once(&self) -> i128 {
         match self {
             Self::Plain(_, engine) => engine.sites_at_once(),
@@ -97,20 +57,48 @@ impl<T: Algebra> Walk<'_, T> {
         }
     }
 
-    /// Does as [`passed_on`](Self::passed_on) for each sphere of a piece of a row; a sweep has gone down to its layer.
+    /// Returns the contact forces of each sphere of a piece of a row with the spheres below it; a sweep has gone down to its
+    /// layer.
+    pub(super) fn contacts_in(
+        &self,
+        piece: &Row,
+        meter: Meter<'_>,
+    ) -> Vec<Result<ContactForce<T>, Error>> {
+        let system = match self {
+            Self::Plain(terms, _) => &terms.system,
+            Self::Exact(terms, _) => &terms.system,
+        };
+        let directions = system.shape.dimension().directions();
+        let forces = self.passed_on_in(piece, meter);
+        let mut contacts = Vec::with_capacity(directions.len() * forces.len());
+        for (site, forces) in piece.clone().into_iter().zip(forces) {
+            let forces = match forces {
+                Ok(forces) => forces.map(Ok),
+                Err(error) => [(); 3].map(|()| Err(error.clone())),
+            };
+            contacts.extend(directions.iter().zip(forces).map(|(&direction, force)| {
+                let force = force?;
+                Ok(ContactForce {
+                    site,
+                    direction,
+                    force,
+                })
+            }));
+        }
+        contacts
+    }
+
+    /// Returns the forces to the spheres below each sphere of a piece of a row, which is not on the floor; a sweep has gone
+    /// down to its layer.
     pub(super) fn passed_on_in(&self, piece: &Row, meter: Meter<'_>) -> Vec<Result<[T; 3], Error>> {
         match self {
             Self::Plain(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                let below = engine.passed_on_in((lines, system), piece, meter);
-                below
-                    .into_iter()
-                    .map(|below| terms.contacts(below?))
-                    .collect()
+                let below = engine.passed_on_in((&terms.lines, &terms.system), piece, meter);
+                let forces = |below: Result<_, _>| terms.contacts(below?);
+                below.into_iter().map(forces).collect()
             }
             Self::Exact(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                let below = engine.passed_on_in((lines, system), piece, meter);
+                let below = engine.passed_on_in((&terms.lines, &terms.system), piece, meter);
                 let inexact = |force: BigRational| T::from_rational(&force);
                 let forces = |below: Result<_, _>| Ok(terms.contacts(below?)?.map(inexact));
                 below.into_iter().map(forces).collect()
@@ -118,7 +106,7 @@ impl<T: Algebra> Walk<'_, T> {
         }
     }
 
-    /// Does as [`on_floor`](Self::on_floor) for each sphere of a piece of a row; a sweep has gone down to its layer.
+    /// Returns the force on the floor of each sphere of a piece of a bottom row; a sweep has gone down to its layer.
     pub(super) fn on_floor_in(
         &self,
         piece: &Row,
@@ -127,14 +115,12 @@ impl<T: Algebra> Walk<'_, T> {
         let sites = piece.clone().into_iter();
         match self {
             Self::Plain(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                let above = engine.received_in((lines, system), piece, meter);
+                let above = engine.received_in((&terms.lines, &terms.system), piece, meter);
                 let floor = |(site, above): (_, Result<_, _>)| terms.floor(site, &above?);
                 sites.zip(above).map(floor).collect()
             }
             Self::Exact(terms, engine) => {
-                let Terms { lines, system, .. } = &**terms;
-                let above = engine.received_in((lines, system), piece, meter);
+                let above = engine.received_in((&terms.lines, &terms.system), piece, meter);
                 let inexact = |force: BigRational| T::from_rational(&force);
                 let floor =
                     |(site, above): (_, Result<_, _>)| Ok(terms.floor(site, &above?)?.map(inexact));
@@ -143,3 +129,105 @@ impl<T: Algebra> Walk<'_, T> {
         }
     }
 }
+
+/// A function that returns the answers of a piece of a row, sphere by sphere.
+type Compute<'p, T, A> = fn(&Walk<'p, T>, &Row, Meter<'_>) -> Vec<Result<A, Error>>;
+
+/// The forces of a part of a pile, one by one in row order: of contacts ([`Contacts`](crate::Contacts)) or on the floor
+/// ([`FloorForces`](crate::FloorForces)).
+///
+/// An item is an error if the scalar overflows. Some spheres of a row are computed at once.
+#[derive(Clone, Debug)]
+#[must_use = "iterators are lazy and do nothing unless consumed"]
+pub struct Answers<'p, T: Algebra, A> {
+    plan: Plan,
+    walk: Walk<'p, T>,
+    rows: Rows<'p>,
+    /// The rest of the row that was reached.
+    row: Option<Row>,
+    /// The number of answers for each sphere.
+    by_site: usize,
+    compute: Compute<'p, T, A>,
+    computed: IntoIter<Result<A, Error>>,
+    meter: Meter<'p>,
+}
+
+impl<'p, T: Algebra, A> Answers<'p, T, A> {
+    pub(super) fn new(
+        forces: &Forces<'p, T>,
+        rows: Rows<'p>,
+        (quantity, by_site): (Quantity, usize),
+        compute: Compute<'p, T, A>,
+    ) -> Result<Self, Error> {
+        let plan = forces.plan(&rows, quantity)?;
+        Ok(Self {
+            walk: Walk::new(&plan, &rows, &forces.terms)?,
+            plan,
+            rows,
+            row: None,
+            by_site,
+            compute,
+            computed: Vec::new().into_iter(),
+            meter: forces.meter,
+        })
+    }
+
+    /// Returns how the forces are found, and what that takes at most.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Method, Pile};
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let contacts = pile.forces::<f64>().contacts(Selection::Layer(3))?;
+    /// assert_eq!(contacts.plan().method, Method::Closed);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Returns the answers of a piece of a row, or as many errors.
+    fn answers(&mut self, piece: &Row) -> Vec<Result<A, Error>> {
+        match self.walk.go_down_to(piece.k, self.meter) {
+            Ok(()) => (self.compute)(&self.walk, piece, self.meter),
+            Err(error) => {
+                let refused = |_| (0..self.by_site).map(|_| Err(error.clone()));
+                piece.clone().into_iter().flat_map(refused).collect()
+            }
+        }
+    }
+}
+
+impl<T: Algebra, A> Iterator for Answers<'_, T, A> {
+    type Item = Result<A, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some(answer) = self.computed.next() {
+                self.meter.answer(1);
+                return Some(answer);
+            }
+            let mut row = match self.row.take() {
+                Some(row) => row,
+                None => self.rows.next()?,
+            };
+            let end = row.i.end.min(row.i.start + self.walk.sites_at_once());
+            let i = row.i.start..end;
+            row.i.start = end;
+            self.computed = self.answers(&Row { i, ..row }).into_iter();
+            self.row = Some(row).filter(|row| !row.i.is_empty());
+        }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let row = self.row.iter().map(|row| row.clone().into_iter());
+        let in_row = row.map(|sites| sites.remaining());
+        let sites = in_row.fold(self.rows.site_count(), |sites, row| sites + row);
+        exact_hint(&(sites * self.by_site + self.computed.len()))
+    }
+}
+
+impl<T: Algebra, A> FusedIterator for Answers<'_, T, A> {}

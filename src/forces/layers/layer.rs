@@ -1,5 +1,6 @@
 //! One layer with its forces.
 
+use alloc::vec::Vec;
 use core::fmt;
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -8,10 +9,13 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::below::Below;
-use super::{Layers, Way, check_lengths};
-use crate::engine::{Cells, Descent, Meter, Table, check_interrupt, fill_rows, split_front};
+use super::{Layers, check_lengths};
+use crate::engine::{
+    Cells, Descent, Engine, Meter, Table, check_interrupt, fill_rows, split_front,
+};
 use crate::error::bug;
-use crate::lattice::{Region, Site};
+use crate::forces::walk::Walk;
+use crate::lattice::{Region, Row, Site};
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::Shape;
 use crate::{Error, FloorForce};
@@ -155,20 +159,8 @@ impl<T: Algebra> Layer<'_, '_, T> {
             let floor = self.shape().layers() - 1;
             return Err(Error::NotOnFloor { site, floor });
         }
-        let Layers {
-            terms, meter, way, ..
-        } = self.layers;
-        match way {
-            Way::Plain(sweep) => terms.floor(site, &sweep.received(site)?),
-            Way::Exact(terms, sweep) => {
-                let force = terms.floor(site, &sweep.received(site)?)?;
-                Ok(force.map(|component| T::from_rational(&component)))
-            }
-            Way::Table(_) => terms.floor(site, &terms.received(site, None, *meter)?),
-            Way::Single { method, .. } => {
-                terms.floor(site, &terms.received(site, *method, *meter)?)
-            }
-        }
+        let Layers { walk, meter, .. } = self.layers;
+        one(walk.on_floor_in(&row_of(site), *meter))
     }
 
     /// Writes the forces below the layer into slices, one for each direction, row after row, in f₀; zero along γ for
@@ -196,18 +188,32 @@ impl<T: Algebra> Layer<'_, '_, T> {
     pub fn fill(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
         check_lengths(self.spheres, &slices)?;
         self.check_above_the_floor()?;
-        match &self.layers.way {
-            Way::Table(table) => table.fill(self.k..self.k + 1, slices),
-            Way::Plain(sweep) => self.fill_from(sweep, slices),
-            Way::Single { .. } | Way::Exact(..) => {
-                let [alpha, beta, gamma] = slices;
-                let out = alpha.iter_mut().zip(beta).zip(gamma);
-                for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
-                    [*a, *b, *c] = self.passed_on(site)?;
-                }
-                Ok(())
+        let Layers {
+            table, walk, meter, ..
+        } = self.layers;
+        if let Some(table) = table {
+            return table.fill(self.k..self.k + 1, slices);
+        }
+        if let Walk::Plain(_, Engine::Sweep(sweep)) = walk {
+            return self.fill_from(sweep, slices);
+        }
+        self.fill_by_rows(slices, |row| walk.passed_on_in(row, *meter))
+    }
+
+    /// Writes the answers of each row into slices.
+    fn fill_by_rows(
+        &self,
+        [a, b, c]: [&mut [T]; 3],
+        answers: impl Fn(&Row) -> Vec<Result<[T; 3], Error>>,
+    ) -> Result<(), Error> {
+        let mut out = a.iter_mut().zip(b).zip(c);
+        for row in self.region.rows(self.k) {
+            check_interrupt()?;
+            for (values, ((a, b), c)) in answers(&row).into_iter().zip(&mut out) {
+                [*a, *b, *c] = values?;
             }
         }
+        Ok(())
     }
 
     /// Writes the values of a sphere into slices that go over the layer.
@@ -259,13 +265,16 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// ```
     pub fn fill_base(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
         check_lengths(self.spheres, &slices)?;
-        let [normal, shear_x, shear_y] = slices;
-        let out = normal.iter_mut().zip(shear_x).zip(shear_y);
-        for (site, ((normal, shear_x), shear_y)) in self.region.rows(self.k).flatten().zip(out) {
-            let force = self.on_floor(site)?;
-            (*normal, *shear_x, *shear_y) = (force.normal, force.shear_x, force.shear_y);
-        }
-        Ok(())
+        self.check_on_the_floor()?;
+        let Layers { walk, meter, .. } = self.layers;
+        self.fill_by_rows(slices, |row| {
+            let forces = walk.on_floor_in(row, *meter).into_iter();
+            let components = |force: Result<FloorForce<T>, Error>| {
+                let force = force?;
+                Ok([force.normal, force.shear_x, force.shear_y])
+            };
+            forces.map(components).collect()
+        })
     }
 
     /// Returns a bound on how far a contact force below the layer can be from the exact one, in f₀: 0 in an exact scalar,
@@ -355,19 +364,8 @@ impl<T: Algebra> Layer<'_, '_, T> {
 
     /// Returns what a sphere of this layer, above the floor, passes on.
     fn passed_on(&self, site: Site) -> Result<[T; 3], Error> {
-        let Layers {
-            terms, meter, way, ..
-        } = self.layers;
-        let passed_on = match way {
-            Way::Plain(sweep) => sweep.passed_on(site, *meter)?,
-            Way::Exact(terms, sweep) => {
-                let forces = terms.contacts(sweep.passed_on(site, *meter)?)?;
-                return Ok(forces.map(|force| T::from_rational(&force)));
-            }
-            Way::Table(_) => terms.passed_on(site, None, *meter)?,
-            Way::Single { method, .. } => terms.passed_on(site, *method, *meter)?,
-        };
-        terms.contacts(passed_on)
+        let Layers { walk, meter, .. } = self.layers;
+        one(walk.passed_on_in(&row_of(site), *meter))
     }
 
     /// Fills slices from the cells of a sweep, row by row.
@@ -412,6 +410,17 @@ impl<T: Algebra> Layer<'_, '_, T> {
             })
         }
     }
+}
+
+/// The row of one sphere.
+fn row_of(Site { i, j, k }: Site) -> Row {
+    Row { k, j, i: i..i + 1 }
+}
+
+/// The one answer of a row of one sphere.
+fn one<A>(mut answers: Vec<Result<A, Error>>) -> Result<A, Error> {
+    let answer = answers.pop();
+    answer.unwrap_or_else(|| Err(bug("a row of one sphere has an answer")))
 }
 
 impl<T: Algebra> fmt::Debug for Layer<'_, '_, T> {

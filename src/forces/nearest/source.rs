@@ -11,7 +11,7 @@ use num_traits::ToPrimitive;
 use crate::Error;
 use crate::engine::{Readout, Table, Unit, check_interrupt, fill_rows, split_front};
 use crate::error::bug;
-use crate::forces::layers::{Layer, Layers};
+use crate::forces::layers::{Layer, Layers, check_lengths};
 use crate::formula::tripled_half_turn;
 use crate::geometry::Vector;
 use crate::lattice::{Row, Site};
@@ -75,7 +75,7 @@ impl Layers<'_, BigRational> {
             }
             Asked::Floor => {
                 let units = Box::new(terms.floor_units(&units.floor));
-                if self.is_from_table()
+                if self.table.is_some()
                     && let Some(readout) = terms.floor_readout_of_counts()
                     && let Some(table) = Table::new(&terms.system, k + 1, |n, _| small(n))?
                 {
@@ -91,7 +91,7 @@ impl Layers<'_, BigRational> {
                 });
             }
         };
-        if self.is_from_table() {
+        if self.table.is_some() {
             let units = by_direction.map(|unit| Unit::new(unit, terms.lines.scale(0)));
             let nearest = |n: i128, line: usize| {
                 let force = units[line].nearest(&terms.lines.ordinary(n.into(), line));
@@ -112,7 +112,7 @@ impl Layers<'_, BigRational> {
 
     /// Returns what the forces below an ordinary sphere are made of, below so many changes of sign.
     fn contacts_readout(&self, changes: usize) -> Option<Readout> {
-        let (terms, sweep) = self.exact_sweep()?;
+        let (terms, sweep) = (&self.terms, self.exact_sweep()?);
         let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
         Some(Readout {
             // 3G is symmetric: its columns are its rows.
@@ -153,7 +153,7 @@ impl Layers<'_, BigRational> {
             }
         };
         // Where a sphere has no float as an ordinary one, it may have one as what it is.
-        if let (Some(readout), Some((_, sweep))) = (readout, self.exact_sweep())
+        if let (Some(readout), Some(sweep)) = (readout, self.exact_sweep())
             && sweep.nearest_row(row, (readout, units), [&mut *a, &mut *b, &mut *c])?
         {
             for site in self.terms.lines.extras_in_row(row) {
@@ -199,8 +199,19 @@ impl Layers<'_, BigRational> {
 }
 
 impl Layer<'_, '_, BigRational> {
+    pub(super) fn fill_nearest<F: NearestFloat>(
+        &self,
+        units: &Units,
+        asked: Asked,
+        slices: [&mut [F]; 3],
+    ) -> Result<(), Error> {
+        check_lengths(self.sphere_count(), &slices)?;
+        let source = self.layers.source(units, asked, self.k())?;
+        self.write((asked, &source), slices)
+    }
+
     /// Writes what was asked for into slices as long as the layer, row after row.
-    pub(super) fn write<F: NearestFloat>(
+    fn write<F: NearestFloat>(
         &self,
         (asked, source): (Asked, &Source<F>),
         slices: [&mut [F]; 3],
@@ -212,7 +223,7 @@ impl Layer<'_, '_, BigRational> {
             units,
             readout: Some(readout),
         } = source
-            && let Some((_, sweep)) = layers.exact_sweep()
+            && let Some(sweep) = layers.exact_sweep()
         {
             let defined = AtomicBool::new(true);
             fill_rows(&self.region, k, [&mut *a, &mut *b, &mut *c], |row, out| {
