@@ -234,17 +234,6 @@ impl<'p, T: Algebra> Forces<'p, T> {
     }
 
     /// The method asked for, or `None` for the cheapest.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::{Method, Pile};
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let forces = pile.forces::<f64>();
-    /// assert_eq!(forces.method(), None);
-    /// assert_eq!(forces.with_method(Method::Tree)?.method(), Some(Method::Tree));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.method
@@ -255,15 +244,6 @@ impl<'p, T: Algebra> Forces<'p, T> {
     }
 
     /// Returns the pile that is asked.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// assert_eq!(pile.forces::<f64>().pile(), &pile);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.pile

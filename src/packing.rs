@@ -84,9 +84,7 @@ impl<'p> Packing<'p> {
     pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let touching = pile.clearance().check(spacing)?;
         if pile.horizontal_forces().len() > 0 && !touching.contains(&LayerGap { layers: 0 }) {
-            return Err(Error::NotTouching {
-                spacing: spacing.clone(),
-            });
+            return Err(Error::not_touching(spacing.clone()));
         }
         let inclination = Inclination::new(spacing, pile.dimension())?;
         let forces = pile.forces::<BigRational>();
@@ -233,78 +231,24 @@ impl<'p> Packing<'p> {
     }
 
     /// The method asked for, or `None` for the cheapest.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::{Method, Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// assert_eq!(packing.method(), None);
-    /// assert_eq!(packing.with_method(Method::Tree)?.method(), Some(Method::Tree));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.forces.method()
     }
 
     /// The forces in pile units, exactly.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::{Direction, Site};
-    /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let (site, along) = (Site { i: 1, j: 2, k: 5 }, Direction::Alpha);
-    /// let multiple = packing.forces().contact(site, along)?;
-    /// assert_eq!(packing.unit_force().scaled(&multiple), packing.contact(site, along)?);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn forces(&self) -> &Forces<'p, BigRational> {
         &self.forces
     }
 
     /// The pile that is packed.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// assert_eq!(packing.pile(), &pile);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.forces.pile()
     }
 
     /// The radius R.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let half = BigRational::new(1.into(), 2.into());
-    /// let packing = Packing::new(&pile, &spacing)?.with_radius(half.clone())?;
-    /// assert_eq!(packing.radius(), &half);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn radius(&self) -> &BigRational {
         &self.radius
@@ -334,40 +278,12 @@ impl<'p> Packing<'p> {
     }
 
     /// The mass m of one sphere.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let half = BigRational::new(1.into(), 2.into());
-    /// let packing = Packing::new(&pile, &spacing)?.with_mass(half.clone())?;
-    /// assert_eq!(packing.mass(), &half);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn mass(&self) -> &BigRational {
         &self.mass
     }
 
     /// The gravity g.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let half = BigRational::new(1.into(), 2.into());
-    /// let packing = Packing::new(&pile, &spacing)?.with_gravity(half.clone())?;
-    /// assert_eq!(packing.gravity(), &half);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn gravity(&self) -> &BigRational {
         &self.gravity
@@ -701,10 +617,7 @@ fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, E
     if value.is_positive() {
         Ok(value)
     } else {
-        Err(Error::NotPositive {
-            quantity,
-            given: value,
-        })
+        Err(Error::not_positive(quantity, value))
     }
 }
 

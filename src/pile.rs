@@ -226,60 +226,24 @@ impl Pile {
     }
 
     /// The sites of the pile, and how they are stacked.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Site;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// assert!(pile.shape().contains(Site { i: 0, j: 0, k: 9 }));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
     /// The number L of layers.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    ///
-    /// assert_eq!(Pile::triangular(10)?.layers(), 10);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn layers(&self) -> i128 {
         self.shape.layers()
     }
 
     /// Discs or spheres.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Dimension;
-    ///
-    /// assert_eq!(Pile::discs(10)?.dimension(), Dimension::Two);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn dimension(&self) -> Dimension {
         self.shape.dimension()
     }
 
     /// sin φ: ½ on an equilateral base, 0 for discs.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    ///
-    /// assert_eq!(Pile::triangular(10)?.sin_phi().to_string(), "1/2");
-    /// assert_eq!(Pile::discs(10)?.sin_phi().to_string(), "0");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn sin_phi(&self) -> &BigRational {
         &self.sin_phi
@@ -354,14 +318,6 @@ impl Pile {
     }
 
     /// Whether the spheres weigh nothing, so that only the loads act.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    ///
-    /// assert!(Pile::triangular(10)?.weightless().is_weightless());
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn is_weightless(&self) -> bool {
         self.loading.is_weightless()

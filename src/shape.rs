@@ -246,33 +246,13 @@ impl Shape {
         self.whole.plus + self.whole.minus + 1
     }
 
-    /// Returns the dimension of the pile: two for discs, three for spheres.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::{Dimension, Region};
-    /// use cannonpile::shape::Shape;
-    ///
-    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
-    /// assert_eq!(shape.dimension(), Dimension::Three);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
+    /// Returns whether the pile is of discs or of spheres.
     #[must_use]
     pub const fn dimension(&self) -> Dimension {
         self.dimension
     }
 
-    /// Returns the stacking, from the top.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::Region;
-    /// use cannonpile::shape::Shape;
-    ///
-    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
-    /// assert_eq!(shape.stacking().changes(), 1);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
+    /// Returns how layers follow one another, from the top.
     #[must_use]
     pub const fn stacking(&self) -> &Stacking {
         &self.stacking
@@ -347,10 +327,7 @@ impl Shape {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn layer(&self, k: i128) -> Result<Region, Error> {
-        self.region(k).ok_or(Error::LayerOutside {
-            layer: k,
-            layers: self.layers(),
-        })
+        self.region(k).ok_or(Error::layer_outside(k, self.layers()))
     }
 
     /// Returns the region of the bottom layer.

@@ -12,7 +12,6 @@ use super::region::small_region;
 use super::stacking::{signs, signs_of};
 use crate::Pile;
 use crate::lattice::{Dimension, Region, Sign, Site};
-use crate::shape::Shape;
 use crate::stacking::Stacking;
 
 /// The data that a pile is built from, for tests that build the same pile a second way.
@@ -43,15 +42,6 @@ pub struct Description {
 }
 
 impl Description {
-    fn shape(&self) -> core::result::Result<Shape, crate::Error> {
-        let stacking = Stacking::from_signs(self.signs.iter().copied())?;
-        if self.from_base {
-            Shape::on(self.region, stacking)
-        } else {
-            Shape::under(self.region, stacking)
-        }
-    }
-
     /// Builds the pile.
     ///
     /// # Errors
@@ -156,16 +146,16 @@ fn grown(
         weights: Vec::new(),
         loads: Vec::new(),
     };
-    // If the base does not support all steps, the upper ones are removed.
-    let shape = loop {
-        match described.shape() {
-            Ok(shape) => break shape,
-            // Every region supports one layer.
+    // Steps that do not fit on the base are dropped from the top.
+    let pile = loop {
+        match described.pile() {
+            Ok(pile) => break pile,
+            // One layer fits on every region.
             Err(_) if described.signs.is_empty() => return Err(Error::IncorrectFormat),
             Err(_) => drop(described.signs.remove(0)),
         }
     };
-    let sites: Vec<Site> = shape.sites().collect();
+    let sites: Vec<Site> = pile.shape().sites().collect();
     for _ in 0..u.int_in_range(0..=3)? {
         let weight = (*u.choose(&sites)?, weight(u)?);
         described.weights.push(weight);

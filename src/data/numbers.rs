@@ -134,23 +134,14 @@ macro_rules! as_text {
 
 pub use as_text;
 
-/// Implements [`Number`] for numbers of other crates that are written as `Display` prints them.
-macro_rules! printed {
-    ($($type:ty: $parser:expr;)*) => {$(
-        impl Number for $type {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                serializer.collect_str(self)
-            }
+impl Number for BigRational {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
 
-            fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                read_text(deserializer, $parser)
-            }
-        }
-    )*};
-}
-
-printed! {
-    BigRational: rational;
+    fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_text(deserializer, rational)
+    }
 }
 
 /// Implements [`Number`] for numbers that implement the traits of serde.
@@ -255,10 +246,10 @@ impl<I: FixedInteger> Serialize for FixedRational<I> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.to_rational() {
             Some(value) => Number::serialize(&value, serializer),
-            None => Err(::serde::ser::Error::custom(Error::Overflow {
-                quantity: "a number",
-                scalar: I::RATIONAL_NAME,
-            })),
+            None => Err(::serde::ser::Error::custom(Error::overflow(
+                "a number",
+                I::RATIONAL_NAME,
+            ))),
         }
     }
 }
@@ -272,10 +263,7 @@ impl<'de, I: FixedInteger> Deserialize<'de> for FixedRational<I> {
             let value = parts.map(|(numer, denom)| Self::new(numer, denom));
             value
                 .filter(|value| value.parts().is_some())
-                .ok_or(Error::Overflow {
-                    quantity: "a number",
-                    scalar: I::RATIONAL_NAME,
-                })
+                .ok_or(Error::overflow("a number", I::RATIONAL_NAME))
         })
     }
 }

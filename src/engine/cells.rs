@@ -6,7 +6,7 @@ use core::ops::Range;
 use num_traits::Zero;
 
 use super::bands::make;
-use super::grid::{Grid, Layer, Moves, Pass};
+use super::grid::{Grid, Layer, Moves, Pass, none_wait};
 use super::plane::{Plane, Ramps};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
@@ -31,10 +31,7 @@ impl<V: Clone> Cells<V> {
 
     /// What consecutive lines carry, by direction.
     pub(super) fn slices(&self, cells: [Range<usize>; 3]) -> [&[V]; 3] {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         self.plane.slices(cells)
     }
 }
@@ -66,28 +63,19 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error> {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         self.plane.add_to(cells, values);
         Ok(())
     }
 
     fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         let zero = T::Numerator::zero();
         self.plane.move_to(&mut Vec::new(), next, moves, &zero);
     }
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         self.plane.carried(cells).map(Clone::clone)
     }
 }

@@ -284,6 +284,11 @@ pub(crate) trait Layer<T: Algebra> {
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3];
 }
 
+/// Whoever looks at the numbers of a layer has made the passes that lead to them.
+pub(super) fn none_wait<P>(waiting: &[P]) {
+    debug_assert!(waiting.is_empty(), "passes come before what they lead to");
+}
+
 /// The sites not below a corner that is so much lower.
 pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Region, Error> {
     let part = region.above(corner.map(|bound| bound - lower));

@@ -47,7 +47,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use super::bands::make;
-use super::grid::{Grid, Layer, Moves, Pass};
+use super::grid::{Grid, Layer, Moves, Pass, none_wait};
 use super::plane::{Plane, Ramps, row};
 use crate::Error;
 use crate::error::bug;
@@ -183,10 +183,7 @@ impl Planes {
 
     /// Returns what consecutive lines carry, by direction, from the top limbs down.
     pub(super) fn slices(&self, cells: &[Range<usize>; 3]) -> Vec<[&[i64]; 3]> {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         let top_down = self.limbs.iter().rev();
         top_down.map(|plane| plane.slices(cells.clone())).collect()
     }
@@ -223,10 +220,7 @@ impl Planes {
     /// # Errors
     /// [`Error::Bug`].
     pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Result<Least, Error> {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         self.carry()?;
         let mut least: Option<(Vec<i64>, (i128, i128, Direction))> = None;
         for row in pass.part.rows(pass.k) {
@@ -297,10 +291,7 @@ impl Layer<BigRational> for Planes {
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) -> Result<(), Error> {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         let planes = self.limbs.len();
         let [Some(a), Some(b), Some(c)] = values.each_ref().map(|value| limbs(value, planes))
         else {
@@ -314,20 +305,14 @@ impl Layer<BigRational> for Planes {
     }
 
     fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         for plane in &mut self.limbs {
             plane.move_to(&mut self.spare, next, moves, &0);
         }
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {
-        debug_assert!(
-            self.waiting.is_empty(),
-            "passes come before what they lead to"
-        );
+        none_wait(&self.waiting);
         let top_down = self.limbs.iter().rev();
         let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
         [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))

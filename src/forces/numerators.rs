@@ -69,7 +69,11 @@ impl<'p> Layers<'p, BigRational> {
         // An integer: the scale is a multiple of all denominators.
         let whole = |multiple: &BigRational| numerator((multiple * &scale).to_integer());
         Ok(NumeratorLayers {
-            table: self.table().map(|table| table.map(whole)).transpose()?,
+            table: self
+                .table
+                .as_ref()
+                .map(|table| table.map(whole))
+                .transpose()?,
             layers: self,
         })
     }
@@ -230,10 +234,8 @@ fn fill_over<V: TryFrom<BigInt>>(
 }
 
 fn numerator<V: TryFrom<BigInt>>(numerator: BigInt) -> Result<V, Error> {
-    V::try_from(numerator).map_err(|_| Error::Overflow {
-        quantity: "the numerator of a contact force",
-        scalar: type_name::<V>(),
-    })
+    V::try_from(numerator)
+        .map_err(|_| Error::overflow("the numerator of a contact force", type_name::<V>()))
 }
 
 impl<V> fmt::Debug for NumeratorLayers<'_, V> {

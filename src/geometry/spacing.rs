@@ -52,10 +52,7 @@ impl Spacing {
                 square: &ratio * &ratio,
             })
         } else {
-            Err(Error::NotPositive {
-                quantity: "spacing",
-                given: ratio,
-            })
+            Err(Error::not_positive("spacing", ratio))
         }
     }
 
@@ -79,10 +76,7 @@ impl Spacing {
         if square.is_positive() {
             Ok(Self { square })
         } else {
-            Err(Error::NotPositive {
-                quantity: "spacing",
-                given: square,
-            })
+            Err(Error::not_positive("spacing", square))
         }
     }
 

@@ -187,10 +187,7 @@ impl<F: NearestFloat> Places<'_, F> {
 }
 
 fn overflow<F>() -> Error {
-    Error::Overflow {
-        quantity: "a position",
-        scalar: core::any::type_name::<F>(),
-    }
+    Error::overflow("a position", core::any::type_name::<F>())
 }
 
 impl Packing<'_> {

@@ -81,32 +81,12 @@ impl Interval {
     }
 
     /// Returns the lower end.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Algebra, Interval};
-    /// use num_rational::BigRational;
-    ///
-    /// // The correctly rounded float of 1/10 is greater than 1/10.
-    /// let tenth = Interval::from_rational(&BigRational::new(1.into(), 10.into()));
-    /// assert_eq!(tenth.lower(), 0.1_f64.next_down());
-    /// ```
     #[must_use]
     pub const fn lower(&self) -> f64 {
         self.lower
     }
 
     /// Returns the upper end.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Algebra, Interval};
-    /// use num_rational::BigRational;
-    ///
-    /// // The correctly rounded float of 1/10 is greater than 1/10.
-    /// let tenth = Interval::from_rational(&BigRational::new(1.into(), 10.into()));
-    /// assert_eq!(tenth.upper(), 0.1);
-    /// ```
     #[must_use]
     pub const fn upper(&self) -> f64 {
         self.upper

@@ -43,6 +43,14 @@ pub struct BrokenLaw {
     pub witness: String,
 }
 
+fn broken<T: Algebra>(law: &'static str, witness: String) -> Result<(), BrokenLaw> {
+    Err(BrokenLaw {
+        law,
+        scalar: T::NAME,
+        witness,
+    })
+}
+
 impl fmt::Display for BrokenLaw {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} breaks {}: {}", self.scalar, self.law, self.witness)
@@ -79,11 +87,7 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), BrokenLaw> {
             return Ok(());
         }
         let witness = format!("a = {a:?}, b = {b:?}, c = {c:?}: {left:?} is not {right:?}");
-        Err(BrokenLaw {
-            law,
-            scalar: T::NAME,
-            witness,
-        })
+        broken::<T>(law, witness)
     };
     let (a_, b_) = (|| a.clone(), || b.clone());
     law("a + b = b + a", a_() + b, b_() + a)?;
@@ -161,11 +165,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
         None if q.is_zero() || b.sign() == RealSign::Unknown => {}
         _ => {
             let (law, witness) = ("a / b is undefined just for b = 0", format!("b = {b:?}"));
-            return Err(BrokenLaw {
-                law,
-                scalar: T::NAME,
-                witness,
-            });
+            return broken::<T>(law, witness);
         }
     }
     for n in [
@@ -191,11 +191,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
         Ok(())
     } else {
         let witness = format!("{a:?} has sign {:?}", a.sign());
-        Err(BrokenLaw {
-            law: "the sign is that of the value",
-            scalar: T::NAME,
-            witness,
-        })
+        broken::<T>("the sign is that of the value", witness)
     }
 }
 
@@ -221,11 +217,7 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), BrokenLaw> {
         return Ok(());
     }
     let witness = format!("{n}: {direct:?} is not {by_rational:?}");
-    Err(BrokenLaw {
-        law: "n and n/1 have one image",
-        scalar: T::NAME,
-        witness,
-    })
+    broken::<T>("n and n/1 have one image", witness)
 }
 
 /// Checks that each numerator over the common denominator gives the original value in canonical form.
@@ -266,11 +258,7 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
             "n / d is the value",
             format!("{value}: {back:?} is not {image:?}"),
         );
-        return Err(BrokenLaw {
-            law,
-            scalar: T::NAME,
-            witness,
-        });
+        return broken::<T>(law, witness);
     }
     Ok(())
 }
@@ -305,11 +293,7 @@ fn check_value<T: Algebra + RealEmbeddable>(
         return Ok(());
     }
     let witness = format!("{got:?} stands for {want}");
-    Err(BrokenLaw {
-        law,
-        scalar: T::NAME,
-        witness,
-    })
+    broken::<T>(law, witness)
 }
 
 /// Returns whether a rational is zero, or has a magnitude that a rounded scalar with `bits` bits represents with full

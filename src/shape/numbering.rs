@@ -61,30 +61,13 @@ impl<'p> Numbering<'p> {
         })
     }
 
-    /// Returns the shape that contains the spheres.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// assert_eq!(pile.numbering()?.shape(), pile.shape());
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
+    /// Returns the shape whose spheres these are.
     #[must_use]
     pub fn shape(&self) -> &'p Shape {
         self.shape
     }
 
-    /// Returns the number of spheres, which is also the greatest number of a sphere.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    ///
-    /// assert_eq!(Pile::triangular(10)?.numbering()?.sphere_count(), 220);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
+    /// Returns the number of spheres, which is the greatest number of a sphere.
     #[must_use]
     pub const fn sphere_count(&self) -> u64 {
         self.spheres

@@ -135,18 +135,7 @@ impl<'p> Rows<'p> {
         self
     }
 
-    /// Returns the shape of the whole pile.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::Dimension;
-    /// use cannonpile::shape::{Selection, Shape};
-    ///
-    /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
-    /// // The selection is one layer, and the shape has all four.
-    /// assert_eq!(pyramid.rows(Selection::Layer(1))?.shape(), &pyramid);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
+    /// Returns the pile whose rows they are.
     #[must_use]
     pub fn shape(&self) -> &'p Shape {
         self.shape

@@ -58,51 +58,18 @@ impl Layer<'_, '_, BigRational> {
 
 impl<T: Algebra> Layer<'_, '_, T> {
     /// Returns the number of the layer, counted from 0 at the top.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.k()), Some(3));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn k(&self) -> i128 {
         self.k
     }
 
     /// Returns the number of spheres of the layer: the length of each slice to fill.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.sphere_count()), Some(10));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn sphere_count(&self) -> usize {
         self.spheres
     }
 
     /// Whether the layer is the one on the floor, which has no contacts below it.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.is_floor()), Some(false));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
     #[must_use]
     pub fn is_floor(&self) -> bool {
         self.k == self.shape().layers() - 1
@@ -404,10 +371,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         if defined.into_inner() {
             Ok(())
         } else {
-            Err(Error::Overflow {
-                quantity: "a contact force",
-                scalar: T::NAME,
-            })
+            Err(Error::overflow("a contact force", T::NAME))
         }
     }
 }
