@@ -45,10 +45,9 @@ fn main() -> Result<(), Error> {
 
     // Hexagonal close packing is stable up to five layers. With six layers a contact needs tension.
     let hcp = |layers| Pile::under(Region::SITE, Stacking::hcp(layers)?);
-    assert_eq!(hcp(5)?.standing()?.verdict(&[]), Verdict::Yes);
-    let fallen = hcp(6)?.standing()?;
-    assert_eq!(fallen.verdict(&[]), Verdict::No);
-    if let Some(pull) = fallen.least {
+    assert_eq!(hcp(5)?.stands()?, Verdict::Yes);
+    assert_eq!(hcp(6)?.stands()?, Verdict::No);
+    if let Some(pull) = hcp(6)?.standing()?.least {
         println!(
             "\nSix layers of hcp are unstable: below sphere {} the contact along {} needs a tension of {} mg/(3 cosθ).",
             pull.site, pull.direction, -pull.force

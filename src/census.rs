@@ -55,6 +55,8 @@ use crate::{Error, Pile, Standing};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Entry {
     /// The pile.
@@ -174,11 +176,11 @@ pub fn search<E: Judged>(
     let [of_a_layer, less] = E::ENTRIES;
     let rows = of_a_layer * layers - less;
     if failing && rows > MAX_ENTRIES.into() {
-        return Err(Error::TooManyRows {
-            rows: rows.unsigned_abs().into(),
-            limit: MAX_ENTRIES,
-            remedy: "ask for fewer layers, or only for those that stand",
-        });
+        return Err(Error::too_many_rows(
+            rows.unsigned_abs().into(),
+            MAX_ENTRIES,
+            "ask for fewer layers, or only for those that stand",
+        ));
     }
     Ok(Search {
         steps,
@@ -331,11 +333,11 @@ pub fn carried_up<E: Judged>(
 ) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
     let rows = stackings_of(base);
     if rows > BigUint::from(MAX_ENTRIES) {
-        return Err(Error::TooManyRows {
+        return Err(Error::too_many_rows(
             rows,
-            limit: MAX_ENTRIES,
-            remedy: "ask for a smaller base",
-        });
+            MAX_ENTRIES,
+            "ask for a smaller base",
+        ));
     }
     let one_of_two = base.is_its_own_mirror_image();
     // `signs` contains the steps from the base to the current layer. `pending` contains the layers still to visit, each

@@ -49,13 +49,12 @@
 //!
 //! Use [`number`] for your own fields: `#[serde(with = "cannonpile::data::number")]`.
 
+mod counters;
 mod integers;
 #[doc(hidden)]
 pub mod listed;
 mod numbers;
 mod pile;
-mod records;
-mod words;
 
 #[doc(hidden)]
 pub use exact_surd::text::read_text;

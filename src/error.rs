@@ -1,6 +1,9 @@
 //! What can be wrong with a question: one enum, each variant with the numbers and the remedy.
 
 mod display;
+mod named;
+
+pub(crate) use named::named;
 
 use alloc::boxed::Box;
 use alloc::string::String;

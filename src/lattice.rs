@@ -34,6 +34,7 @@ use core::str::FromStr;
 use exact_surd::layout::padded;
 
 use crate::Error;
+use crate::error::named;
 use crate::scalar::parse::integer;
 
 /// The greatest number of layers, 10³⁶. Coordinates of sites, and sums of a few of them, then fit in `i128`.
@@ -106,35 +107,11 @@ impl Direction {
     }
 }
 
-impl fmt::Display for Direction {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Direction {
-    type Err = Error;
-
-    /// Parses the [`name`](Self::name) of a direction.
-    ///
-    /// # Errors
-    /// [`Error::Syntax`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::Direction;
-    ///
-    /// assert_eq!("gamma".parse::<Direction>()?, Direction::Gamma);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let found = Self::ALL.into_iter().find(|found| found.name() == text);
-        found.ok_or_else(|| Error::syntax(text, "a direction: alpha, beta or gamma"))
-    }
-}
-
-#[cfg(feature = "serde")]
-crate::data::as_text!(Direction);
+named!(
+    Direction,
+    Direction::ALL,
+    "a direction: alpha, beta or gamma"
+);
 
 /// The dimension of a pile: discs in a plane, or spheres in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -39,9 +39,8 @@
 //! use cannonpile::{Pile, Verdict};
 //!
 //! let pile = Pile::under(Region::hexagon(3, 3)?, Stacking::hcp(4)?)?;
-//! let standing = pile.standing()?;
-//! assert_eq!(standing.verdict(&[]), Verdict::Yes);
-//! assert_eq!(standing.least.unwrap().force.to_string(), "2/9");
+//! assert_eq!(pile.stands()?, Verdict::Yes);
+//! assert_eq!(pile.standing()?.least.unwrap().force.to_string(), "2/9");
 //! # Ok::<(), cannonpile::Error>(())
 //! ```
 //! Forces in newtons and positions in metres contain square roots. They are exact too: a [`Packing`] returns them as

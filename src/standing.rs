@@ -15,7 +15,6 @@ pub use base::BaseExtremes;
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
-use core::fmt;
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -25,13 +24,14 @@ use crate::engine::{
     Descent, Grid, Lines, MAX_NUMBERS, Meter, Planes, Received, Wanted, shortest_exact_sweep,
     trees_are_cheaper, unless_too_large,
 };
+use crate::error::named;
 use crate::error::{bug, refuse_beyond};
 use crate::formula;
 use crate::geometry::LayerGap;
 use crate::lattice::{Direction, Site};
 use crate::pile::System;
 use crate::shape::{Selection, Shape};
-use crate::{ContactForce, Error, Pile};
+use crate::{ContactForce, Error, Packing, Pile};
 
 /// Whether a pile stands.
 ///
@@ -39,8 +39,7 @@ use crate::{ContactForce, Error, Pile};
 /// ```
 /// use cannonpile::{Pile, Verdict};
 ///
-/// let standing = Pile::triangular(10)?.standing()?;
-/// assert_eq!(standing.verdict(&[]), Verdict::Yes);
+/// assert_eq!(Pile::triangular(10)?.stands()?, Verdict::Yes);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -55,12 +54,11 @@ pub enum Verdict {
     Undetermined,
 }
 
-impl fmt::Display for Verdict {
-    /// `yes`, `no`, `undetermined`.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
+named!(
+    Verdict,
+    [Verdict::Yes, Verdict::No, Verdict::Undetermined],
+    "a verdict: yes, no or undetermined"
+);
 
 impl Verdict {
     /// `yes`, `no`, `undetermined`.
@@ -86,24 +84,26 @@ impl Verdict {
 /// # Examples
 /// ```
 /// use cannonpile::lattice::Region;
-/// use cannonpile::{Pile, Verdict};
+/// use cannonpile::Pile;
 ///
 /// // Five layers of HCP stand, six do not.
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
 /// let standing = pile.standing()?;
-/// assert_eq!(standing.verdict(&[]), Verdict::No);
 /// let least = standing.least.unwrap();
 /// assert_eq!((least.site.k, least.force.to_string()), (4, "-22/81".to_owned()));
 /// assert_eq!(standing.first_failure, Some(4));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Standing {
     /// The contact with the least force, the first of them in the order of tables; none of a single layer, and none where
     /// a pile fails near the top and more than 10⁹ numbers would have to be looked at below.
     pub least: Option<ContactForce<BigRational>>,
     /// The first layer (from 0 at the top) in which some contact would have to pull. The layers above it stand on their own.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub first_failure: Option<i128>,
 }
 
@@ -182,6 +182,27 @@ impl Pile {
             standing.least = None;
         }
         Ok(standing)
+    }
+
+    /// Returns whether the pile stands, at a spacing at which no spheres touch beside the contacts α, β and γ: `Yes` or
+    /// `No`. At other spacings [`Packing::stands`](crate::Packing::stands) answers.
+    ///
+    /// # Errors
+    /// As for [`standing`](Self::standing).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::{Pile, Verdict};
+    ///
+    /// // Five layers of HCP stand, six do not.
+    /// let hcp = |steps: &str| Pile::under(Region::SITE, steps.parse()?);
+    /// assert_eq!(hcp("+-+-")?.stands()?, Verdict::Yes);
+    /// assert_eq!(hcp("+-+-+")?.stands()?, Verdict::No);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn stands(&self) -> Result<Verdict, Error> {
+        Ok(self.standing_until(true)?.verdict(&[]))
     }
 
     /// Returns the first layer (from 0 at the top) in which some contact would have to pull. The layers above it stand on
@@ -337,6 +358,29 @@ impl Pile {
             return unless_too_large(by_trees, by_sweep);
         }
         by_sweep()
+    }
+}
+
+impl Packing<'_> {
+    /// Returns whether the pile stands at this spacing: [`Verdict::Undetermined`] where a contact α, β or γ would have to pull,
+    /// but [other spheres touch](Packing::touching) that may hold the pile.
+    ///
+    /// # Errors
+    /// As for [`Pile::standing`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::{Pile, Verdict};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// assert_eq!(pile.packing(&"6/5".parse()?)?.stands()?, Verdict::No);
+    /// assert_eq!(pile.packing(&"1".parse()?)?.stands()?, Verdict::Undetermined);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn stands(&self) -> Result<Verdict, Error> {
+        let standing = self.pile().standing_until(true)?;
+        Ok(standing.verdict(self.touching()))
     }
 }
 

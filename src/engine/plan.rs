@@ -57,31 +57,44 @@ impl Keeping {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Plan {
     /// How forces are found.
     pub method: Method,
     /// The runs of steps above the lowest layer asked for: a sweep jumps each of them, a tree has a level for each.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub runs: usize,
     /// The spheres whose forces are worked out or looked up, at most.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub visited: BigUint,
     /// Those of them that forces are turned on, across a change of sign, at most.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub turned: BigUint,
     /// The runs, or parts of one, that a sweep goes through at once, at most; 0 for the other methods.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub passes: BigUint,
     /// How many numbers a sweep keeps; 0 for the other methods.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub numbers: BigUint,
     /// The bits that exact numerators may need, by the proved bound; 0 where numbers grow as they must.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub bits: u64,
     /// The bits that a sweep reserves for them.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub reserved: u64,
     /// The `i64` limbs of each of them.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub planes: usize,
     /// The square roots that are taken, at most.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub roots: u64,
     /// How many answers there are.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub rows: BigUint,
     /// The memory that a sweep keeps its numbers in.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub bytes: BigUint,
 }
 

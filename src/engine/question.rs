@@ -1,7 +1,6 @@
 //! What can be asked of a pile, and by which method.
 
-use core::fmt;
-
+use crate::error::named;
 use crate::shape::Selection;
 
 /// How forces are found.
@@ -26,16 +25,21 @@ pub enum Method {
     Sweep,
 }
 
-impl fmt::Display for Method {
-    /// `closed`, `tree`, `sweep`.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
+impl Method {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
             Self::Closed => "closed",
             Self::Tree => "tree",
             Self::Sweep => "sweep",
-        })
+        }
     }
 }
+
+named!(
+    Method,
+    [Method::Closed, Method::Tree, Method::Sweep],
+    "a method: closed, tree or sweep"
+);
 
 /// What is wanted of the spheres asked about.
 ///
@@ -49,7 +53,7 @@ impl fmt::Display for Method {
 ///     pile.plan(Question::new(Selection::All, quantity)).map(|plan| plan.roots)
 /// };
 /// assert_eq!(roots(Quantity::ContactMultiples)?, 0);
-/// assert_eq!(roots(Quantity::ContactMagnitudes)?, 1);
+/// assert_eq!(roots(Quantity::ContactForces)?, 1);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -58,7 +62,7 @@ pub enum Quantity {
     /// The forces to the spheres below, in f₀: [`Forces::contacts`](crate::Forces::contacts).
     ContactMultiples,
     /// The same in SI, without vectors: [`Packing::contact_forces`](crate::Packing::contact_forces).
-    ContactMagnitudes,
+    ContactForces,
     /// The contact forces in SI, with vectors and contact points: [`Packing::contacts`](crate::Packing::contacts).
     ContactVectors,
     /// The forces on the floor, in mg and mg·tanθ: [`Forces::base`](crate::Forces::base).
@@ -70,6 +74,26 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    const ALL: [Self; 6] = [
+        Self::ContactMultiples,
+        Self::ContactForces,
+        Self::ContactVectors,
+        Self::FloorMultiples,
+        Self::FloorForces,
+        Self::Positions,
+    ];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::ContactMultiples => "contact multiples",
+            Self::ContactForces => "contact forces",
+            Self::ContactVectors => "contact vectors",
+            Self::FloorMultiples => "floor multiples",
+            Self::FloorForces => "floor forces",
+            Self::Positions => "positions",
+        }
+    }
+
     /// The square roots that it takes, at most: of 1/cos²θ; of tan²θ; of sin²θ and cos²θ; and of 4cos²φ, wherever there
     /// is a component along y.
     ///
@@ -85,7 +109,7 @@ impl Quantity {
     pub const fn roots(self) -> u64 {
         match self {
             Self::ContactMultiples | Self::FloorMultiples => 0,
-            Self::ContactMagnitudes => 1,
+            Self::ContactForces => 1,
             Self::FloorForces => 2,
             Self::Positions => 3,
             Self::ContactVectors => 5,
@@ -105,23 +129,16 @@ impl Quantity {
     pub const fn is_of_contacts(self) -> bool {
         matches!(
             self,
-            Self::ContactMultiples | Self::ContactMagnitudes | Self::ContactVectors
+            Self::ContactMultiples | Self::ContactForces | Self::ContactVectors
         )
     }
 }
 
-impl fmt::Display for Quantity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::ContactMultiples => "contact multiples",
-            Self::ContactMagnitudes => "contact magnitudes",
-            Self::ContactVectors => "contact vectors",
-            Self::FloorMultiples => "floor multiples",
-            Self::FloorForces => "floor forces",
-            Self::Positions => "positions",
-        })
-    }
-}
+named!(
+    Quantity,
+    Quantity::ALL,
+    "a quantity: contact multiples, contact forces, contact vectors, floor multiples, floor forces or positions"
+);
 
 /// A question: which spheres, what of them, and by which method, if not the cheapest.
 ///
@@ -136,6 +153,8 @@ impl fmt::Display for Quantity {
 /// assert_eq!((question.quantity, question.method), (Quantity::FloorMultiples, None));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Question {
     /// Which spheres.

@@ -25,14 +25,22 @@ use crate::lattice::Site;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound = "T: crate::data::Number", deny_unknown_fields)
+)]
 pub struct FloorForce<T> {
     /// The bottom sphere.
     pub site: Site,
     /// The normal force, in mg, downwards.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub normal: T,
     /// The shear along x, in mg·tanθ.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub shear_x: T,
     /// The shear along y, in 2cosφ·mg·tanθ (√3·mg·tanθ on an equilateral base); zero for discs.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub shear_y: T,
 }
 

@@ -22,12 +22,18 @@ use crate::lattice::{Direction, Site};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound = "T: crate::data::Number", deny_unknown_fields)
+)]
 pub struct ContactForce<T> {
     /// The upper sphere.
     pub site: Site,
     /// The direction in which the lower one lies.
     pub direction: Direction,
     /// The force, in f₀. Positive: they push. Negative: they would have to pull.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub force: T,
 }
 

@@ -1,12 +1,11 @@
 //! Contacts within a layer, and the types of contacts.
 
 use core::fmt;
-use core::str::FromStr;
 
 use exact_surd::layout::padded;
 
 use super::{Direction, Sign, Site};
-use crate::Error;
+use crate::error::named;
 
 /// The line through two neighbouring spheres of a layer. Its name consists of two directions a and b, and the neighbour
 /// of p is p + d_b − d_a. Here p + d_l is the support of p in direction l under a + step.
@@ -66,32 +65,11 @@ impl Axis {
     }
 }
 
-impl fmt::Display for Axis {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Axis {
-    type Err = Error;
-
-    /// Parses the [`name`](Self::name) of an axis.
-    ///
-    /// # Errors
-    /// [`Error::Syntax`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::Axis;
-    ///
-    /// assert_eq!("alpha-gamma".parse::<Axis>()?, Axis::AlphaGamma);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let found = Self::ALL.into_iter().find(|found| found.name() == text);
-        found.ok_or_else(|| Error::syntax(text, "an axis: alpha-beta, alpha-gamma or gamma-beta"))
-    }
-}
+named!(
+    Axis,
+    Axis::ALL,
+    "an axis: alpha-beta, alpha-gamma or gamma-beta"
+);
 
 /// The type of a contact: sloping, between two layers, or horizontal, within a layer.
 ///
@@ -168,39 +146,11 @@ impl From<Axis> for ContactKind {
     }
 }
 
-impl fmt::Display for ContactKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for ContactKind {
-    type Err = Error;
-
-    /// Parses the [`name`](Self::name) of a direction or axis.
-    ///
-    /// # Errors
-    /// [`Error::Syntax`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::ContactKind;
-    ///
-    /// assert!("delta".parse::<ContactKind>().is_err());
-    /// ```
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let found = Self::ALL.into_iter().find(|found| found.name() == text);
-        found.ok_or_else(|| {
-            Error::syntax(
-                text,
-                "a direction, such as alpha, or an axis, such as alpha-beta",
-            )
-        })
-    }
-}
-
-#[cfg(feature = "serde")]
-crate::data::as_text!(Axis, ContactKind);
+named!(
+    ContactKind,
+    ContactKind::ALL,
+    "a direction, such as alpha, or an axis, such as alpha-beta"
+);
 
 /// A contact between two spheres of a layer, at a = R: `site` and its [neighbour](Self::neighbour) along `axis`.
 ///

@@ -28,6 +28,8 @@ use num_rational::BigRational;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct PackedContact {
     /// The upper sphere; of two neighbours, the one that the contact is named by.

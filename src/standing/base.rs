@@ -22,11 +22,15 @@ use crate::{Error, Pile};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct BaseExtremes {
     /// The least normal force, in mg.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub normal_min: BigRational,
     /// The greatest normal force, in mg.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub normal_max: BigRational,
     /// The greatest ratio of shear to normal force, in tanθ: necessary for a base that does not slide; a base that may
     /// roll needs more ([`paper`](crate::paper#errata), 4). Of bottom spheres without a normal force there is none, and of those that

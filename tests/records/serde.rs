@@ -37,7 +37,7 @@ fn words() {
     assert_eq!(back(&methods), r#"["closed","tree","sweep"]"#);
     back(&[
         Quantity::ContactMultiples,
-        Quantity::ContactMagnitudes,
+        Quantity::ContactForces,
         Quantity::ContactVectors,
         Quantity::FloorMultiples,
         Quantity::FloorForces,

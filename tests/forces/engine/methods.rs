@@ -17,7 +17,7 @@ const METHODS: [Method; 3] = [Method::Closed, Method::Tree, Method::Sweep];
 
 const QUANTITIES: [Quantity; 6] = [
     Quantity::ContactMultiples,
-    Quantity::ContactMagnitudes,
+    Quantity::ContactForces,
     Quantity::ContactVectors,
     Quantity::FloorMultiples,
     Quantity::FloorForces,
@@ -100,7 +100,7 @@ fn run(pile: &Pile, question: Question) -> Result<Counters, Error> {
     let part = question.part;
     match question.quantity {
         Quantity::ContactMultiples => drop(all(forces.contacts(part)?)?),
-        Quantity::ContactMagnitudes => drop(all(packing.contact_forces(part)?)?),
+        Quantity::ContactForces => drop(all(packing.contact_forces(part)?)?),
         Quantity::ContactVectors => drop(all(packing.contacts(part)?)?),
         Quantity::FloorMultiples => drop(all(forces.base(part)?)?),
         Quantity::FloorForces => drop(all(packing.base(part)?)?),

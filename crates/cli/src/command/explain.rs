@@ -72,7 +72,7 @@ impl QuantityName {
         match (self, units) {
             (Self::Contacts, UnitSystem::Pile) => (Quantity::ContactMultiples, units),
             (Self::Contacts, UnitSystem::Si) => (Quantity::ContactVectors, units),
-            (Self::Magnitudes, _) => (Quantity::ContactMagnitudes, UnitSystem::Si),
+            (Self::Magnitudes, _) => (Quantity::ContactForces, UnitSystem::Si),
             (Self::Base, UnitSystem::Pile) => (Quantity::FloorMultiples, units),
             (Self::Base, UnitSystem::Si) => (Quantity::FloorForces, units),
             (Self::Spheres, _) => (Quantity::Positions, UnitSystem::Si),

@@ -64,7 +64,7 @@ impl<'p> Explanation<'p> {
             Units::Si(packing) => {
                 let packing = packing.as_ref().clone().with_counters(&counters);
                 match quantity {
-                    Quantity::ContactMagnitudes => all(packing.contact_forces(part)?)?,
+                    Quantity::ContactForces => all(packing.contact_forces(part)?)?,
                     Quantity::ContactVectors => all(packing.contacts(part)?)?,
                     Quantity::FloorForces => all(packing.base(part)?)?,
                     Quantity::Positions => all(packing.positions(part)?)?,
