@@ -1,12 +1,9 @@
 //! `card.md` and `card.json`: a pile as a benchmark, for people and for machines.
 
 mod extremes;
-mod facts;
-mod json;
 mod lists;
-mod markdown;
-mod value;
-mod words;
+mod page;
+mod record;
 
 use std::io::Write;
 
@@ -15,9 +12,8 @@ use num_rational::BigRational;
 use super::numbered::NumberedPile;
 use crate::scene::State;
 use crate::table::WriteError;
-
-use facts::Facts;
-use lists::Listed;
+use cannonpile::Pile;
+use cannonpile::lattice::Dimension;
 
 /// What a card says of a pile beside what the pile itself tells.
 ///
@@ -51,11 +47,37 @@ pub struct CardTitle {
     pub stiffness_ratio: Option<BigRational>,
 }
 
+/// The most contacts, and the most spheres, that the card for people lists.
+const FOR_PEOPLE: u32 = 130;
+
+/// The same of the card for machines.
+const FOR_MACHINES: u32 = 10_000;
+
 /// What the pile is, in one line.
 #[must_use]
 pub fn heading(pile: &NumberedPile<'_>, title: &CardTitle) -> String {
-    let heading = words::title(pile, title);
+    let own = if title.title.is_empty() {
+        let kind = match pile.pile().dimension() {
+            Dimension::Two => "discs",
+            Dimension::Three => "spheres",
+        };
+        let count = pile.numbering().sphere_count();
+        format!("A pile of {count} {kind} in {}", layers(pile.pile()))
+    } else {
+        title.title.clone()
+    };
+    let heading = match &*title.case {
+        "" => own,
+        case => format!("{case}: {own}"),
+    };
     heading.replace(char::is_control, " ")
+}
+
+fn layers(pile: &Pile) -> String {
+    match pile.layers() {
+        1 => "1 layer".into(),
+        layers => format!("{layers} layers"),
+    }
 }
 
 /// Writes the card for people, in Markdown.
@@ -65,9 +87,9 @@ pub(super) fn write_markdown(
     scene: Option<&str>,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let facts = Facts::of(pile, Listed::FOR_PEOPLE)?;
-    let text = markdown::text(&facts, title, scene);
-    Ok(out.write_all(text.as_bytes())?)
+    let card = record::record(pile, title, scene, FOR_PEOPLE)?;
+    let page = page::page(pile, title, card);
+    Ok(out.write_all(page.as_bytes())?)
 }
 
 /// Writes the card for machines, in JSON.
@@ -77,7 +99,7 @@ pub(super) fn write_json(
     scene: Option<&str>,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let facts = Facts::of(pile, Listed::FOR_MACHINES)?;
-    let text = json::text(&facts, title, scene)?;
-    Ok(out.write_all(text.as_bytes())?)
+    let (card, _) = record::record(pile, title, scene, FOR_MACHINES)?;
+    serde_json::to_writer_pretty(&mut *out, &card)?;
+    Ok(writeln!(out)?)
 }

@@ -1,13 +1,47 @@
-//! Scripts with places to fill in.
+//! Texts with places to fill in.
 
-/// The template with each `{name}` replaced by its text.
+use std::collections::BTreeMap;
+
+/// The template with each `{name}` replaced by its text. A text is not filled in again.
 #[must_use]
 pub fn fill(template: &str, texts: &[(&str, String)]) -> String {
-    texts
-        .iter()
-        .fold(template.to_owned(), |script, (name, text)| {
-            script.replace(&format!("{{{name}}}"), text)
+    filled(template, |name| {
+        let mut texts = texts.iter();
+        let (_, text) = texts.find(|(known, _)| *known == name)?;
+        Some(text)
+    })
+}
+
+/// The lines of a template of which each name has a text, filled in. Of empty lines that follow each other one is left.
+pub(crate) fn fill_lines(template: &str, texts: &BTreeMap<String, String>) -> String {
+    let names = |line: &str| {
+        let mut parts = line.split('{').skip(1);
+        parts.all(|part| {
+            let name = part.split_once('}').map(|(name, _)| name);
+            name.is_some_and(|name| texts.contains_key(name))
         })
+    };
+    let mut lines: Vec<&str> = template.lines().filter(|line| names(line)).collect();
+    lines.dedup_by(|line, before| line.is_empty() && before.is_empty());
+    let lines = lines.into_iter().map(|line| {
+        let line = filled(line, |name| texts.get(name));
+        line + "\n"
+    });
+    lines.collect()
+}
+
+fn filled<'t>(template: &str, text: impl Fn(&str) -> Option<&'t String>) -> String {
+    let mut parts = template.split('{');
+    // Not a default: what is split has a first part.
+    let mut whole = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let name = part.split_once('}');
+        match name.and_then(|(name, rest)| Some((text(name)?, rest))) {
+            Some((text, rest)) => whole.extend([text.as_str(), rest]),
+            None => whole.extend(["{", part]),
+        }
+    }
+    whole
 }
 
 #[cfg(test)]
@@ -16,7 +50,17 @@ mod tests {
 
     #[test]
     fn every_place_is_filled() {
-        let texts = [("a", "1".to_owned()), ("b", "x".to_owned())];
-        assert_eq!(fill("{a}, {b} and {a}; {}", &texts), "1, x and 1; {}");
+        let texts = [("a", "1".to_owned()), ("b", "x{a}".to_owned())];
+        assert_eq!(
+            fill("{a}, {b} and {a}; {} {{a}}", &texts),
+            "1, x{a} and 1; {} {1}"
+        );
+    }
+
+    #[test]
+    fn lines_without_their_texts_are_left_out() {
+        let texts = [("a", "1"), ("flag", "")].map(|(name, text)| (name.into(), text.into()));
+        let template = "{a}\n\n{b}\n\n{flag}x {a}\n{flag}{none}\n";
+        assert_eq!(fill_lines(template, &texts.into()), "1\n\nx 1\n");
     }
 }

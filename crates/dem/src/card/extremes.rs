@@ -1,7 +1,5 @@
 //! The greatest and the least contact force, exactly, and how many contacts bear one.
 
-use core::cmp::Ordering;
-
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -9,7 +7,7 @@ use num_traits::{Signed, Zero};
 use crate::Error;
 use crate::error::bug;
 use cannonpile::Pile;
-use cannonpile::lattice::{ContactKind, Direction, Site};
+use cannonpile::lattice::{ContactKind, Site};
 use cannonpile::shape::Selection;
 
 /// A contact, and its force in f₀.
@@ -38,9 +36,6 @@ pub(super) struct Extremes {
     pub(super) pulling: BigUint,
 }
 
-/// A numerator of a layer, and where it is: the sphere in the order of the layer, and the direction.
-type Placed = (BigInt, usize, usize);
-
 impl Extremes {
     /// Looks at every contact, layer by layer, in integers.
     pub(super) fn of(pile: &Pile) -> Result<Self, Error> {
@@ -55,46 +50,38 @@ impl Extremes {
             let mut slices = [(); 3].map(|()| vec![BigInt::ZERO; layer.sphere_count()]);
             let [alpha, beta, gamma] = &mut slices;
             layer.fill([alpha, beta, gamma])?;
-            let (k, denominator) = (layer.k(), layer.denominator());
-            let mut weakest = None::<BigUint>;
-            let (mut greatest, mut least) = (None::<Placed>, None::<Placed>);
             // In the order of tables: sphere after sphere.
-            for sphere in 0..slices[0].len() {
-                for (line, forces) in slices.iter().take(directions.len()).enumerate() {
-                    let force = &forces[sphere];
-                    extremes.count(force);
-                    let magnitude = force.magnitude();
-                    if !force.is_zero() && weakest.as_ref().is_none_or(|least| magnitude < least) {
-                        weakest = Some(magnitude.clone());
-                    }
-                    let beats = |found: &Option<Placed>, order| {
-                        found
-                            .as_ref()
-                            .is_none_or(|(best, ..)| force.cmp(best) == order)
-                    };
-                    if beats(&greatest, Ordering::Greater) {
-                        greatest = Some((force.clone(), sphere, line));
-                    }
-                    if beats(&least, Ordering::Less) {
-                        least = Some((force.clone(), sphere, line));
-                    }
+            let spheres = 0..layer.sphere_count();
+            let all = spheres.flat_map(|n| directions.iter().map(move |line| (n, *line)));
+            let force =
+                |(n, line): (usize, cannonpile::lattice::Direction)| &slices[line.index()][n];
+            let (mut weakest, mut ends) = (None::<&BigInt>, None);
+            for at in all {
+                let met = force(at);
+                extremes.count(met);
+                let weaker = |least: &BigInt| met.magnitude() < least.magnitude();
+                if !met.is_zero() && weakest.is_none_or(weaker) {
+                    weakest = Some(met);
+                }
+                let [greatest, least] = ends.get_or_insert([at; 2]);
+                if met > force(*greatest) {
+                    *greatest = at;
+                }
+                if met < force(*least) {
+                    *least = at;
                 }
             }
+            let in_units = |n: &BigInt| BigRational::new(n.clone(), layer.denominator().clone());
             if let Some(weakest) = weakest {
-                extremes.weaken(BigRational::new(weakest.into(), denominator.clone()));
+                extremes.weaken(in_units(weakest).abs());
             }
-            let placed = |(numerator, sphere, line): Placed| {
-                Ok::<_, Error>(Extreme {
-                    site: nth(pile, k, sphere)?,
-                    link: link(directions, line)?,
-                    force: BigRational::new(numerator, denominator.clone()),
-                })
-            };
-            if let Some(greatest) = greatest {
-                extremes.meet(placed(greatest)?);
-            }
-            if let Some(least) = least {
-                extremes.meet(placed(least)?);
+            for (n, line) in ends.into_iter().flatten() {
+                let site = pile.rows(Selection::Layer(layer.k()))?.flatten().nth(n);
+                extremes.meet(Extreme {
+                    site: site.ok_or_else(|| bug("a layer has a sphere for each of its forces"))?,
+                    link: line.into(),
+                    force: in_units(force((n, line))),
+                });
             }
         }
         for (contact, force) in pile.horizontal_forces() {
@@ -123,11 +110,8 @@ impl Extremes {
     }
 
     fn weaken(&mut self, magnitude: BigRational) {
-        if self
-            .weakest
-            .as_ref()
-            .is_none_or(|weakest| magnitude < *weakest)
-        {
+        let known = self.weakest.as_ref();
+        if known.is_none_or(|weakest| magnitude < *weakest) {
             self.weakest = Some(magnitude);
         }
     }
@@ -137,25 +121,9 @@ impl Extremes {
         if greatest.is_none_or(|greatest| met.force > greatest.force) {
             self.greatest = Some(met.clone());
         }
-        if self
-            .least
-            .as_ref()
-            .is_none_or(|least| met.force < least.force)
-        {
+        let least = self.least.as_ref();
+        if least.is_none_or(|least| met.force < least.force) {
             self.least = Some(met);
         }
     }
-}
-
-/// The sphere of a layer at this place in row order.
-fn nth(pile: &Pile, k: i128, place: usize) -> Result<Site, Error> {
-    let mut sites = pile.rows(Selection::Layer(k))?.flatten();
-    sites
-        .nth(place)
-        .ok_or_else(|| bug("a layer has a sphere for each of its forces"))
-}
-
-fn link(directions: &[Direction], line: usize) -> Result<ContactKind, Error> {
-    let direction = directions.get(line).copied().map(ContactKind::from);
-    direction.ok_or_else(|| bug("each line of forces has its direction"))
 }

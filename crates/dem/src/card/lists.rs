@@ -1,122 +1,117 @@
-//! Lists of a card: contacts, spheres, forces on the floor.
+//! Records of a card: numbers, contacts, spheres, forces on the floor.
 
 use num_rational::BigRational;
+use serde_json::{Value as Json, json};
 
 use super::extremes::Extreme;
-use super::value::{FORCE, Value};
 use crate::Error;
-use crate::numbered::NumberedPile;
-use cannonpile::lattice::{Axis, ContactKind, HorizontalContact, Site};
+use crate::numbered::{NumberedPile, nearest};
+use cannonpile::Pile;
+use cannonpile::lattice::{ContactKind, Dimension, HorizontalContact, Site};
+use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 
-/// The longest lists of a card.
-#[derive(Clone, Copy)]
-pub(super) struct Listed {
-    /// The most contacts, and the most spheres.
-    pub(super) most: u32,
+pub(super) const FORCE: &str = "a contact force";
+
+/// An exact number, and the float nearest to it.
+pub(super) fn value(number: &Surd, quantity: &'static str) -> Result<Json, Error> {
+    // Not −0.
+    let float = nearest(number, quantity)? + 0.0;
+    Ok(json!({"exact": number.to_string(), "float": float}))
 }
 
-impl Listed {
-    pub(super) const FOR_PEOPLE: Self = Self { most: 130 };
-    pub(super) const FOR_MACHINES: Self = Self { most: 10_000 };
+pub(super) fn rational(number: BigRational, quantity: &'static str) -> Result<Json, Error> {
+    value(&number.into(), quantity)
 }
 
-/// A contact and its force.
-#[derive(Clone)]
-pub(super) struct Contact {
-    pub(super) ids: [u64; 2],
-    pub(super) site: Site,
-    pub(super) link: ContactKind,
-    /// In f₀.
-    pub(super) multiple: String,
-    /// In N.
-    pub(super) force: Value,
+/// An integer within 2^53 as a number, a greater one as a string: many readers keep a number as a float.
+pub(super) fn integer(number: &impl ToString) -> Json {
+    let text = number.to_string();
+    match text.parse::<i64>() {
+        Ok(small) if small.unsigned_abs() >> 53 == 0 => small.into(),
+        _ => text.into(),
+    }
 }
 
-/// A sphere and its centre.
-pub(super) struct Sphere {
-    pub(super) id: u64,
-    pub(super) site: Site,
-    pub(super) centre: [Value; 3],
-}
-
-/// A bottom sphere and its force on the floor.
-pub(super) struct OnFloor {
-    pub(super) id: u64,
-    pub(super) site: Site,
-    pub(super) normal: Value,
-    pub(super) shear: [Value; 2],
-}
-
-pub(super) fn contact(numbered: &NumberedPile<'_>, found: Extreme) -> Result<Contact, Error> {
-    let Extreme { site, link, force } = found;
-    let (shape, numbering) = (numbered.pile().shape(), numbered.numbering());
-    let other = match link {
-        ContactKind::Sloping(direction) => shape
-            .below(site, direction)
-            .ok_or_else(|| Error::on_floor(site))?,
-        ContactKind::Horizontal(axis) => shape.neighbour(HorizontalContact { site, axis })?,
+/// A record with a site in its midst: `k, i, j`, of a disc `k, i`. Sites of piles that are exported are small.
+pub(super) fn placed(pile: &Pile, before: Json, Site { i, j, k }: Site, after: Json) -> Json {
+    let place = match pile.dimension() {
+        Dimension::Two => json!({"k": k, "i": i}),
+        Dimension::Three => json!({"k": k, "i": i, "j": j}),
     };
-    let newtons = numbered.packing().unit_force().scaled(&force);
-    Ok(Contact {
-        ids: [numbering.id(site)?, numbering.id(other)?],
-        site,
-        link,
-        multiple: force.to_string(),
-        force: Value::new(&newtons, FORCE)?,
-    })
+    let entries = |record| match record {
+        Json::Object(entries) => entries,
+        _ => serde_json::Map::new(),
+    };
+    let records = [before, place, after].into_iter();
+    Json::Object(records.flat_map(entries).collect())
+}
+
+pub(super) fn contact(numbered: &NumberedPile<'_>, found: &Extreme) -> Result<Json, Error> {
+    let (site, link, force) = (found.site, found.link, &found.force);
+    let (pile, numbering) = (numbered.pile(), numbered.numbering());
+    let other = match link {
+        ContactKind::Sloping(direction) => {
+            let below = pile.shape().below(site, direction);
+            below.ok_or_else(|| Error::on_floor(site))?
+        }
+        ContactKind::Horizontal(axis) => {
+            pile.shape().neighbour(HorizontalContact { site, axis })?
+        }
+    };
+    let newtons = numbered.packing().unit_force().scaled(force);
+    let ids = json!({"id1": numbering.id(site)?, "id2": numbering.id(other)?});
+    let force = json!({
+        "direction": link.name(),
+        "multiple": force.to_string(),
+        "force": value(&newtons, FORCE)?,
+    });
+    Ok(placed(pile, ids, site, force))
 }
 
 /// All contacts, in the order of `contacts.csv`.
-pub(super) fn contacts(numbered: &NumberedPile<'_>) -> Result<Vec<Contact>, Error> {
+pub(super) fn contacts(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
     let pile = numbered.pile();
     let sloping = pile.forces::<BigRational>().contacts(Selection::All)?;
     let sloping = sloping.map(|found| {
         let found = found?;
-        Ok::<_, Error>(Extreme {
-            site: found.site,
-            link: found.direction.into(),
-            force: found.force,
-        })
+        Ok::<_, Error>((found.site, found.direction.into(), found.force))
     });
-    let horizontal = pile.horizontal_forces().map(|(contact, force)| {
-        let axis: Axis = contact.axis;
-        Ok(Extreme {
-            site: contact.site,
-            link: axis.into(),
-            force: force.clone(),
-        })
-    });
-    let all = sloping.chain(horizontal);
-    all.map(|found| contact(numbered, found?)).collect()
-}
-
-pub(super) fn spheres(numbered: &NumberedPile<'_>) -> Result<Vec<Sphere>, Error> {
-    let all = (1_u64..).zip(numbered.sites()?);
-    let all = all.map(|(id, site)| {
-        let [x, y, z] = numbered.packing().position(site)?;
-        let value = |x| Value::new(x, "a position");
-        Ok(Sphere {
-            id,
-            site,
-            centre: [value(&x)?, value(&y)?, value(&z)?],
-        })
+    let horizontal = pile.horizontal_forces();
+    let horizontal =
+        horizontal.map(|(contact, force)| Ok((contact.site, contact.axis.into(), force.clone())));
+    let all = sloping.chain(horizontal).map(|found| {
+        let (site, link, force) = found?;
+        contact(numbered, &Extreme { site, link, force })
     });
     all.collect()
 }
 
-pub(super) fn base(numbered: &NumberedPile<'_>) -> Result<Vec<OnFloor>, Error> {
+pub(super) fn spheres(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
+    let all = (1_u64..).zip(numbered.sites()?).map(|(id, site)| {
+        let [x, y, z] = numbered.packing().position(site)?;
+        let value = |x| value(x, "a position");
+        let centre = json!({"x": value(&x)?, "y": value(&y)?, "z": value(&z)?});
+        Ok(placed(numbered.pile(), json!({"id": id}), site, centre))
+    });
+    all.collect()
+}
+
+pub(super) fn base(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
     let forces = numbered.packing().base(Selection::Base)?;
     let all = (numbered.numbering().first_on_floor()..).zip(forces);
     let all = all.map(|(id, force)| {
         let force = force?;
-        let value = |x| Value::new(x, "a force on the floor");
-        Ok(OnFloor {
-            id,
-            site: force.site,
-            normal: value(&force.normal)?,
-            shear: [value(&force.shear_x)?, value(&force.shear_y)?],
-        })
+        let value = |x| value(x, "a force on the floor");
+        let (normal, x, y) = (&force.normal, &force.shear_x, &force.shear_y);
+        let on_floor =
+            json!({"normal": value(normal)?, "shear_x": value(x)?, "shear_y": value(y)?});
+        Ok(placed(
+            numbered.pile(),
+            json!({"id": id}),
+            force.site,
+            on_floor,
+        ))
     });
     all.collect()
 }

@@ -1,0 +1,282 @@
+//! What a card says, as JSON: the one list of facts, from which the page for people is filled in too.
+
+use std::collections::BTreeMap;
+
+use num_bigint::BigUint;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use serde_json::{Value as Json, json};
+
+use super::extremes::{Extreme, Extremes};
+use super::lists::{FORCE, base, contact, contacts, integer, placed, rational, spheres, value};
+use super::page::given;
+use super::{CardTitle, heading};
+use crate::Error;
+use crate::error::bug;
+use crate::numbered::{NumberedPile, nearest};
+use crate::springs::Springs;
+use crate::table::{Summary, Units, stacking};
+use crate::template::{fill, fill_lines};
+use cannonpile::scalar::{Ring, Surd};
+use cannonpile::{BaseExtremes, Verdict};
+
+/// Texts by their names, for a template. A fact that is true has a text, an empty one; one that is not has none.
+pub(super) type Names = BTreeMap<String, String>;
+
+/// The name of the layout, and its version, which grows when a key gets another meaning or goes.
+const SCHEMA: &str = "cannonpile-card";
+const SCHEMA_VERSION: u32 = 1;
+
+/// The card, with no list longer than `most`, and the names of what it says.
+pub(super) fn record(
+    numbered: &NumberedPile<'_>,
+    title: &CardTitle,
+    scene: Option<&str>,
+    most: u32,
+) -> Result<(Json, Names), Error> {
+    let (pile, packing) = (numbered.pile(), numbered.packing());
+    let extremes = Extremes::of(pile)?;
+    let newtons = |multiple: &BigRational| nearest(&packing.unit_force().scaled(multiple), FORCE);
+    let greatest = extremes.greatest.as_ref();
+    let greatest = greatest.map(|found| newtons(&found.force)).transpose()?;
+    let weakest = extremes.weakest.as_ref().map(newtons).transpose()?;
+    let springs = springs(numbered, greatest);
+    let accept = accept(springs, greatest, weakest);
+    let stands = stands(numbered)?;
+    let of_pile = of_pile(numbered, title, most)?;
+    let answers = answers(numbered, &extremes, &stands, most)?;
+    let mut names = Names::new();
+    name("pile", &of_pile, &mut names);
+    name("answers", &answers, &mut names);
+    let (attained, falls) = (extremes.pulling.is_zero(), stands == Ok(Some(Verdict::No)));
+    let rests = attained && !falls;
+    let flag = |holds: bool| holds.then(String::new);
+    let option = match &*title.case {
+        "" => "--scene scene.toml".to_owned(),
+        case => format!("--case {case}"),
+    };
+    let verify = format!("cannonpile verify FORCES {option} --accept {accept}");
+    let export = format!("cannonpile export DIR {option} --to");
+    let files = format!("{export} csv");
+    let compliance = springs.map(|(_, compliance)| format!("{compliance:.1e}"));
+    let pull = extremes.least.as_ref().map(|least| -least.force.clone());
+    let pull = pull.map(|pull| packing.unit_force().scaled(&pull).to_string());
+    // Not a default: what springs are asked for where floats have none.
+    let most_compliance = compliance.clone().unwrap_or_else(|| "1e-7".into());
+    names.extend(given([
+        (kind(&stands, attained), flag(true)),
+        ("pulls", flag(!attained && !falls)),
+        ("rests", flag(rests)),
+        ("bears", flag(rests && !extremes.bearing.is_zero())),
+        ("idle", flag(!extremes.idle.is_zero())),
+        ("greatest_pull", pull),
+        (
+            "stiffness",
+            springs.map(|(stiffness, _)| format!("{stiffness:.3e}")),
+        ),
+        ("most_compliance", Some(most_compliance)),
+        ("compliance", compliance),
+        ("accept", Some(accept.clone())),
+        ("verify", Some(verify.clone())),
+        ("export", Some(export)),
+    ]));
+    let outcome = fill_lines(include_str!("outcome.txt"), &names);
+    let criteria = fill_lines(include_str!("criteria.txt"), &names);
+    let criteria = criteria.lines().map(|criterion| {
+        let mut parts = criterion.splitn(3, '|');
+        json!({"name": parts.next(), "must": parts.next(), "check": parts.next()})
+    });
+    let version = env!("CARGO_PKG_VERSION");
+    let unless_empty = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+    let accept: Json =
+        serde_json::from_str(&accept).map_err(|_| bug("the digits of a tolerance are JSON"))?;
+    let card = json!({
+        "schema": SCHEMA,
+        "schema_version": SCHEMA_VERSION,
+        "cannonpile": version,
+        "case": unless_empty(&title.case),
+        "title": heading(numbered, title),
+        "purpose": unless_empty(&title.purpose),
+        "outcome": outcome.trim_end(),
+        "scene": scene,
+        "units": {"length": "m", "mass": "kg", "force": "N", "up": "z"},
+        "pile": of_pile,
+        "answers": answers,
+        "tolerance": {
+            "accept": accept,
+            "order": 1,
+            "order_in": "1/k",
+            "stiffness": springs.map(|(stiffness, _)| stiffness),
+            "compliance": springs.map(|(_, compliance)| compliance),
+            "law": include_str!("law.txt").lines().collect::<Json>(),
+        },
+        "criteria": criteria.collect::<Json>(),
+        "verify": verify,
+        "files": files,
+        "cite": fill(include_str!("cite.bib"), &[("version", version.into())]).trim_end(),
+    });
+    Ok((card, names))
+}
+
+/// What the pile is.
+fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle, most: u32) -> Result<Json, Error> {
+    let (pile, packing) = (numbered.pile(), numbered.packing());
+    let inclination = packing.inclination();
+    let (sphere_count, base_count) = (pile.sphere_count(), pile.base_sphere_count());
+    let loads = pile
+        .loads()
+        .map(|(site, load)| placed(pile, json!({}), site, json!({"weight": load.to_string()})));
+    let list = (sphere_count <= most.into()).then(|| spheres(numbered));
+    Ok(json!({
+        "dimension": pile.dimension().number(),
+        "layers": integer(&pile.layers()),
+        "stacking": stacking(pile),
+        "grown_from": if pile.shape().is_grown_from_base() { "base" } else { "top" },
+        "spheres": integer(&sphere_count),
+        "fixed": integer(&base_count),
+        "contacts": integer(&pile.contact_count()),
+        "spacing": value(&spacing(numbered)?, "the spacing")?,
+        "sin_theta": value(&inclination.sin(), "sin θ")?,
+        "cos_theta": value(&inclination.cos(), "cos θ")?,
+        "radius": rational(packing.radius().clone(), "radius")?,
+        "mass": rational(packing.mass().clone(), "mass")?,
+        "gravity": rational(packing.gravity().clone(), "gravity")?,
+        "weightless": pile.is_weightless(),
+        "loads": loads.collect::<Json>(),
+        "state": title.state.name(),
+        "stiffness_ratio": title.stiffness_ratio.as_ref().map(ToString::to_string),
+        "neighbours_touch": packing.touching().iter().any(|apart| apart.layers == 0),
+        "list_of_spheres": list.transpose()?,
+    }))
+}
+
+/// The exact answers.
+fn answers(
+    numbered: &NumberedPile<'_>,
+    extremes: &Extremes,
+    stands: &Stands,
+    most: u32,
+) -> Result<Json, Error> {
+    let (pile, packing) = (numbered.pile(), numbered.packing());
+    let few = |count: &BigUint| *count <= BigUint::from(most);
+    let found = |found: &Option<Extreme>| {
+        let found = found.as_ref().map(|found| contact(numbered, found));
+        found.transpose()
+    };
+    let [normal_min, normal_max, max_shear_ratio] = match pile.base_extremes() {
+        Err(cannonpile::Error::TooLarge { .. }) => [Json::Null, Json::Null, Json::Null],
+        extremes => on_floor(numbered, &extremes?)?,
+    };
+    let weight = pile.weight() * packing.sphere_weight();
+    let verdict = stands.as_ref().ok().and_then(|stands| stands.as_ref());
+    Ok(json!({
+        "stands": verdict.map(|verdict| verdict.name()),
+        "why_not_known": stands.as_ref().err(),
+        "bearing": integer(&extremes.bearing),
+        "bearing_horizontal": pile.horizontal_forces().len(),
+        "idle": integer(&extremes.idle),
+        "pulling": integer(&extremes.pulling),
+        "unit_force": value(&packing.unit_force(), FORCE)?,
+        "total_on_floor": rational(weight, "the weight of all spheres")?,
+        "greatest": found(&extremes.greatest)?,
+        "least": found(&extremes.least)?,
+        "normal_min": normal_min,
+        "normal_max": normal_max,
+        "max_shear_ratio": max_shear_ratio,
+        "contacts": few(&numbered.contact_count()).then(|| contacts(numbered)).transpose()?,
+        "contacts_file": "contacts.csv",
+        "base": few(&pile.base_sphere_count()).then(|| base(numbered)).transpose()?,
+        "base_file": "base.csv",
+    }))
+}
+
+/// Names the texts and the numbers of a record: each by the keys that lead to it.
+pub(super) fn name(path: &str, value: &Json, names: &mut Names) {
+    let text = match value {
+        Json::Object(entries) => {
+            for (key, value) in entries {
+                let dot = if path.is_empty() { "" } else { "." };
+                name(&format!("{path}{dot}{key}"), value, names);
+            }
+            return;
+        }
+        Json::Null | Json::Array(_) | Json::Bool(false) => return,
+        Json::Bool(true) => String::new(),
+        Json::String(text) => text.clone(),
+        Json::Number(number) => match number.as_f64().filter(|_| number.is_f64()) {
+            Some(float) => format!("{float:?}"),
+            None => number.to_string(),
+        },
+    };
+    names.insert(path.to_owned(), text);
+}
+
+/// a/R, from sin²θ = (a/R)²(d−1)/(2d).
+fn spacing(numbered: &NumberedPile<'_>) -> Result<Surd, Error> {
+    let d = BigRational::from_i128(numbered.pile().dimension().number().into());
+    let square = numbered.packing().inclination().sin2() * (&d + &d) / (d - BigRational::one());
+    Ok(Surd::sqrt(square).map_err(cannonpile::Error::from)?)
+}
+
+/// Whether the pile stands; of spheres without weight it is not asked. Or why it would take too long to find out.
+type Stands = Result<Option<Verdict>, String>;
+
+fn stands(numbered: &NumberedPile<'_>) -> Result<Stands, Error> {
+    let packing = numbered.packing();
+    let units = Units::of_packing(packing.clone());
+    match Summary::new(&units, Some(packing.touching().to_vec())) {
+        Ok(summary) => Ok(Ok(summary.verdict())),
+        Err(error @ Error::Core(cannonpile::Error::TooLarge { .. })) => Ok(Err(error.to_string())),
+        Err(error) => Err(error),
+    }
+}
+
+/// What comes out, in one word; `attained`: whether no contact would have to pull.
+fn kind(stands: &Stands, attained: bool) -> &'static str {
+    match (stands, attained) {
+        (Ok(Some(Verdict::Yes)), true) => "stands",
+        (Ok(Some(Verdict::Yes)), false) => "held",
+        (Ok(Some(Verdict::No)), _) => "falls",
+        (Ok(Some(Verdict::Undetermined)), _) => "undetermined",
+        (Ok(None), true) => "response",
+        (Ok(None), false) => "difference",
+        (Err(_), _) => "unknown",
+    }
+}
+
+/// The stiffness k of the springs in the scripts for LAMMPS and YADE, in N/m, and F/(kR) with the greatest contact force F;
+/// none where floats have no such springs.
+fn springs(numbered: &NumberedPile<'_>, greatest: Option<f64>) -> Option<(f64, f64)> {
+    let springs = Springs::of(numbered).ok()?;
+    let compliance = greatest? / (springs.stiffness * springs.radius);
+    let finite = compliance.is_finite();
+    finite.then_some((springs.stiffness, compliance))
+}
+
+/// The relative error that a code is allowed on such springs, a power of ten: ten times F/(kR), over what the weakest contact
+/// has of the greatest force; 10⁻⁵ at least, 10⁻¹ at most.
+fn accept(springs: Option<(f64, f64)>, greatest: Option<f64>, weakest: Option<f64>) -> String {
+    let error = match (springs, greatest, weakest) {
+        (Some((_, compliance)), Some(greatest), Some(weakest)) => {
+            10.0 * compliance * greatest / weakest
+        }
+        _ => 1e-5,
+    };
+    // Not a default: the steps of a scale, and no answer of the pile.
+    let power = error.log10().ceil().clamp(-5.0, -1.0);
+    format!("1e{power}")
+}
+
+/// The least and the greatest normal force, in N, and the greatest ratio of shear to normal force.
+fn on_floor(numbered: &NumberedPile<'_>, extremes: &BaseExtremes) -> Result<[Json; 3], Error> {
+    let packing = numbered.packing();
+    let normal = |multiple: &BigRational| {
+        rational(multiple * packing.sphere_weight(), "a force on the floor")
+    };
+    let ratio = packing.inclination().tan() * &extremes.max_shear_ratio;
+    Ok([
+        normal(&extremes.normal_min)?,
+        normal(&extremes.normal_max)?,
+        value(&ratio, "a ratio of forces")?,
+    ])
+}
