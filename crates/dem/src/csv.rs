@@ -14,7 +14,7 @@ pub(super) fn write_spheres(
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    write_heads(out, SPHERES, pile)?;
+    write_heads(out, "spheres.csv", pile)?;
     let radius = nearest_rational(pile.packing().radius(), "radius")?;
     let place = Place::of(pile);
     let (masses, loads) = (PerSphere::masses(pile)?, PerSphere::loads(pile)?);
@@ -40,7 +40,7 @@ pub(super) fn write_contacts(
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    write_heads(out, CONTACTS, pile)?;
+    write_heads(out, "contacts.csv", pile)?;
     let place = Place::of(pile);
     for contact in pile.forces()? {
         let NumberedContact {
@@ -64,7 +64,7 @@ pub(super) fn write_base(
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    write_heads(out, BASE, pile)?;
+    write_heads(out, "base.csv", pile)?;
     let flat = pile.pile().dimension() == Dimension::Two;
     for force in pile.on_floor()? {
         let (
@@ -92,111 +92,25 @@ pub(super) fn write_columns(
     pile: &NumberedPile<'_>,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let mut csv = csv::Writer::from_writer(out);
-    csv.write_record(["file", "column", "unit", "meaning"])?;
-    for (file, columns) in [
-        ("spheres.csv", SPHERES),
-        ("contacts.csv", CONTACTS),
-        ("base.csv", BASE),
-    ] {
-        for (column, unit, meaning) in columns_of(columns, pile) {
-            csv.write_record([file, column, unit, meaning])?;
-        }
+    for line in columns(pile) {
+        writeln!(out, "{line}")?;
     }
-    Ok(csv.flush()?)
+    Ok(())
 }
 
-/// A column, its unit, and what is in it.
-type Described = (&'static str, &'static str, &'static str);
-
-const SPHERES: &[Described] = &[
-    (
-        "id",
-        "",
-        "number of the sphere, from 1 in row order from the top",
-    ),
-    ("k", "", "layer, from 0 at the top"),
-    ("i", "", "place in the layer"),
-    ("j", "", "row in the layer"),
-    (
-        "x",
-        "m",
-        "centre; 0 at i = j = 0 of the top layer, of the base for a pile given by its base",
-    ),
-    ("y", "m", "centre, as x"),
-    ("z", "m", "centre, upwards; 0 in the bottom layer"),
-    ("radius", "m", "radius"),
-    ("mass", "kg", "mass, without the load"),
-    (
-        "fixed",
-        "",
-        "1 for a sphere of the bottom layer, 0 for any other",
-    ),
-    (
-        "load",
-        "N",
-        "force downwards on the sphere besides its weight",
-    ),
-];
-
-const CONTACTS: &[Described] = &[
-    (
-        "id1",
-        "",
-        "number of the upper sphere; of two neighbours that of the one that names their contact",
-    ),
-    (
-        "id2",
-        "",
-        "number of the lower sphere, or of the other neighbour",
-    ),
-    ("force", "N", "contact force; positive is push"),
-    ("fx", "N", "force on sphere id1 along x"),
-    ("fy", "N", "force on sphere id1 along y"),
-    ("fz", "N", "force on sphere id1 upwards"),
-    (
-        "k",
-        "",
-        "layer of the upper sphere, from 0 at the top; of two neighbours, of the one that names their contact",
-    ),
-    ("i", "", "place of that sphere in its layer"),
-    ("j", "", "row of that sphere in its layer"),
-    (
-        "direction",
-        "",
-        "where the other sphere lies: alpha, beta or gamma below; alpha-beta, alpha-gamma or gamma-beta in the same layer",
-    ),
-];
-
-const BASE: &[Described] = &[
-    ("i", "", "place of the bottom sphere in its layer"),
-    ("j", "", "row of the bottom sphere in its layer"),
-    ("normal", "N", "force of the sphere on the floor, downwards"),
-    ("shear_x", "N", "force of the sphere on the floor along x"),
-    ("shear_y", "N", "force of the sphere on the floor along y"),
-    ("id", "", "number of the sphere"),
-];
-
-/// The columns that a pile has: discs have no row, and no shear out of their plane.
-fn columns_of<'c>(
-    columns: &'c [Described],
-    pile: &NumberedPile<'_>,
-) -> impl Iterator<Item = Described> + use<'c> {
+/// The lines of `columns.csv` for a pile: file, column, unit, meaning. Discs have neither j nor a shear along y.
+fn columns(pile: &NumberedPile<'_>) -> impl Iterator<Item = &'static str> + use<> {
     let flat = pile.pile().dimension() == Dimension::Two;
-    let left_out = move |name: &str| flat && matches!(name, "j" | "shear_y");
-    columns
-        .iter()
-        .copied()
-        .filter(move |(name, ..)| !left_out(name))
+    let left_out = |line: &str| matches!(line.split(',').nth(1), Some("j" | "shear_y"));
+    let lines = include_str!("columns.csv").lines();
+    lines.filter(move |line| !(flat && left_out(line)))
 }
 
-fn write_heads(
-    out: &mut dyn Write,
-    columns: &[Described],
-    pile: &NumberedPile<'_>,
-) -> std::io::Result<()> {
-    let names: Vec<&str> = columns_of(columns, pile).map(|(name, ..)| name).collect();
-    writeln!(out, "{}", names.join(","))
+fn write_heads(out: &mut dyn Write, file: &str, pile: &NumberedPile<'_>) -> std::io::Result<()> {
+    let columns = columns(pile).map(|line| line.split(','));
+    let columns =
+        columns.filter_map(|mut fields| (fields.next()? == file).then(|| fields.next())?);
+    writeln!(out, "{}", columns.collect::<Vec<_>>().join(","))
 }
 
 /// How the place of a sphere is written: `k,i,j`, of a disc `k,i`.
