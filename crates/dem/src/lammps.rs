@@ -81,7 +81,7 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
             ("damping", number(springs.dashpot() / (springs.mass / 2.0))),
             ("skin", number(0.2 * springs.radius)),
             ("weight", weight),
-            ("loads", loads(pile)?),
+            ("loads", loads(pile, LOADS)?),
             ("drag", number(springs.drag())),
             ("plane", plane.to_owned()),
             ("timestep", number(springs.timestep)),
@@ -93,19 +93,25 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
     Ok(out.write_all(script.as_bytes())?)
 }
 
-/// The commands that put loads on spheres; nothing if there are none.
-fn loads(pile: &NumberedPile<'_>) -> Result<String, Error> {
+/// The commands that put loads on spheres; nothing if there are none. A set command begins with `set`, and the lines before
+/// them and after them are around them.
+pub(super) fn loads(
+    pile: &NumberedPile<'_>,
+    [before, set, after]: [&str; 3],
+) -> Result<String, Error> {
     let burdens = burdens(pile)?;
     if burdens.is_empty() {
         return Ok(String::new());
     }
-    let set = burdens.into_iter().map(|(id, force)| {
+    let sets = burdens.into_iter().map(|(id, force)| {
         let upwards = -force;
-        format!("set             atom {id} d_load {upwards:?}\n")
+        format!("{set} atom {id} d_load {upwards:?}\n")
     });
-    Ok(format!(
-        "# Loads, in N.\nfix             load all property/atom d_load\n{}\
-         variable        load atom d_load\nfix             push all addforce 0.0 0.0 v_load\n",
-        set.collect::<String>()
-    ))
+    Ok(format!("{before}{}{after}", sets.collect::<String>()))
 }
+
+const LOADS: [&str; 3] = [
+    "# Loads, in N.\nfix             load all property/atom d_load\n",
+    "set            ",
+    "variable        load atom d_load\nfix             push all addforce 0.0 0.0 v_load\n",
+];

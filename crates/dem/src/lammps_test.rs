@@ -4,12 +4,13 @@ use std::io::Write;
 
 use num_traits::Zero;
 
+use super::lammps::loads;
 use super::numbered::NumberedPile;
 use super::springs::{Springs, density};
 use super::suite::{Forces, Outcome, TOLERANCE};
 use super::sunk::Sunk;
 use super::template::fill;
-use super::weights::{burdens, inertias, nearest_rational};
+use super::weights::{inertias, nearest_rational};
 use crate::Error;
 use crate::table::WriteError;
 use cannonpile::lattice::Dimension;
@@ -79,7 +80,7 @@ fn text(pile: &NumberedPile<'_>, title: &str, forces: &Forces) -> Result<String,
             ("skin", number(0.2 * springs.radius)),
             ("timestep", number(springs.timestep)),
             ("weight", weight),
-            ("loads", loads(pile)?),
+            ("loads", loads(pile, LOADS)?),
             ("drag", number(springs.drag())),
             ("plane", plane.to_owned()),
             ("natoms", rigid.len().to_string()),
@@ -135,20 +136,11 @@ fn densities(pile: &NumberedPile<'_>, springs: &Springs) -> Result<String, Error
     masses.collect()
 }
 
-fn loads(pile: &NumberedPile<'_>) -> Result<String, Error> {
-    let burdens = burdens(pile)?;
-    if burdens.is_empty() {
-        return Ok(String::new());
-    }
-    let set = burdens.into_iter().map(|(id, force)| {
-        let upwards = -force;
-        format!("  set atom {id} d_load {upwards:?}\n")
-    });
-    Ok(format!(
-        "  fix load all property/atom d_load\n{}  variable load atom d_load\n  fix push all addforce 0.0 0.0 v_load\n",
-        set.collect::<String>()
-    ))
-}
+const LOADS: [&str; 3] = [
+    "  fix load all property/atom d_load\n",
+    "  set",
+    "  variable load atom d_load\n  fix push all addforce 0.0 0.0 v_load\n",
+];
 
 /// What acts on each sphere at rest, but for the floor that holds it: nothing off the floor.
 fn reactions(pile: &NumberedPile<'_>) -> Result<String, Error> {

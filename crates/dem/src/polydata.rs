@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 /// The type of the numbers of an array.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Kind {
     Float64,
     Int64,
@@ -14,14 +14,6 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Float64 => "Float64",
-            Self::Int64 => "Int64",
-            Self::UInt8 => "UInt8",
-        }
-    }
-
     const fn bytes(self) -> u64 {
         match self {
             Self::UInt8 => 1,
@@ -91,10 +83,8 @@ impl<'w> PolyData<'w> {
             for array in arrays {
                 writeln!(
                     out,
-                    "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{offset}\"/>",
-                    array.kind.name(),
-                    array.name,
-                    array.components,
+                    "<DataArray type=\"{:?}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{offset}\"/>",
+                    array.kind, array.name, array.components,
                 )?;
                 offset += 8 + array.bytes();
                 coming.push(array.bytes());

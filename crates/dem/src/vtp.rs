@@ -139,13 +139,12 @@ pub(super) fn write_contacts(
             ContactKind::Horizontal(Axis::GammaBeta) => 5,
         })?;
     }
-    data.array()?;
-    for touch in pile.touches()? {
-        data.integer(touch?.1[0])?;
-    }
-    data.array()?;
-    for touch in pile.touches()? {
-        data.integer(touch?.1[1])?;
+    for end in [0, 1] {
+        data.array()?;
+        for touch in pile.touches()? {
+            let (_, ids) = touch?;
+            data.integer(ids[end])?;
+        }
     }
     data.array()?;
     for link in pile.links()? {

@@ -5,7 +5,8 @@ use std::io::Write;
 use super::numbered::NumberedPile;
 use super::springs::{Springs, density};
 use super::template::fill;
-use super::weights::{inertias, normal};
+use super::weights::{burdens, inertias, normal};
+use crate::Error;
 use crate::table::WriteError;
 use cannonpile::lattice::Dimension;
 
@@ -26,44 +27,41 @@ pub(super) fn write_spheres(
 
 /// Writes a script that lets the pile relax, and writes the forces of the last state.
 pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
-    let springs = Springs::of(pile)?;
-    let mut masses = Vec::new();
-    for (site, mass) in inertias(pile)? {
-        masses.push((pile.numbering().id(site)?, mass));
-    }
-    let number = |x: f64| format!("{x:?}");
-    let script = fill(
-        include_str!("pile.py"),
-        &[
-            ("first", pile.numbering().first_on_floor().to_string()),
-            ("stiffness", number(springs.stiffness)),
-            ("radius", number(springs.radius)),
-            ("rest", number(2.0 * springs.rest())),
-            ("most_steps", springs.most_steps.to_string()),
-            ("loads", by_id(loads(pile)?)),
-            ("masses", by_id(masses)),
-            ("density", number(density(springs.mass, springs.radius)?)),
-            ("blocked", blocked(pile).to_owned()),
-            ("gravity", number(springs.gravity)),
-            ("timestep", number(springs.timestep)),
-        ],
-    );
+    let script = fill(include_str!("pile.py"), &texts(pile)?);
     Ok(out.write_all(script.as_bytes())?)
 }
 
+/// What a script needs to know of a pile.
+pub(super) fn texts(pile: &NumberedPile<'_>) -> Result<Vec<(&'static str, String)>, Error> {
+    let springs = Springs::of(pile)?;
+    let masses = inertias(pile)?.into_iter();
+    let masses = masses.map(|(site, mass)| Ok((pile.numbering().id(site)?, mass)));
+    let number = |x: f64| format!("{x:?}");
+    Ok(vec![
+        ("first", pile.numbering().first_on_floor().to_string()),
+        ("stiffness", number(springs.stiffness)),
+        ("radius", number(springs.radius)),
+        ("rest", number(2.0 * springs.rest())),
+        ("most_steps", springs.most_steps.to_string()),
+        ("loads", by_id(burdens(pile)?)),
+        ("masses", by_id(masses.collect::<Result<_, Error>>()?)),
+        ("density", number(density(springs.mass, springs.radius)?)),
+        ("blocked", blocked(pile).to_owned()),
+        ("gravity", number(springs.gravity)),
+        ("timestep", number(springs.timestep)),
+    ])
+}
+
 /// The ways in which no sphere moves; rotations do nothing without friction.
-pub(super) fn blocked(pile: &NumberedPile<'_>) -> &'static str {
+fn blocked(pile: &NumberedPile<'_>) -> &'static str {
     match pile.pile().dimension() {
         Dimension::Two => "yXYZ",
         Dimension::Three => "XYZ",
     }
 }
 
-/// Forces besides the weight, in N, downwards, by number.
-pub(super) use super::weights::burdens as loads;
-
 /// A dictionary of Python.
-pub(super) fn by_id(numbers: Vec<(u64, f64)>) -> String {
+fn by_id(numbers: Vec<(u64, f64)>) -> String {
     let entries = numbers
         .into_iter()
         .map(|(id, number)| format!("    {id}: {number:?},\n"));
