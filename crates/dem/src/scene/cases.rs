@@ -1,5 +1,7 @@
 //! Benchmark cases with names that others can quote.
 
+use std::sync::LazyLock;
+
 use super::Scene;
 use super::toml::{SceneFile, nearest};
 use crate::Error;
@@ -29,134 +31,42 @@ pub struct Case {
     toml: &'static str,
 }
 
-macro_rules! case {
-    ($name:literal, $file:literal, $stands:expr, $title:literal, $purpose:literal) => {
-        Case {
-            name: $name,
-            title: $title,
-            purpose: $purpose,
-            stands: $stands,
-            toml: include_str!(concat!("cases/", $file, ".toml")),
-        }
-    };
-}
+/// A line a case: name, whether it stands, title, purpose. The names are in order: a new case comes last.
+const CASES: &str = include_str!("cases/cases.txt");
 
-/// The names are in order: a new case comes last.
-const CASES: &[Case] = &[
-    case!(
-        "C1",
-        "c1",
-        Some(Verdict::Yes),
-        "Straight pile, four layers",
-        "Small enough to read every force: signs, numbering, gravity, radii, and which way a force on a sphere points. A \
-         code that fails here has no need of the other cases."
-    ),
-    case!(
-        "C2",
-        "c2",
-        Some(Verdict::Yes),
-        "Straight pile, ten layers",
-        "The paper's pile of cannonballs, with a = 1.2 R: forces add up along lines of contacts, and the pressure on the \
-         floor is the same under all 55 bottom spheres. Errors of a layer that add up show in the layers below."
-    ),
-    case!(
-        "C3",
-        "c3",
-        Some(Verdict::Yes),
-        "Straight pile of millimetre beads, wider spaced",
-        "Another inclination, a/R = 4/3, and sizes as in a laboratory: R = 1 mm, m = 10 mg, g = 9.81 m/s². Finds constants \
-         with units built in, and tolerances that are absolute."
-    ),
-    case!(
-        "C4",
-        "c4",
-        Some(Verdict::Yes),
-        "Straight pile with a load on one sphere",
-        "A force of 3 mg besides the weight, on a sphere inside the pile: it runs down three lines of contacts, and \
-         nowhere else."
-    ),
-    case!(
-        "C5",
-        "c5",
-        None,
-        "Response of a straight pile to a load on top",
-        "Spheres without weight, and 1 mg on the uppermost: three lines of contacts bear all, every other contact bears \
-         nothing. Finds forces where there should be none, and contacts that are lost or kept at random where there is no \
-         force."
-    ),
-    case!(
-        "C6",
-        "c6",
-        Some(Verdict::Yes),
-        "Straight pile under a hexagon of nineteen spheres",
-        "A wide top: spheres inside rest on three and bear three, and the pressure on the floor falls off towards the \
-         edges. Finds faults of neighbour lists that a pile under one sphere is too narrow for."
-    ),
-    case!(
-        "C7",
-        "c7",
-        Some(Verdict::Yes),
-        "Hexagonal close packing that stands, four layers under a hexagon",
-        "The lines of contacts are broken at every layer, and forces are no longer multiples of one; the least is 2/9 of \
-         the unit, so that a code must not lose weak contacts."
-    ),
-    case!(
-        "C8",
-        "c8",
-        Some(Verdict::No),
-        "Hexagonal close packing that must fall, seven layers",
-        "Some contacts would have to pull. A code without cohesion and friction must lose them and come to no rest here; \
-         one that keeps the pile has a hidden cohesion, friction or damping that holds it up."
-    ),
-    case!(
-        "C9",
-        "c9",
-        Some(Verdict::Yes),
-        "Mixed stacking, seven layers that begin as hexagonal close packing",
-        "Changes of sign near the top, and straight below: what one layer gets wrong is carried through four layers that \
-         pass it on unchanged."
-    ),
-    case!(
-        "C10",
-        "c10",
-        Some(Verdict::Yes),
-        "Elastic state at a = R, straight",
-        "Neighbours of a layer touch, and there are more contacts than equations. Springs that only push leave all \
-         horizontal contacts open: the forces are those of the pile without them. Finds contacts that press because of \
-         rounding, or because of how the pile was prepared."
-    ),
-    case!(
-        "C11",
-        "c11",
-        Some(Verdict::Yes),
-        "Elastic state at a = R, hexagonal close packing of six layers",
-        "It stands only because three horizontal contacts push, and these forces follow from the springs: all alike. Tests \
-         the contact law beside the balance of forces."
-    ),
-    case!(
-        "C12",
-        "c12",
-        Some(Verdict::Yes),
-        "Straight pile on a hexagon with sides of five and four",
-        "A frustum that has neither the symmetry of the triangle nor that of the hexagon. Finds axes that were exchanged, \
-         and images in a mirror."
-    ),
-    case!(
-        "C13",
-        "c13",
-        Some(Verdict::Yes),
-        "Discs in a plane, eight layers",
-        "The same question in two dimensions, for codes of discs, and for codes of spheres that are kept in a plane."
-    ),
-    case!(
-        "C14",
-        "c14",
-        Some(Verdict::Yes),
-        "Straight pile, forty layers",
-        "11,480 spheres and 31,980 contacts with forces from 1 to 39 units: time, memory, domains that are cut up among \
-         processes, and an error that grows with the height of the pile."
-    ),
+/// The scenes, in the same order.
+const SCENES: [&str; 14] = [
+    include_str!("cases/c1.toml"),
+    include_str!("cases/c2.toml"),
+    include_str!("cases/c3.toml"),
+    include_str!("cases/c4.toml"),
+    include_str!("cases/c5.toml"),
+    include_str!("cases/c6.toml"),
+    include_str!("cases/c7.toml"),
+    include_str!("cases/c8.toml"),
+    include_str!("cases/c9.toml"),
+    include_str!("cases/c10.toml"),
+    include_str!("cases/c11.toml"),
+    include_str!("cases/c12.toml"),
+    include_str!("cases/c13.toml"),
+    include_str!("cases/c14.toml"),
 ];
+
+static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
+    let cases = CASES.lines().zip(SCENES).filter_map(|(line, toml)| {
+        let mut parts = line.splitn(4, '|');
+        let (name, stands) = (parts.next()?, parts.next()?);
+        let mut verdicts = [Verdict::Yes, Verdict::No, Verdict::Undetermined].into_iter();
+        Some(Case {
+            name,
+            stands: verdicts.find(|verdict| verdict.name() == stands),
+            title: parts.next()?,
+            purpose: parts.next()?,
+            toml,
+        })
+    });
+    cases.collect()
+});
 
 /// Returns the benchmark cases, in the order of their names.
 ///
@@ -169,8 +79,8 @@ const CASES: &[Case] = &[
 /// assert_eq!(falls.map(|case| case.name()), Some("C8"));
 /// ```
 #[must_use]
-pub const fn cases() -> &'static [Case] {
-    CASES
+pub fn cases() -> &'static [Case] {
+    &ALL
 }
 
 impl Case {
@@ -188,11 +98,10 @@ impl Case {
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     pub fn named(name: &str) -> Result<&'static Self, Error> {
-        let found = CASES
-            .iter()
-            .find(|case| case.name.eq_ignore_ascii_case(name));
+        let mut all = cases().iter();
+        let found = all.find(|case| case.name.eq_ignore_ascii_case(name));
         found.ok_or_else(|| {
-            let known: Vec<&str> = CASES.iter().map(|case| case.name).collect();
+            let known: Vec<&str> = cases().iter().map(|case| case.name).collect();
             Error::UnknownCase {
                 name: quoted(name),
                 nearest: nearest(name, &known),
