@@ -152,7 +152,7 @@ fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -
     };
     let curve = chart.curve([from, to], colour).class("fit");
     let curve = curve.set("data-norm", norm.name());
-    Some(curve.with_value("data-order", fit.order()))
+    Some(curve.valued("data-order", fit.order))
 }
 
 /// Returns a triangle of slope 1, in the lower right corner.
@@ -191,9 +191,9 @@ fn named(norm: Norm, fit: Option<&Fit>) -> String {
     let Some(fit) = fit else {
         return format!("{error}, no order");
     };
-    let order = format!("{error}, order {:.3}", fit.order()).replace('-', "−");
-    match fit.standard_error() {
-        // A smaller standard error is not shown.
+    let order = format!("{error}, order {:.3}", fit.order).replace('-', "−");
+    match fit.standard_error {
+        // Of rungs that are on a line but for their last digits.
         Some(error) if error >= 5e-4 => format!("{order} ± {}", digits(error, 1)),
         _ => order,
     }

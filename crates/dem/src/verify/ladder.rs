@@ -290,8 +290,8 @@ impl RungPlace {
 /// });
 /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
 /// let fit = ladder.fit(Norm::Largest)?;
-/// assert!((fit.order() - 1.0).abs() < 1e-3 && (fit.constant() / 5.0 - 1.0).abs() < 0.01);
-/// assert_eq!(fit.rungs(), 3);
+/// assert!((fit.order - 1.0).abs() < 1e-3 && (fit.constant / 5.0 - 1.0).abs() < 0.01);
+/// assert_eq!(fit.rungs, 3);
 /// assert_eq!(ladder.places(Norm::Largest).last(), Some(&RungPlace::Floor));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -98,7 +98,7 @@ fn check(ladder: &Ladder) {
             .iter()
             .find(|line| line.attribute("data-norm") == Some(norm.name()));
         let line = line.unwrap();
-        assert_eq!(number(line, "data-order").to_bits(), fit.order().to_bits());
+        assert_eq!(number(line, "data-order").to_bits(), fit.order.to_bits());
         let ends = points(line);
         let places = ladder.places(norm);
         let above = ladder

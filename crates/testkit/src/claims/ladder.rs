@@ -46,7 +46,7 @@ pub fn given_order(u: &mut Unstructured<'_>) -> Checked {
         let limit = limit.map_err(|error| Failure::Refuted(error.to_string()))?;
         let least = ladder.rungs().iter().map(|rung| rung.error(norm));
         let least = least.fold(f64::INFINITY, f64::min);
-        demand(limit.error().abs() < 1e-6 * least, || {
+        demand(limit.error.abs() < 1e-6 * least, || {
             format!("{limit:?} of {ladder:?}")
         })?;
     }
@@ -59,8 +59,8 @@ fn found(ladder: &Ladder, order: f64) -> Checked {
         let fit = ladder
             .fit(norm)
             .map_err(|error| Failure::Refuted(error.to_string()))?;
-        let near = (fit.order() - order).abs() < 1e-9 && fit.residual() < 1e-9;
-        let whole = fit.rungs() == ladder.rungs().len();
+        let near = (fit.order - order).abs() < 1e-9 && fit.residual < 1e-9;
+        let whole = fit.rungs == ladder.rungs().len();
         demand(near && whole, || {
             format!("{fit:?}, not {order}, of {ladder:?}")
         })?;
@@ -109,16 +109,16 @@ fn round_trips(ladder: &Ladder) -> Checked {
         }
         let fit = ladder.fit(norm);
         if let Ok(fit) = fit {
-            let finite = fit.order().is_finite() && fit.residual().is_finite();
-            let sure = fit.standard_error().is_none_or(f64::is_finite);
-            demand(finite && sure && !fit.constant().is_nan(), || {
+            let finite = fit.order.is_finite() && fit.residual.is_finite();
+            let sure = fit.standard_error.is_none_or(f64::is_finite);
+            demand(finite && sure && !fit.constant.is_nan(), || {
                 format!("{fit:?} of {ladder:?}")
             })?;
         }
         match ladder.limit(norm, 1.0) {
             Ok(limit) => {
-                let finite = limit.error().is_finite() && limit.standard_error() >= 0.0;
-                demand(finite && limit.rungs() >= 3, || {
+                let finite = limit.error.is_finite() && limit.standard_error >= 0.0;
+                demand(finite && limit.rungs >= 3, || {
                     format!("{limit:?} of {ladder:?}")
                 })?;
             }

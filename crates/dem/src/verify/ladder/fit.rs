@@ -15,15 +15,8 @@ const NEAR: f64 = 3.0;
 
 /// The line e = C hᵖ through the rungs above the floor: least squares of ln e = ln C + p ln h, each rung counting alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Fit {
-    order: f64,
-    standard_error: Option<f64>,
-    constant: f64,
-    residual: f64,
-    rungs: usize,
-}
-
-impl Fit {
     /// The observed order p.
     ///
     /// # Examples
@@ -32,15 +25,11 @@ impl Fit {
     ///
     /// let rungs = [1e-2, 1e-3, 1e-4].map(|step| Rung::of_errors(step, 30, 7.0 * step * step, step));
     /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert!((ladder.fit(Norm::Largest)?.order() - 2.0).abs() < 1e-12);
-    /// assert!((ladder.fit(Norm::Rms)?.order() - 1.0).abs() < 1e-12);
+    /// assert!((ladder.fit(Norm::Largest)?.order - 2.0).abs() < 1e-12);
+    /// assert!((ladder.fit(Norm::Rms)?.order - 1.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn order(&self) -> f64 {
-        self.order
-    }
-
+    pub order: f64,
     /// The standard error of the order, √(Σr²/(n − 2)/Σ(ln h − mean)²) with the residuals r of n rungs; none for two, which
     /// every line goes through.
     ///
@@ -50,16 +39,12 @@ impl Fit {
     ///
     /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
     /// let all = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
-    /// assert!((0.005..0.015).contains(&all.standard_error().unwrap()));
+    /// assert!((0.005..0.015).contains(&all.standard_error.unwrap()));
     /// let two = Ladder::new(Refinement::Stiffness, rungs.into_iter().take(2))?;
-    /// assert_eq!(two.fit(Norm::Largest)?.standard_error(), None);
+    /// assert_eq!(two.fit(Norm::Largest)?.standard_error, None);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn standard_error(&self) -> Option<f64> {
-        self.standard_error
-    }
-
+    pub standard_error: Option<f64>,
     /// C, the error at h = 1: for springs and p = 1 in the unit of the stiffness. Infinite or 0 where no float is near
     /// to it.
     ///
@@ -69,14 +54,10 @@ impl Fit {
     ///
     /// let rungs = [1e4, 1e5].map(|k| Rung::of_errors(k, 30, 4.8 / k, 1.0 / k));
     /// let fit = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
-    /// assert!((fit.constant() - 4.8).abs() < 1e-10);
+    /// assert!((fit.constant - 4.8).abs() < 1e-10);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn constant(&self) -> f64 {
-        self.constant
-    }
-
+    pub constant: f64,
     /// The root of the mean square of ln e − ln(C hᵖ): 0.01 if the rungs are some 1 % off the line.
     ///
     /// # Examples
@@ -85,14 +66,10 @@ impl Fit {
     ///
     /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
     /// let fit = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
-    /// assert!((0.01..0.03).contains(&fit.residual()));
+    /// assert!((0.01..0.03).contains(&fit.residual));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn residual(&self) -> f64 {
-        self.residual
-    }
-
+    pub residual: f64,
     /// How many rungs are above the floor.
     ///
     /// # Examples
@@ -101,14 +78,13 @@ impl Fit {
     ///
     /// let rungs = [1e-2, 1e-3, 1e-4, 1e-5].map(|step: f64| Rung::of_errors(step, 30, step.max(1e-4), step));
     /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert_eq!((ladder.fit(Norm::Largest)?.rungs(), ladder.fit(Norm::Rms)?.rungs()), (2, 4));
+    /// assert_eq!((ladder.fit(Norm::Largest)?.rungs, ladder.fit(Norm::Rms)?.rungs), (2, 4));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn rungs(&self) -> usize {
-        self.rungs
-    }
+    pub rungs: usize,
+}
 
+impl Fit {
     /// The error on the line at a refinement parameter h: C hᵖ.
     ///
     /// # Examples
@@ -207,7 +183,7 @@ impl Ladder {
     ///
     /// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 4.8 / k, 0.01));
     /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-    /// assert!((ladder.fit(Norm::Largest)?.order() - 1.0).abs() < 1e-12);
+    /// assert!((ladder.fit(Norm::Largest)?.order - 1.0).abs() < 1e-12);
     /// // These do not fall at all: all but the first are on the floor.
     /// assert_eq!(ladder.fit(Norm::Rms), Err(NoOrder::Few { rungs: 1, least: 2 }));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

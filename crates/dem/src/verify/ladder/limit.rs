@@ -10,14 +10,8 @@ use super::{Ladder, NoOrder, Norm, Rung, RungPlace};
 /// finds.
 /// Each error counts by its share: the sum of ((e∞ + C hᵖ − e)/e)² is the least. Three rungs are the fewest.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Limit {
-    error: f64,
-    standard_error: f64,
-    order: f64,
-    rungs: usize,
-}
-
-impl Limit {
     /// The extrapolated error e∞. It may come out negative where it is 0 as far as is known: see
     /// [`standard_error`](Self::standard_error).
     ///
@@ -28,15 +22,11 @@ impl Limit {
     /// // Every force a percent too great, besides the springs.
     /// let rungs = [1e2, 1e3, 1e4, 1e5].map(|k| Rung::of_errors(k, 30, 0.01 + 5.0 / k, 1.0 / k));
     /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-    /// assert!((ladder.limit(Norm::Largest, 1.0)?.error() - 0.01).abs() < 1e-12);
-    /// assert!(ladder.limit(Norm::Rms, 1.0)?.error().abs() < 1e-15);
+    /// assert!((ladder.limit(Norm::Largest, 1.0)?.error - 0.01).abs() < 1e-12);
+    /// assert!(ladder.limit(Norm::Rms, 1.0)?.error.abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn error(&self) -> f64 {
-        self.error
-    }
-
+    pub error: f64,
     /// The standard error of e∞, from the residuals: e∞ is no other than 0 within some two of these.
     ///
     /// # Examples
@@ -45,14 +35,10 @@ impl Limit {
     ///
     /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
     /// let limit = Ladder::new(Refinement::Stiffness, rungs)?.limit(Norm::Largest, 1.0)?;
-    /// assert!(limit.error().abs() < 2.0 * limit.standard_error());
+    /// assert!(limit.error.abs() < 2.0 * limit.standard_error);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn standard_error(&self) -> f64 {
-        self.standard_error
-    }
-
+    pub standard_error: f64,
     /// The order p that was given.
     ///
     /// # Examples
@@ -61,14 +47,10 @@ impl Limit {
     ///
     /// let rungs = [0.1, 0.01, 0.001].map(|step| Rung::of_errors(step, 30, step * step, step));
     /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert_eq!(ladder.limit(Norm::Largest, 2.0)?.order(), 2.0);
+    /// assert_eq!(ladder.limit(Norm::Largest, 2.0)?.order, 2.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn order(&self) -> f64 {
-        self.order
-    }
-
+    pub order: f64,
     /// How many rungs it is of.
     ///
     /// # Examples
@@ -79,13 +61,10 @@ impl Limit {
     /// let rungs = errors.map(|(k, error)| Rung::of_errors(k, 30, error, error));
     /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
     /// // The last has not the least error.
-    /// assert_eq!(ladder.limit(Norm::Largest, 1.0)?.rungs(), 3);
+    /// assert_eq!(ladder.limit(Norm::Largest, 1.0)?.rungs, 3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub const fn rungs(&self) -> usize {
-        self.rungs
-    }
+    pub rungs: usize,
 }
 
 impl Ladder {
@@ -102,7 +81,7 @@ impl Ladder {
     ///
     /// let rungs = [0.4, 0.2, 0.1].map(|step| Rung::of_errors(step, 30, 1e-3 + step * step, step));
     /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert!((ladder.limit(Norm::Largest, 2.0)?.error() - 1e-3).abs() < 1e-15);
+    /// assert!((ladder.limit(Norm::Largest, 2.0)?.error - 1e-3).abs() < 1e-15);
     /// assert_eq!(ladder.limit(Norm::Largest, 0.0), Err(NoOrder::Order { order: 0.0 }));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -194,13 +194,13 @@ impl<'l> LadderReport<'l> {
             let of_limit = |value: fn(&Limit) -> f64| number(limit.as_ref().map(value));
             Ok(vec![
                 norm.name().into(),
-                of_fit(Fit::order),
-                number(fit.as_ref().and_then(Fit::standard_error)),
-                of_fit(Fit::constant),
-                of_fit(Fit::residual),
-                of_limit(Limit::error),
-                of_limit(Limit::standard_error),
-                fit.map_or(Cell::Missing, |fit| Cell::Integer(fit.rungs().into())),
+                of_fit(|fit| fit.order),
+                number(fit.as_ref().and_then(|fit| fit.standard_error)),
+                of_fit(|fit| fit.constant),
+                of_fit(|fit| fit.residual),
+                of_limit(|limit| limit.error),
+                of_limit(|limit| limit.standard_error),
+                fit.map_or(Cell::Missing, |fit| Cell::Integer(fit.rungs.into())),
             ])
         });
         Table::of_rows(columns, "orders", rows.into_iter())
@@ -210,7 +210,7 @@ impl<'l> LadderReport<'l> {
         let fit = self.0.fit(norm);
         let order = match self.0.refinement() {
             Refinement::Stiffness => Some(1.0),
-            Refinement::TimeStep => fit.ok().map(|fit| fit.order()),
+            Refinement::TimeStep => fit.ok().map(|fit| fit.order),
         };
         Known {
             fit,
@@ -231,16 +231,16 @@ impl Known {
         let limit = self.limit.as_ref().and_then(|limit| limit.as_ref().ok());
         let no_limit = self.limit.as_ref().and_then(|limit| limit.as_ref().err());
         json!({
-            "order": fit.map(Fit::order),
-            "standard_error": fit.and_then(Fit::standard_error),
-            "constant": fit.map(Fit::constant),
-            "residual": fit.map(Fit::residual),
-            "rungs_used": fit.map(Fit::rungs),
+            "order": fit.map(|fit| fit.order),
+            "standard_error": fit.and_then(|fit| fit.standard_error),
+            "constant": fit.map(|fit| fit.constant),
+            "residual": fit.map(|fit| fit.residual),
+            "rungs_used": fit.map(|fit| fit.rungs),
             "no_order": self.fit.as_ref().err().map(ToString::to_string),
-            "extrapolated_error": limit.map(Limit::error),
-            "extrapolated_standard_error": limit.map(Limit::standard_error),
-            "extrapolated_with_order": limit.map(Limit::order),
-            "extrapolated_rungs": limit.map(Limit::rungs),
+            "extrapolated_error": limit.map(|limit| limit.error),
+            "extrapolated_standard_error": limit.map(|limit| limit.standard_error),
+            "extrapolated_with_order": limit.map(|limit| limit.order),
+            "extrapolated_rungs": limit.map(|limit| limit.rungs),
             "no_limit": no_limit.map(ToString::to_string),
         })
     }
