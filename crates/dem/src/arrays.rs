@@ -11,7 +11,7 @@ use crate::table::{columns, slices};
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::shape::{Numbering, Selection};
 use cannonpile::{Interrupt, PackedContact, Packing, Pile, Quantity};
-use places::{check_length, pieces, put, put_vectors, put_vectors_by_direction};
+use places::{check_length, pieces, put, put_vectors};
 
 /// The spheres and contacts of a pile as numbers in slices, each in the order of the exported files.
 ///
@@ -186,7 +186,7 @@ impl<'p> PileArrays<'p> {
         for piece in pieces(self.pile.rows(Selection::All)?) {
             let mut found = columns(&piece)?;
             places.fill_row(&piece, slices(&mut found))?;
-            put_vectors(&found, &mut left);
+            put_vectors(&[found], &mut left);
         }
         Ok(())
     }
@@ -255,7 +255,7 @@ impl<'p> PileArrays<'p> {
                 places.fill_row_of_contacts(&piece, *direction, slices(&mut found))?;
                 Ok(found)
             });
-            put_vectors_by_direction(&found.collect::<Result<Vec<_>, Error>>()?, &mut left);
+            put_vectors(&found.collect::<Result<Vec<_>, Error>>()?, &mut left);
         }
         self.put_horizontal(left, |contact| rounded(&contact.point, "a position"))
     }

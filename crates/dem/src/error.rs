@@ -3,11 +3,9 @@
 use core::error::Error as Cause;
 use core::fmt;
 
-use num_bigint::{BigInt, BigUint};
-use num_rational::BigRational;
+use num_bigint::BigUint;
 
 use cannonpile::Quantity;
-use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Site;
 
 use crate::Key;
@@ -205,26 +203,6 @@ impl Error {
         cannonpile::Error::on_floor(site).into()
     }
 
-    pub(crate) fn not_on_floor(site: Site, floor: i128) -> Self {
-        cannonpile::Error::not_on_floor(site, floor).into()
-    }
-
-    pub(crate) fn layers(given: BigInt) -> Self {
-        cannonpile::Error::layers(given).into()
-    }
-
-    pub(crate) fn not_positive(quantity: &'static str, given: BigRational) -> Self {
-        cannonpile::Error::not_positive(quantity, given).into()
-    }
-
-    pub(crate) fn not_touching(spacing: Spacing) -> Self {
-        cannonpile::Error::not_touching(spacing).into()
-    }
-
-    pub(crate) fn length(needed: usize, given: usize) -> Self {
-        cannonpile::Error::length(needed, given).into()
-    }
-
     /// More numbers than can be addressed.
     pub(crate) fn beyond_addresses(quantity: &'static str, needed: BigUint) -> Self {
         cannonpile::Error::too_large(
@@ -234,9 +212,5 @@ impl Error {
             "use fewer layers, or a smaller top or base",
         )
         .into()
-    }
-
-    pub(crate) fn too_many_rows(rows: BigUint, limit: u64, remedy: &'static str) -> Self {
-        cannonpile::Error::too_many_rows(rows, limit, remedy).into()
     }
 }

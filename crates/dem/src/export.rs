@@ -185,14 +185,7 @@ impl<'p> PileExport<'p> {
             | PileFile::YadeSpheres => Some(self.numbering().sphere_count()),
             PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.contact_count()),
             PileFile::BaseCsv => few(self.pile.pile().base_sphere_count()),
-            PileFile::ColumnsCsv
-            | PileFile::LammpsInput
-            | PileFile::YadeScript
-            | PileFile::CardMarkdown
-            | PileFile::CardJson
-            | PileFile::LammpsTest
-            | PileFile::YadeCheck
-            | PileFile::Scene => None,
+            _ => None,
         }
     }
 

@@ -279,7 +279,8 @@ impl Scene {
             (Key::StiffnessRatio, &self.stiffness_ratio),
         ] {
             if !value.is_positive() {
-                return Err(Error::not_positive(quantity.name(), value.clone()));
+                let (name, value) = (quantity.name(), value.clone());
+                return Err(cannonpile::Error::not_positive(name, value).into());
             }
         }
         Ok(())
@@ -325,7 +326,8 @@ impl Scene {
     pub fn check_touching(&self) -> Result<(), Error> {
         match &self.spacing {
             Some(spacing) if !spacing.is_one() => {
-                Err(Error::not_touching(Spacing::new(spacing.clone())?))
+                let spacing = Spacing::new(spacing.clone())?;
+                Err(cannonpile::Error::not_touching(spacing).into())
             }
             _ => Ok(()),
         }

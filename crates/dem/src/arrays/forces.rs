@@ -3,9 +3,7 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::places::{
-    check_length, pieces, put_by_direction, put_vectors, put_vectors_by_direction,
-};
+use super::places::{check_length, pieces, put_by_direction, put_vectors};
 use super::{PileArrays, overflow};
 use crate::Error;
 use crate::numbered::{nearest, rounded};
@@ -142,7 +140,7 @@ impl<'p> PileArrays<'p> {
             // By direction and then by axis, where they were by axis and then by direction.
             let [x, y, z] = found;
             let by_line = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
-            put_vectors_by_direction(&by_line.take(lines).collect::<Vec<_>>(), &mut left);
+            put_vectors(&by_line.take(lines).collect::<Vec<_>>(), &mut left);
         }
         self.put_horizontal(left, |contact| rounded(&contact.vector, "a contact force"))
     }
@@ -170,7 +168,7 @@ impl<'p> PileArrays<'p> {
             check_length(layer.sphere_count(), left.as_slice())?;
             let mut found = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
             layer.fill_base(slices(&mut found))?;
-            put_vectors(&found, &mut left);
+            put_vectors(&[found], &mut left);
         }
         Ok(())
     }

@@ -19,7 +19,7 @@ pub(super) fn check_length<V>(needed: usize, places: &[V]) -> Result<(), Error> 
     if places.len() == needed {
         return Ok(());
     }
-    Err(Error::length(needed, places.len()))
+    Err(cannonpile::Error::length(needed, places.len()).into())
 }
 
 /// Writes to the next place.
@@ -29,18 +29,8 @@ pub(super) fn put<V>(places: &mut IterMut<'_, V>, value: V) {
     }
 }
 
-/// Writes the vectors of spheres from columns x, y, z.
-pub(super) fn put_vectors([x, y, z]: &[Vec<f64>; 3], places: &mut IterMut<'_, [f64; 3]>) {
-    for ((x, y), z) in x.iter().zip(y).zip(z) {
-        put(places, [*x, *y, *z]);
-    }
-}
-
-/// Writes the vectors of contacts, sphere by sphere, from columns x, y, z for each direction.
-pub(super) fn put_vectors_by_direction(
-    directions: &[[Vec<f64>; 3]],
-    places: &mut IterMut<'_, [f64; 3]>,
-) {
+/// Writes vectors, sphere by sphere, from columns x, y, z: one of each sphere, or one for each direction of its contacts.
+pub(super) fn put_vectors(directions: &[[Vec<f64>; 3]], places: &mut IterMut<'_, [f64; 3]>) {
     let spheres = directions.first().map_or(0, |[x, ..]| x.len());
     for sphere in 0..spheres {
         for columns in directions {

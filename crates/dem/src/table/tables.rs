@@ -107,5 +107,5 @@ pub fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> 
     if *rows <= BigUint::from(MAX_ROWS) {
         return Ok(());
     }
-    Err(Error::too_many_rows(rows.clone(), MAX_ROWS, remedy))
+    Err(cannonpile::Error::too_many_rows(rows.clone(), MAX_ROWS, remedy).into())
 }

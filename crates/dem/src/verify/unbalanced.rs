@@ -3,16 +3,17 @@
 use core::fmt;
 use std::collections::BTreeMap;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 
 use super::measured::{Measured, norm};
 use super::places::minus;
 use super::refusal::Refusal;
 use crate::Error;
 use crate::error::bug;
+use crate::numbered::rounded;
 use crate::table::{Cell, Column, Table, indices, places};
+use crate::weights::ordinary_weight;
 use crate::{NumberedContact, NumberedPile};
 use cannonpile::Packing;
 use cannonpile::lattice::Site;
@@ -147,11 +148,7 @@ impl<'p> Balance<'p> {
         let pile = packing.pile();
         let one = packing.sphere_weight();
         let weight = |mg: BigRational| (mg * &one).to_f64().ok_or(Refusal::OutOfRange);
-        let ordinary = weight(if pile.is_weightless() {
-            BigRational::zero()
-        } else {
-            BigRational::from_integer(BigInt::from(1))
-        })?;
+        let ordinary = weight(ordinary_weight(pile))?;
         let above = usize::try_from(numbered.numbering().first_on_floor() - 1)
             .map_err(|_| bug("contacts that are compared fit in memory"))?;
         let mut forces = vec![[0.0, 0.0, 0.0 - ordinary]; above];
@@ -246,16 +243,8 @@ impl<'p> Balance<'p> {
 
 /// The unit vector from one site to another.
 fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f64; 3], Error> {
-    let mut centres = [[0.0; 3]; 2];
-    for (centre, site) in centres.iter_mut().zip([to, from]) {
-        for (x, exact) in centre.iter_mut().zip(packing.position(site)?) {
-            let (quantity, scalar) = ("a position", "f64");
-            *x = exact
-                .nearest()
-                .ok_or_else(|| Error::overflow(quantity, scalar))?;
-        }
-    }
-    let [to, from] = centres;
+    let centre = |site| rounded(&packing.position(site)?, "a position");
+    let (to, from) = (centre(to)?, centre(from)?);
     let apart = minus(to, from);
     let length = norm(apart);
     Ok(apart.map(|component| component / length))
