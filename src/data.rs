@@ -40,7 +40,7 @@
 //! not self-describing (postcard, bincode) are supported as well as JSON.
 //!
 //! A value that is written can be read back, with two exceptions. The first are exact numbers with more than
-//! [`MOST_DIGITS`](crate::scalar::parse::MOST_DIGITS) digits, which occur in sums of loads or in forces below thousands
+//! [`MAX_DIGITS`](crate::scalar::parse::MAX_DIGITS) digits, which occur in sums of loads or in forces below thousands
 //! of sign changes. The second is an `f32` or `f64` in JSON that is not finite, since JSON cannot represent it. Both
 //! give an error when they are read.
 //!

@@ -171,12 +171,12 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn standing(&self) -> Result<Standing, Error> {
-        const MOST_WORK: u64 = 1_000_000_000;
+        const MAX_WORK: u64 = 1_000_000_000;
         let changes = self.changes();
         let sites = changes.iter().filter_map(|k| self.shape().layer(*k).ok());
         let sites = sites.map(|region| region.site_count()).sum::<BigUint>();
         let planes = self.system().size_of_sweep(self.layers() - 1).planes;
-        let whole = sites * planes * 3_u32 <= BigUint::from(MOST_WORK);
+        let whole = sites * planes * 3_u32 <= BigUint::from(MAX_WORK);
         let mut standing = self.standing_until(!whole)?;
         if !whole && standing.first_failure.is_some() {
             standing.least = None;

@@ -21,7 +21,7 @@ from fractions import Fraction
 
 OFFSETS = {"alpha": (0, 0), "beta": (1, 0), "gamma": (0, 1)}
 AXES = {"alpha-beta": ("alpha", "beta"), "alpha-gamma": ("alpha", "gamma"), "gamma-beta": ("gamma", "beta")}
-MOST_SPHERES = 1_000_000
+MAX_SPHERES = 1_000_000
 MAX_DIGITS = 5_000
 
 
@@ -98,7 +98,7 @@ def signs_of(given):
     if found[1]:
         return [1 if sign == "+" else -1 for sign in found[1]]
     runs = [int(run) for run in found[3].split(",")]
-    if sum(runs) > MOST_SPHERES:
+    if sum(runs) > MAX_SPHERES:
         raise Unreadable("the pile is too large for this checker")
     first = -1 if found[2] else 1
     return [first * (-1) ** n for n, run in enumerate(runs) for _ in range(run)]
@@ -115,7 +115,7 @@ def region_of(given):
     if len(bounds) < 6:
         bounds = [1 - bounds[-1], bounds[0] - 1] * 3
     x0, x1, y0, y1, s0, s1 = bounds
-    if (x1 - x0 + 1) * (y1 - y0 + 1) > 4 * MOST_SPHERES:
+    if (x1 - x0 + 1) * (y1 - y0 + 1) > 4 * MAX_SPHERES:
         raise Unreadable("the pile is too large for this checker")
     return {(i, j) for i in range(x0, x1 + 1) for j in range(y0, y1 + 1) if s0 <= i + j <= s1}
 
@@ -176,7 +176,7 @@ class Pile:
                 raise Unreadable("the anchor must be a top or a base")
             layers.append(sites)
             count += len(sites)
-            if count > MOST_SPHERES:
+            if count > MAX_SPHERES:
                 raise Unreadable("the pile is too large for this checker")
         if not all(layers):
             raise Unreadable("a layer has no spheres")

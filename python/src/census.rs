@@ -32,7 +32,7 @@ type Row = (
 );
 
 /// The base of taller piles with sign changes is not searched.
-const MOST_LAYERS: i128 = 100_000;
+const MAX_CHECKED_LAYERS: i128 = 100_000;
 
 /// An iterator over stackings.
 #[pyclass(frozen, module = "cannonpile._cannonpile")]
@@ -76,7 +76,7 @@ impl Entry {
             .as_ref()
             .and_then(|standing: &Standing| standing.least.clone());
         let stands = standing.is_some_and(|standing| standing.first_failure.is_none());
-        let is_tall = pile.layers() > MOST_LAYERS && stacking.changes() > 0;
+        let is_tall = pile.layers() > MAX_CHECKED_LAYERS && stacking.changes() > 0;
         let base = if stands && !is_tall {
             unless_too_large(pile.base_extremes())?
         } else {

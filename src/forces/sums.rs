@@ -19,7 +19,7 @@ use crate::formula::{force, half_turn, passed_on};
 use crate::shape::{Selection, Stretch};
 
 /// The most layers that are summed one by one.
-const MOST_LAYERS: u64 = 10_000_000;
+const MAX_SUMMED_LAYERS: u64 = 10_000_000;
 
 impl Forces<'_, BigRational> {
     /// Returns the sum of all contact forces that [`contacts`](Self::contacts) gives of a part, in f₀. Takes as long as the
@@ -60,7 +60,7 @@ impl Forces<'_, BigRational> {
         refuse_beyond(
             "the sum over these layers",
             (layers.end - layers.start).unsigned_abs(),
-            MOST_LAYERS,
+            MAX_SUMMED_LAYERS,
             "ask for single layers",
         )?;
         // By the number of changes above them, whose sums have one denominator.

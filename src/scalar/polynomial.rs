@@ -59,32 +59,32 @@ impl Monomial {
         )
     }
 
-    /// Returns the product, or `None` if an exponent exceeds `u32`.
-    fn times(&self, other: &Self) -> Option<Self> {
-        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
-        for (symbol, power) in &other.0 {
-            let own = powers.entry(*symbol).or_default();
-            *own = own.checked_add(*power)?;
-        }
-        Some(Self(powers.into_iter().collect()))
+    /// Returns the symbols of both monomials, sorted.
+    fn symbols(&self, other: &Self) -> Vec<Symbol> {
+        let mut symbols: Vec<Symbol> = self.0.iter().chain(&other.0).map(|(s, _)| *s).collect();
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
     }
 
-    /// Returns the quotient `self` / `other`, or `None` if `other` does not divide `self`.
-    fn over(&self, other: &Self) -> Option<Self> {
-        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
-        for (symbol, power) in &other.0 {
-            let own = powers.get_mut(symbol)?;
-            *own = own.checked_sub(*power)?;
+    /// Combines the exponents of each symbol, or returns `None` if one combination is `None`.
+    fn combined(&self, other: &Self, combine: fn(u32, u32) -> Option<u32>) -> Option<Self> {
+        let mut powers = Vec::new();
+        for symbol in self.symbols(other) {
+            match combine(self.power(symbol), other.power(symbol))? {
+                0 => {}
+                power => powers.push((symbol, power)),
+            }
         }
         Some(Self(powers))
     }
 
-    /// Returns the product; `None` if a power exceeds `u32`.
+    /// Returns the product, or `None` if an exponent exceeds `u32`.
     fn times(&self, other: &Self) -> Option<Self> {
         self.combined(other, u32::checked_add)
     }
 
-    /// Returns the quotient; `None` if `other` does not divide this monomial.
+    /// Returns the quotient `self` / `other`, or `None` if `other` does not divide `self`.
     fn over(&self, other: &Self) -> Option<Self> {
         self.combined(other, u32::checked_sub)
     }

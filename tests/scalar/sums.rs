@@ -9,7 +9,7 @@ use num_traits::{One, Zero};
 
 type P = Polynomial;
 
-const MOST_LAYERS: i128 = 12;
+const MAX_TESTED_LAYERS: i128 = 12;
 const DEGREE: u32 = 8;
 
 fn symbol(name: &'static str) -> P {
@@ -50,7 +50,7 @@ fn over_pile(p: &P) -> P {
 fn one_by_one([a, b, c]: [u32; 3]) -> Vec<i128> {
     let mut sums = vec![0];
     let mut sum = 0;
-    for k in 0..MOST_LAYERS {
+    for k in 0..MAX_TESTED_LAYERS {
         for j in 0..=k {
             for i in 0..=k - j {
                 sum += i.pow(a) * j.pow(b) * k.pow(c);
@@ -114,7 +114,7 @@ fn combinations_over_every_pile() {
             sum + &(monomial(*powers) * &P::constant(coefficient))
         });
         let sum = over_pile(&p);
-        for (n, layers) in (0..=MOST_LAYERS).enumerate() {
+        for (n, layers) in (0..=MAX_TESTED_LAYERS).enumerate() {
             let term = |(powers, c): (&[u32; 3], &Q)| c * Q::from_i128(direct[powers][n]);
             assert_eq!(
                 at_layers(&sum, layers),

@@ -21,7 +21,7 @@ FIRST_ON_FLOOR = {first}  # ids count from 1, layer after layer from the top
 STIFFNESS = {stiffness}  # N/m; a contact of two spheres has E*R
 RADIUS = {radius}  # m
 REST = {rest}  # N, on a sphere: what the last digits of coordinates make of nothing
-MOST_STEPS = {most_steps}
+MAX_STEPS = {most_steps}
 # Newtons downwards besides the weight, by id.
 LOADS = {loads}
 # Masses other than that of an ordinary sphere, by id.
@@ -84,7 +84,7 @@ def checkPile():
 	greatest = max([abs(force) for force in exact.values()] + [sys.float_info.min])
 	bearing = set(pair for pair, force in exact.items() if abs(force) > TOLERANCE * greatest)
 	rest = False
-	while O.iter < MOST_STEPS and not rest:
+	while O.iter < MAX_STEPS and not rest:
 		O.run(1000, True)
 		forces = measuredForces(firstBody)
 		lost = bearing.difference(forces)

@@ -12,7 +12,7 @@ use cannonpile::engine::refuse_beyond;
 use cannonpile::lattice::Dimension;
 
 /// The most atoms of LAMMPS compiled as usual.
-const MOST_ATOMS: u64 = i32::MAX as u64;
+const MAX_ATOMS: u64 = i32::MAX as u64;
 
 /// Writes the spheres, those on the floor of type 2, in a box that leaves them room to fall.
 pub(super) fn write_data(
@@ -24,7 +24,7 @@ pub(super) fn write_data(
     refuse_beyond(
         "the atoms of LAMMPS",
         spheres,
-        MOST_ATOMS,
+        MAX_ATOMS,
         "use fewer layers, or a smaller top or base",
     )?;
     let springs = Springs::of(pile)?;

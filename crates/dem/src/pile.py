@@ -11,7 +11,7 @@ FIRST_ON_FLOOR = {first}  # ids are cannonpile's, from 1; those of YADE begin wi
 STIFFNESS = {stiffness}  # N/m; a contact of two spheres has E*R
 RADIUS = {radius}
 REST = {rest}  # N, on a sphere: what the last digits of coordinates make of nothing
-MOST_STEPS = {most_steps}
+MAX_STEPS = {most_steps}
 # Newtons downwards besides the weight, by id.
 LOADS = {loads}
 # Masses other than that of an ordinary sphere, by id.
@@ -63,7 +63,7 @@ def at_rest():
     return not forces or unbalancedForce(True) * sum(forces) / len(forces) < REST
 
 
-while O.iter < MOST_STEPS:
+while O.iter < MAX_STEPS:
     O.run(1000, True)
     if at_rest():
         break

@@ -5,7 +5,7 @@ use crate::Error;
 use cannonpile::engine::refuse_beyond;
 
 /// The most spheres of a test that runs beside many others.
-const MOST_SPHERES: u64 = 2000;
+const MAX_SPHERES: u64 = 2000;
 
 /// The error that is let pass, of the greatest force: of springs as stiff as here it is a hundredth of that in straight piles.
 pub(super) const TOLERANCE: f64 = 1e-5;
@@ -37,7 +37,7 @@ impl Forces {
         refuse_beyond(
             "a test of a suite",
             spheres,
-            MOST_SPHERES,
+            MAX_SPHERES,
             "use fewer layers, or --to lammps,yade",
         )?;
         let (mut greatest, mut has_idle, mut pulls) = (0.0_f64, false, false);

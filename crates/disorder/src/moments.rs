@@ -6,7 +6,7 @@ use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::stackings::{FirstSign, MOST_LAYERS, RandomStackings, check_fault_probability};
+use super::stackings::{FirstSign, MAX_RANDOM_LAYERS, RandomStackings, check_fault_probability};
 use crate::Error;
 use crate::TWO;
 use crate::formula::{
@@ -210,7 +210,7 @@ fn steps(layers: i128) -> Result<BigRational, Error> {
     refuse_beyond(
         "moments of the response to a load",
         layers.unsigned_abs(),
-        MOST_LAYERS,
+        MAX_RANDOM_LAYERS,
         "use fewer layers",
     )?;
     Ok(BigRational::from_i128(layers - 1))

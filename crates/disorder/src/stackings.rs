@@ -125,11 +125,11 @@ pub struct RandomStackings {
 }
 
 /// The most layers for probabilities of registries and for moments. The cost is proportional to the number of layers.
-pub(super) const MOST_LAYERS: u64 = 10_000;
+pub(super) const MAX_RANDOM_LAYERS: u64 = 10_000;
 
 /// The limit of the smaller of two numbers, faults and unchanged signs, in a count of stackings. The cost of a count is
 /// proportional to the smaller number.
-const MOST_FAULTS: u64 = 10_000;
+const MAX_FAULTS: u64 = 10_000;
 
 impl RandomStackings {
     /// Returns the stackings of this number of layers.
@@ -238,7 +238,7 @@ impl RandomStackings {
         refuse_beyond(
             "the number of stackings with so many faults",
             fewer,
-            MOST_FAULTS,
+            MAX_FAULTS,
             "use fewer faults, or so many that few signs stay unchanged",
         )?;
         let of = self.most_faults().unsigned_abs();
@@ -283,7 +283,7 @@ impl RandomStackings {
         refuse_beyond(
             "the probabilities of the registries of random stackings",
             self.layers.unsigned_abs(),
-            MOST_LAYERS,
+            MAX_RANDOM_LAYERS,
             "use fewer layers",
         )?;
         let third = T::one().div_int(THREE);

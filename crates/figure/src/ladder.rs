@@ -152,7 +152,7 @@ fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -
     };
     let curve = chart.curve([from, to], colour).class("fit");
     let curve = curve.set("data-norm", norm.name());
-    Some(curve.valued("data-order", fit.order))
+    Some(curve.with_value("data-order", fit.order))
 }
 
 /// Returns a triangle of slope 1, in the lower right corner.

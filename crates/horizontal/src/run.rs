@@ -17,7 +17,7 @@ const LONGEST: i128 = 3;
 
 /// The maximum number of spheres of an edge in a field. More than four are needed if the sphere at the sign change
 /// is heavier.
-const MOST_SPHERES: usize = 1000;
+const MAX_SPHERES: usize = 1000;
 
 /// Returns the layer above the first step of each run, from the top.
 pub(crate) fn run_starts(shape: &Shape) -> impl Iterator<Item = i128> {
@@ -82,7 +82,7 @@ fn edge(
     let mut work = pile.total_load(lowest) * &minus_three;
     let mut field = BTreeMap::from([(lowest, along(minus_three))]);
     let mut line = core::iter::successors(Some(lowest), |site| shape.above(*site, direction));
-    let mut above = line.by_ref().skip(1).take(MOST_SPHERES);
+    let mut above = line.by_ref().skip(1).take(MAX_SPHERES);
     while !work.is_positive() {
         let site = above.next().filter(|site| site.k >= first)?;
         work += pile.total_load(site);

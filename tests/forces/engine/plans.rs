@@ -11,7 +11,7 @@ use cannonpile_testkit::cases::stacking;
 use cannonpile_testkit::oracles::balance::ratio;
 
 /// The maximal number of values in a sweep.
-const MOST_NUMBERS: u64 = 134_217_728;
+const MAX_NUMBERS: u64 = 134_217_728;
 
 fn under_one_sphere(signs: &str) -> Pile {
     Pile::under(Region::SITE, stacking(signs)).unwrap()
@@ -141,11 +141,11 @@ fn a_bare_selection_queries_multiples() {
 fn a_sweep_has_at_most_2_to_the_27_values() {
     let plan = |n| under_a_row(n, "+-").plan(by(Method::Sweep, Selection::Base));
     let most: Plan = plan(14_913_079).unwrap();
-    assert_eq!(most.numbers, BigUint::from(MOST_NUMBERS - 5));
+    assert_eq!(most.numbers, BigUint::from(MAX_NUMBERS - 5));
     let refused = Error::too_large(
         "a sweep down to this layer",
-        BigUint::from(MOST_NUMBERS + 4),
-        MOST_NUMBERS,
+        BigUint::from(MAX_NUMBERS + 4),
+        MAX_NUMBERS,
         "ask for one sphere, or for fewer layers",
     );
     assert_eq!(plan(14_913_080), Err(refused));

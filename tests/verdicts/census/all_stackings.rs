@@ -13,7 +13,7 @@ use cannonpile_testkit::compare;
 use cannonpile_testkit::oracles::balance::{Balance, Sites};
 use cannonpile_testkit::oracles::brute::Front;
 
-const MOST_STEPS: usize = 13;
+const MAX_STEPS: usize = 13;
 
 /// All stable stackings and the shortest unstable ones that begin with +, by number of steps.
 struct Found {
@@ -23,7 +23,7 @@ struct Found {
 
 /// Examines every stacking layer by layer. Stackings with a common beginning share it.
 fn brute_force() -> Found {
-    let none = || vec![BTreeSet::new(); MOST_STEPS + 1];
+    let none = || vec![BTreeSet::new(); MAX_STEPS + 1];
     let mut found = Found {
         standing: none(),
         failing: none(),
@@ -43,7 +43,7 @@ fn brute_force() -> Found {
                 continue;
             }
             found.standing[signs.len()].insert(signs.clone());
-            if signs.len() < MOST_STEPS {
+            if signs.len() < MAX_STEPS {
                 pending.push((signs, passed.below));
             }
         }
@@ -70,7 +70,7 @@ fn entries(layers: usize, failing: bool) -> Vec<Entry> {
 fn under_one_sphere_up_to_14_layers() {
     let found = brute_force();
     let mut counts = Vec::new();
-    for steps in 0..=MOST_STEPS {
+    for steps in 0..=MAX_STEPS {
         let standing: Vec<String> = entries(steps + 1, false).iter().map(signs).collect();
         counts.push(standing.len());
         assert_eq!(
@@ -99,7 +99,7 @@ fn under_one_sphere_up_to_14_layers() {
 fn brute_force_is_complete() {
     // The stable stackings and the continuations of unstable ones are all stackings.
     let found = brute_force();
-    for steps in 1..=MOST_STEPS {
+    for steps in 1..=MAX_STEPS {
         let failed = (1..=steps).map(|n| found.failing[n].len() << (steps - n));
         let all = found.standing[steps].len() + failed.sum::<usize>();
         assert_eq!(all, 1 << (steps - 1));

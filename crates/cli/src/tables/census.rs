@@ -6,7 +6,7 @@ use cannonpile_dem::table::{Cell, Column, Row, Table, steps};
 use cannonpile_horizontal::census as horizontal;
 
 /// The largest number of layers of a stacking with a sign change for which a census computes base normal forces.
-const MOST_LAYERS: i128 = 100_000;
+const MAX_CHECKED_LAYERS: i128 = 100_000;
 
 /// Returns a row for each stacking: `stacking, layers, stands, min_contact, base_spheres, normal_min, normal_max`, and the
 /// contact with the smallest force, `k, i, j, direction`.
@@ -78,7 +78,7 @@ fn without_horizontal_contacts(
     let mut cells = vec![least.map_or(Cell::Missing, |least| least.force.clone().into())];
     cells.push(Cell::Integer(pile.base_sphere_count().into()));
     let stands = standing.is_some_and(|standing| standing.first_failure.is_none());
-    let is_tall = pile.layers() > MOST_LAYERS && pile.shape().stacking().changes() > 0;
+    let is_tall = pile.layers() > MAX_CHECKED_LAYERS && pile.shape().stacking().changes() > 0;
     let base = if stands && !is_tall {
         match pile.base_extremes() {
             Err(Error::TooLarge { .. }) => None,

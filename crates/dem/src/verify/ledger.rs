@@ -20,7 +20,7 @@ const PAIRS_A_SPHERE: u64 = 20;
 const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>();
 
 /// How many times lines may begin anew, before they are no longer told.
-const MOST_RUNS: usize = 1 << 20;
+const MAX_RUNS: usize = 1 << 20;
 
 /// The forces measured in a pile: eight bytes a contact, 24 more if there are vectors.
 pub(super) struct Ledger<'p> {
@@ -238,7 +238,7 @@ impl Lines {
             && line == *begun + *length as u64
         {
             *length += 1;
-        } else if self.runs.len() < MOST_RUNS {
+        } else if self.runs.len() < MAX_RUNS {
             self.runs.insert(slot, (line, 1));
             self.last = Some(slot);
         } else {

@@ -18,7 +18,7 @@ const SAMPLE: usize = 200;
 const FITTED: usize = 5000;
 
 /// How many turns are tried for one vertical.
-const MOST_TURNS: usize = 200;
+const MAX_TURNS: usize = 200;
 
 /// Angles this near to a multiple of 30° are that multiple, and shifts this near to nothing, in R, are none: spheres give
 /// way by more.
@@ -203,7 +203,7 @@ fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec<f64
         {
             angles.push(turn);
         }
-        if angles.len() > MOST_TURNS {
+        if angles.len() > MAX_TURNS {
             break;
         }
     }

@@ -8,7 +8,7 @@ use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use super::setup::{MOST_BINS, stackings_of};
+use super::setup::{MAX_BINS, stackings_of};
 use super::{Choice, Distribution, Ensemble, Extreme, Histogram, Shard, Tally, WithFaults};
 
 /// The reason why tallies do not merge into one.
@@ -279,7 +279,7 @@ impl Histogram {
             return self.first == 0 && least.is_none() && greatest.is_none();
         };
         let last = i128::from(self.first) + self.counts.len() as i128 - 1;
-        let most = i128::from(MOST_BINS);
+        let most = i128::from(MAX_BINS);
         let is_in = |found: &Option<Extreme>, bin: i128| {
             let force = found.as_ref().map(|found| &found.force);
             force.is_some_and(|force| (force / width).floor() == BigRational::from_i128(bin))

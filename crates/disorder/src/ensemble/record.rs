@@ -12,7 +12,7 @@ use super::{Choice, ContactSet, Ensemble, Shard, Tally, Unmergeable, WithFaults}
 use crate::Error;
 
 /// The size limit of a file to read: 512 MiB.
-const MOST_BYTES: u64 = 512 << 20;
+const MAX_BYTES: u64 = 512 << 20;
 
 /// A number of stackings, in the serialised form of this crate.
 #[derive(Serialize)]

@@ -19,13 +19,13 @@ use crate::Error;
 use crate::error::bug;
 
 /// The most 64-bit words that a walk stores, for all layers of one stacking.
-const MOST_WORDS: u64 = 50_000_000;
+const MAX_WORDS: u64 = 50_000_000;
 
 /// The most bins that a histogram of contact forces can have.
-pub(super) const MOST_BINS: u64 = 100_000;
+pub(super) const MAX_BINS: u64 = 100_000;
 
 /// The most stackings that one run enumerates.
-const MOST_STACKINGS: u64 = 1 << 24;
+const MAX_STACKINGS: u64 = 1 << 24;
 
 /// A checked request.
 pub(super) struct Task {
@@ -52,12 +52,12 @@ impl Task {
         let order = Order::new(ensemble, choice, steps)?;
         let too_many = |stackings: BigUint| Error::TooManyStackings {
             stackings,
-            limit: MOST_STACKINGS,
+            limit: MAX_STACKINGS,
         };
         let range = range_of(&order, choice, shard);
         let range = range.ok_or_else(|| too_many(BigUint::one() << order.free))?;
         let count = range.end - range.start;
-        if *choice == Choice::All && count > MOST_STACKINGS {
+        if *choice == Choice::All && count > MAX_STACKINGS {
             return Err(too_many(count.into()));
         }
         let total = spheres.iter().sum::<u128>();
@@ -86,7 +86,7 @@ impl Task {
                 .to_integer()
                 .into_parts()
                 .1,
-            MOST_BINS,
+            MAX_BINS,
             "use wider bins, or fewer layers",
         )?;
         let own = formula::force(weight, &increment);

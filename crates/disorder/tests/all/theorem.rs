@@ -58,12 +58,12 @@ fn statements_name_their_subject_and_method() {
 /// Each fault is rejected by exactly the listed theorems.
 #[test]
 fn faults_are_rejected() {
-    ATTEMPTS.are_refused_as_said();
+    ATTEMPTS.fail_as_listed();
 }
 
 #[test]
 fn every_theorem_rejects_a_fault() {
-    ATTEMPTS.every_theorem_refuses_one();
+    ATTEMPTS.every_theorem_has_a_fault();
 }
 
 /// Lists the fields by name. A missing field is a compile error.
@@ -87,13 +87,13 @@ fn every_formula_has_a_fault() {
 /// Each step of each proof is broken by some fault.
 #[test]
 fn every_step_rejects_a_fault() {
-    ATTEMPTS.every_step_refuses_one();
+    ATTEMPTS.every_step_has_a_fault();
 }
 
 /// The printed proof reports its failure.
 #[test]
 fn refuted_proofs_are_reported() {
-    ATTEMPTS.are_listed_as_refuted();
+    ATTEMPTS.report_failures();
 }
 
 /// The number of steps of each proof, counted by cases.

@@ -66,13 +66,13 @@ pub fn piles(u: &mut Unstructured<'_>) -> Result<Piles> {
 }
 
 /// The means of more layers take seconds.
-const MOST_LAYERS: i128 = 24;
+const MAX_DRAWN_LAYERS: i128 = 24;
 
 /// Any number of layers: few, dozens, possibly too many, or the maximum.
 pub fn stackings(u: &mut Unstructured<'_>) -> Result<RandomStackings> {
     let layers = match u.int_in_range(0..=4)? {
         0 | 1 => u.int_in_range(1..=8)?,
-        2 => u.int_in_range(9..=MOST_LAYERS)?,
+        2 => u.int_in_range(9..=MAX_DRAWN_LAYERS)?,
         3 => u.int_in_range(2000..=MAX_LAYERS)?,
         _ => MAX_LAYERS - u.int_in_range(0..=3)?,
     };

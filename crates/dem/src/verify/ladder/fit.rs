@@ -5,7 +5,7 @@ use core::fmt;
 use super::{Ladder, Log, Norm, RungPlace};
 
 /// An error that falls with less than this order does not fall.
-const LEAST_ORDER: f64 = 0.5;
+const MIN_ORDER: f64 = 0.5;
 
 /// What is left of the order so far, where the floor is not yet reached.
 const KEPT_ORDER: f64 = 2.0 / 3.0;
@@ -211,7 +211,7 @@ fn above(points: &[Log]) -> usize {
     let last = points.iter().enumerate().position(|(n, from)| {
         let until_here = points.first().filter(|_| n >= 2);
         let until_here = until_here.map(|first| KEPT_ORDER * first.order_to(*from));
-        let least = until_here.map_or(LEAST_ORDER, |order| order.max(LEAST_ORDER));
+        let least = until_here.map_or(MIN_ORDER, |order| order.max(MIN_ORDER));
         let mut finer = points.iter().skip(n + 1);
         !finer.any(|finer| from.order_to(*finer) >= least)
     });

@@ -296,9 +296,7 @@ fn parameters_of_any_size_have_orders() {
             let ladder = Ladder::new(refinement, rungs).unwrap();
             assert!((fit(&ladder).order - 2.0).abs() < 1e-10, "{scale}");
             let limit = ladder.limit(Norm::Largest, 2.0).unwrap();
-            assert!(
-                limit.error.abs() < 1e-10 * rungs[2].largest_error.min(rungs[0].largest_error)
-            );
+            assert!(limit.error.abs() < 1e-10 * rungs[2].largest_error.min(rungs[0].largest_error));
         }
     }
 }
