@@ -95,11 +95,11 @@ pub(crate) enum HistogramForces {
     Normals,
 }
 
-impl From<Measured> for ForceKind {
-    fn from(measured: Measured) -> Self {
-        match measured {
-            HistogramForces::Forces => Self::Forces,
-            HistogramForces::Normals => Self::Normals,
+impl From<HistogramForces> for ForceKind {
+    fn from(forces: HistogramForces) -> Self {
+        match forces {
+            HistogramForces::Forces => Self::Contact,
+            HistogramForces::Normals => Self::Normal,
         }
     }
 }
