@@ -6,7 +6,7 @@
 
 use core::array;
 
-use cannonpile::formula::{force, handed_on, increments, weight};
+use cannonpile::formula::{force, increments, support_load, weight};
 use cannonpile::geometry::directions;
 use cannonpile::lattice::{Site, count};
 use cannonpile::scalar::{
@@ -22,7 +22,7 @@ use num_traits::Signed;
 fn carried<T: Algebra>([i, j, k, s]: [T; 4]) -> T {
     let (above, own) = (count::above(&i, &j, &k), increments(&s));
     let received = array::from_fn(|line| force(above[line].clone(), &own[line]));
-    handed_on(&received, &directions(&s), &weight(&own)).z
+    support_load(&received, &directions(&s), &weight(&own)).z
 }
 
 /// Evaluates the formula at these numbers in the scalar `T`.

@@ -6,7 +6,7 @@
 
 use core::num::NonZeroI64;
 
-use cannonpile::formula::{force, increments, passed_on};
+use cannonpile::formula::{force, increments, transmitted};
 use cannonpile::lattice::count;
 use cannonpile::scalar::{Algebra, Polynomial, Ring, Symbol};
 use cannonpile::shape::Selection;
@@ -29,7 +29,7 @@ fn energy() -> P {
     let half = P::one().div_int(TWO);
     let lines = count::above(&i, &j, &k).into_iter().zip(increments(&half));
     // A sphere with n others above it on a contact line receives n increments and transmits n + 1.
-    let forces = lines.map(|(n, own)| passed_on(force(n, &own), &own));
+    let forces = lines.map(|(n, own)| transmitted(force(n, &own), &own));
     let squares = forces.fold(P::zero(), |sum, f| sum + &(f.clone() * &f));
     // The sites of layer k are 0 ≤ j ≤ k, 0 ≤ i ≤ k − j. The sum ends at layer L − 2, because layer L − 1 is on the floor.
     let zero = P::zero();

@@ -305,7 +305,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn to_below(&self, site: Site) -> Result<[T; 3], Error> {
-        self.terms.contacts(self.passed_on(site)?)
+        self.terms.contacts(self.transmitted(site)?)
     }
 
     /// Returns the force of a bottom sphere on the floor.
@@ -512,7 +512,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     }
 
     /// Returns the forces to the spheres below.
-    fn passed_on(&self, site: Site) -> Result<Received<T>, Error> {
+    fn transmitted(&self, site: Site) -> Result<Received<T>, Error> {
         self.check_off_the_floor(site)?;
         let above = self.received(site, Wanted::All)?;
         Ok(self.terms.lines.to_below(site, above, self.meter))
@@ -658,7 +658,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn unbalanced(&self, site: Site) -> Result<Vector<T>, Error> {
-        let below = self.passed_on(site)?;
+        let below = self.transmitted(site)?;
         let above = self.received(site, Wanted::All)?;
         let (terms, changes) = (&self.terms, below.changes);
         let rescaled = |force| terms.lines.rescaled(force, above.changes, changes);

@@ -16,8 +16,8 @@
 //! | (6), (7) | increments of one sphere | [`increments`] |
 //! | (8) | force after N spheres of a line | [`force`] |
 //! | (9) | N, in the paper's pile and in any other | [`count::above`](crate::lattice::count::above), [`count::bounds_above`](crate::lattice::count::bounds_above) |
-//! | (10) | force of a contact | [`passed_on`], with [`force`] for the spheres above |
-//! | (11)–(14) | force on the floor | [`handed_on`] |
+//! | (10) | force of a contact | [`transmitted`], with [`force`] for the spheres above |
+//! | (11)–(14) | force on the floor | [`support_load`] |
 //! | | transfer across a sign change, not in the paper | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
 //! | | horizontal contacts, not in the paper | [`pushed`], [`beside`] |
 //!
@@ -100,15 +100,15 @@ pub fn force<T: Ring>(n: T, increment: &T) -> T {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::formula::{force, increments, passed_on};
+/// use cannonpile::formula::{force, increments, transmitted};
 ///
 /// // N + 1 = 4 increments below a sphere with N = 3 above it on its line γ.
 /// let [_, _, w] = increments(&0.25);
-/// assert_eq!(passed_on(force(3.0, &w), &w), force(4.0, &w));
+/// assert_eq!(transmitted(force(3.0, &w), &w), force(4.0, &w));
 /// ```
 #[must_use]
 #[inline]
-pub fn passed_on<T: for<'a> Add<&'a T, Output = T>>(received: T, own: &T) -> T {
+pub fn transmitted<T: for<'a> Add<&'a T, Output = T>>(received: T, own: &T) -> T {
     received + own
 }
 
@@ -139,15 +139,15 @@ pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> V
 ///
 /// # Examples
 /// ```
-/// use cannonpile::formula::handed_on;
+/// use cannonpile::formula::support_load;
 /// use cannonpile::geometry::{directions, Vector};
 ///
 /// // The corner of the base of 10 layers, with 9 spheres above it on one line: (10 + 2)/3 mg.
-/// let force = handed_on(&[9.0, 0.0, 0.0], &directions(&0.5), &3.0);
+/// let force = support_load(&[9.0, 0.0, 0.0], &directions(&0.5), &3.0);
 /// assert_eq!(force, Vector { x: -4.5, y: -4.5, z: 12.0 });
 /// ```
 #[must_use]
-pub fn handed_on<T: Ring>(
+pub fn support_load<T: Ring>(
     from_above: &[T; 3],
     directions: &[Vector<T>; 3],
     weight: &T,
@@ -164,7 +164,7 @@ pub fn handed_on<T: Ring>(
 ///
 /// This is (3) of the paper, with the terms a′ + b′ + c′ that are missing in print. The supports act with `to_below`
 /// along the directions `below`, and the spheres above with `from_above` along the directions `above`. `weight` is as
-/// for [`handed_on`]. The two sets of directions differ at a sign change.
+/// for [`support_load`]. The two sets of directions differ at a sign change.
 ///
 /// # Examples
 /// ```
@@ -183,5 +183,5 @@ pub fn unbalanced<T: Ring>(
     above: &[Vector<T>; 3],
     weight: &T,
 ) -> Vector<T> {
-    Vector::combination(to_below, below) + &handed_on(from_above, above, weight)
+    Vector::combination(to_below, below) + &support_load(from_above, above, weight)
 }

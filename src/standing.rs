@@ -350,7 +350,7 @@ impl Pile {
             let mut sweep = shortest_exact_sweep(&lines, &system, last + 1)?;
             let least = layers.iter().map(|k| {
                 sweep.advance(*k, Meter::NONE)?;
-                least_passed_on(&mut sweep, &lines)
+                least_transmitted(&mut sweep, &lines)
             });
             least.collect()
         };
@@ -416,7 +416,7 @@ fn least_at_ends(
 }
 
 /// Returns the least force below the layer that a sweep is at, where the sign has just changed.
-fn least_passed_on(
+fn least_transmitted(
     sweep: &mut Descent<'_, BigRational, Planes>,
     lines: &Lines<'_, BigRational>,
 ) -> Result<ContactForce<BigRational>, Error> {
@@ -426,7 +426,7 @@ fn least_passed_on(
     let [i, j] = least.place;
     // A change of sign is only where all directions are alike.
     let [own, ..] = lines.increments_after(changes);
-    let force = formula::passed_on(least.numerator, &own);
+    let force = formula::transmitted(least.numerator, &own);
     Ok(ContactForce {
         site: Site { i, j, k },
         direction: least.direction,

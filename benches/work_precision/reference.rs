@@ -105,14 +105,14 @@ pub(crate) fn by_sphere<T>(forces: Vec<T>) -> Vec<[T; 3]> {
 }
 
 /// Asserts that the contact forces on each sphere and its weight, 3 f₀ cosθ, sum to zero.
-fn certify(pile: &Pile, network: &Network, passed_on: &[[BigRational; 3]]) {
+fn certify(pile: &Pile, network: &Network, transmitted: &[[BigRational; 3]]) {
     let forces = pile.forces::<BigRational>();
     let mut left = vec![Vector::zero(); network.sites.len()];
     for (sum, &site) in left.iter_mut().zip(&network.sites) {
         sum.z = pile.sphere_weight(site).expect("a sphere") * BigRational::from_i128(3);
     }
     let mut directions = Vec::new();
-    for (upper, (below, passed_on)) in network.below.iter().zip(passed_on).enumerate() {
+    for (upper, (below, transmitted)) in network.below.iter().zip(transmitted).enumerate() {
         let site = network.sites[upper];
         if upper == 0 || network.sites[upper - 1].k < site.k {
             directions = Vec::from(Direction::ALL.map(|direction| {
@@ -121,7 +121,7 @@ fn certify(pile: &Pile, network: &Network, passed_on: &[[BigRational; 3]]) {
                     .expect("a contact")
             }));
         }
-        for ((&lower, force), direction) in below.iter().zip(passed_on).zip(&directions) {
+        for ((&lower, force), direction) in below.iter().zip(transmitted).zip(&directions) {
             let push = direction.clone().scaled(force);
             left[upper] = left[upper].clone() + &push;
             left[lower] = left[lower].clone() + &push.map(|x| -x);

@@ -296,7 +296,7 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     else {
         return add_then_turn([alpha, beta, gamma], along, turn);
     };
-    let sum = |x: &V, w| formula::passed_on(x.clone(), w);
+    let sum = |x: &V, w| formula::transmitted(x.clone(), w);
     // Where all three are level, what is added is the same everywhere.
     let level = up..(n - down).max(up);
     turn_apart(
@@ -358,13 +358,13 @@ fn add_each<'v, V: Clone + 'v + for<'a> Add<&'a V, Output = V>>(
     values: impl Iterator<Item = &'v V>,
 ) {
     for (sum, value) in row.iter_mut().zip(values) {
-        *sum = formula::passed_on(sum.clone(), value);
+        *sum = formula::transmitted(sum.clone(), value);
     }
 }
 
 fn add_same<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], value: &V) {
     for sum in row {
-        *sum = formula::passed_on(sum.clone(), value);
+        *sum = formula::transmitted(sum.clone(), value);
     }
 }
 

@@ -69,6 +69,6 @@ impl<T: Algebra> Lines<'_, T> {
         let [i, j] = site;
         let line = Line::through(Site { i, j, k }, direction, run);
         let extras = self.extras.range((line, k - n)..(line, k));
-        extras.fold(ordinary, |sum, (_, extra)| formula::passed_on(sum, extra))
+        extras.fold(ordinary, |sum, (_, extra)| formula::transmitted(sum, extra))
     }
 }

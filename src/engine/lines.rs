@@ -17,7 +17,7 @@ use num_traits::{One, Zero, pow};
 
 use super::meter::Meter;
 use crate::formula;
-use crate::formula::{force, half_turn, passed_on};
+use crate::formula::{force, half_turn, transmitted};
 use crate::lattice::Sign;
 use crate::lattice::{Direction, Row, Site};
 use crate::pile::System;
@@ -217,9 +217,9 @@ impl<'p, T: Algebra> Lines<'p, T> {
 /// Returns what a sphere passes on along its three lines.
 fn add<N: Ring>([a, b, c]: [N; 3], [own_a, own_b, own_c]: &[N; 3]) -> [N; 3] {
     [
-        passed_on(a, own_a),
-        passed_on(b, own_b),
-        passed_on(c, own_c),
+        transmitted(a, own_a),
+        transmitted(b, own_b),
+        transmitted(c, own_c),
     ]
 }
 

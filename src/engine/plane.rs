@@ -91,7 +91,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Plane<V> {
     pub(super) fn add_to(&mut self, cells: [usize; 3], values: &[V; 3]) {
         for ((line, cell), value) in self.0.iter_mut().zip(cells).zip(values) {
             // A cell of the grid.
-            line[cell] = formula::passed_on(line[cell].clone(), value);
+            line[cell] = formula::transmitted(line[cell].clone(), value);
         }
     }
 }

@@ -97,7 +97,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
 
     /// Returns the forces to the spheres below each sphere of a piece of a row that is not on the floor; a sweep has gone
     /// down to its layer.
-    pub(crate) fn passed_on_in(
+    pub(crate) fn transmitted_in(
         &self,
         pile: (&Lines<'p, T>, &System<'p>),
         piece: &Row,
@@ -107,7 +107,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         if let Self::Sweep(sweep) = self {
             let one = |site| {
                 meter.visit(1);
-                sweep.passed_on(site, meter)
+                sweep.transmitted(site, meter)
             };
             return sites.map(one).collect();
         }

@@ -150,7 +150,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     ///
     /// # Errors
     /// [`Error::Bug`] if the sphere is of another layer.
-    pub(crate) fn passed_on(&self, site: Site, meter: Meter<'_>) -> Result<Received<T>, Error> {
+    pub(crate) fn transmitted(&self, site: Site, meter: Meter<'_>) -> Result<Received<T>, Error> {
         let Received { forces, changes } = self.received(site)?;
         Ok(match self.pass {
             Some(pass) if pass.turns => self.lines.with_own(site, forces, changes + 1),

@@ -196,7 +196,7 @@ impl<T: Algebra> Lines<'_, T> {
                     let carried = place.and_then(|place| turned.get(place));
                     let carried = carried
                         .ok_or_else(|| bug("a line that crosses a change of sign starts there"))?;
-                    formula::passed_on(carried[direction.index()].clone(), &counted)
+                    formula::transmitted(carried[direction.index()].clone(), &counted)
                 } else {
                     counted
                 };

@@ -298,10 +298,10 @@ impl<'p> Layers<'p, BigRational> {
     }
 
     /// Returns the forces to the spheres below consecutive ones of a row of the layer that was reached.
-    pub(super) fn passed_on_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
+    pub(super) fn transmitted_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
         let (terms, engine) = self.exact()?;
         let system = (&terms.lines, &terms.system);
-        let below = engine.passed_on_in(system, row, self.meter);
+        let below = engine.transmitted_in(system, row, self.meter);
         below.into_iter().collect()
     }
 

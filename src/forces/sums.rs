@@ -15,7 +15,7 @@ use super::terms::{Terms, edge, edge_all};
 use crate::Error;
 use crate::error::refuse_beyond;
 use crate::formula;
-use crate::formula::{force, half_turn, passed_on};
+use crate::formula::{force, half_turn, transmitted};
 use crate::shape::{Selection, Stretch};
 
 /// The most layers that are summed one by one.
@@ -111,7 +111,7 @@ impl Forces<'_, BigRational> {
         let extras = lines.extras_in(floor..floor + 1);
         let extras = extras.map(|site| lines.weight(site, changes) - &ordinary);
         let weight = (extras.sum::<BigInt>() + &ordinary * spheres) * &terms.direction_scale;
-        let force = formula::handed_on(&received, &terms.directions_above(floor), &weight);
+        let force = formula::support_load(&received, &terms.directions_above(floor), &weight);
         let force = force.scaled(&terms.sum_scale);
         let unit = terms.floor_unit(changes);
         edge_all("a sum of forces", [force.z, force.x, force.y], &unit)
@@ -158,9 +158,9 @@ impl Terms<'_, BigRational> {
         let [a, b, c] = sums;
         let [own_a, own_b, own_c] = &own;
         [
-            passed_on(a, own_a),
-            passed_on(b, own_b),
-            passed_on(c, own_c),
+            transmitted(a, own_a),
+            transmitted(b, own_b),
+            transmitted(c, own_c),
         ]
     }
 }

@@ -92,7 +92,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
     ) -> (Vector<T::Numerator>, T::Numerator) {
         let Received { forces, changes } = above;
         let directions = self.directions_above(site.k);
-        let force = formula::handed_on(forces, &directions, &self.weight(site, *changes));
+        let force = formula::support_load(forces, &directions, &self.weight(site, *changes));
         (force.scaled(&self.sum_scale), self.floor_unit(*changes))
     }
 
@@ -105,17 +105,17 @@ impl<'p, T: Algebra> Terms<'p, T> {
     ) -> ([Vector<T::Numerator>; 3], Vector<T::Numerator>) {
         let (zero, one) = (T::Numerator::from_i128(0), T::Numerator::from_i128(1));
         let directions = self.directions_above(k);
-        let handed_on = |forces: [&T::Numerator; 3], weight| {
-            let force = formula::handed_on(&forces.map(Clone::clone), &directions, weight);
+        let support_load = |forces: [&T::Numerator; 3], weight| {
+            let force = formula::support_load(&forces.map(Clone::clone), &directions, weight);
             force.scaled(&self.sum_scale)
         };
         let factors = [
-            handed_on([&one, &zero, &zero], &zero),
-            handed_on([&zero, &one, &zero], &zero),
-            handed_on([&zero, &zero, &one], &zero),
+            support_load([&one, &zero, &zero], &zero),
+            support_load([&zero, &one, &zero], &zero),
+            support_load([&zero, &zero, &one], &zero),
         ];
         let weight = self.lines.ordinary_weight(changes) * &self.direction_scale;
-        (factors, handed_on([&zero; 3], &weight))
+        (factors, support_load([&zero; 3], &weight))
     }
 
     /// Returns the denominator of forces on the floor: mg is W of the unit of forces along lines.

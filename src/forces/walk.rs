@@ -69,7 +69,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
             Self::Exact(terms, _) => &terms.system,
         };
         let directions = system.shape.dimension().directions();
-        let forces = self.passed_on_in(piece, meter);
+        let forces = self.transmitted_in(piece, meter);
         let mut contacts = Vec::with_capacity(directions.len() * forces.len());
         for (site, forces) in piece.clone().into_iter().zip(forces) {
             let forces = match forces {
@@ -90,15 +90,19 @@ impl<'p, T: Algebra> Walk<'p, T> {
 
     /// Returns the forces to the spheres below each sphere of a piece of a row, which is not on the floor; a sweep has gone
     /// down to its layer.
-    pub(super) fn passed_on_in(&self, piece: &Row, meter: Meter<'_>) -> Vec<Result<[T; 3], Error>> {
+    pub(super) fn transmitted_in(
+        &self,
+        piece: &Row,
+        meter: Meter<'_>,
+    ) -> Vec<Result<[T; 3], Error>> {
         match self {
             Self::Plain(terms, engine) => {
-                let below = engine.passed_on_in((&terms.lines, &terms.system), piece, meter);
+                let below = engine.transmitted_in((&terms.lines, &terms.system), piece, meter);
                 let forces = |below: Result<_, _>| terms.contacts(below?);
                 below.into_iter().map(forces).collect()
             }
             Self::Exact(terms, engine) => {
-                let below = engine.passed_on_in((&terms.lines, &terms.system), piece, meter);
+                let below = engine.transmitted_in((&terms.lines, &terms.system), piece, meter);
                 let inexact = |force: BigRational| T::from_rational(&force);
                 let forces = |below: Result<_, _>| Ok(terms.contacts(below?)?.map(inexact));
                 below.into_iter().map(forces).collect()

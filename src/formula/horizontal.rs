@@ -1,6 +1,6 @@
 //! Horizontal contacts, at a = R, in the equilibrium of a sphere.
 
-use super::passed_on;
+use super::transmitted;
 use crate::lattice::{Direction, Sign};
 use crate::scalar::Ring;
 
@@ -40,7 +40,7 @@ pub fn pushed<T: Ring>(force: &T, ends: [Direction; 2], leads_away: bool) -> [T;
 /// ```
 #[must_use]
 pub fn beside<T: Ring>(received: T, own: &T, pushed: &T, sign: Sign) -> T {
-    passed_on(received, own) - &signed(pushed.clone(), sign)
+    transmitted(received, own) - &signed(pushed.clone(), sign)
 }
 
 fn signed<T: Ring>(x: T, sign: Sign) -> T {

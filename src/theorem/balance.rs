@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::setting::{
-    P, Setting, above, by_component, by_line, equations, int, nothing_left, passed_on, symbol,
+    P, Setting, above, by_component, by_line, equations, int, nothing_left, symbol, transmitted,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
@@ -142,13 +142,13 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
     let (setting, here) = (Setting::isosceles(f), above(f));
     let to_below = setting.to_below(f, setting.received(f, &here));
     let supports = Vector::combination(&to_below, &setting.directions);
-    let load = setting.handed_on(f, &here);
+    let load = setting.support_load(f, &here);
     let left = setting.unbalanced(f, &here);
     let mut steps = by_component("supports = −(from above + weight)", supports, -load);
     steps.extend(nothing_left("what is left of all forces is 0", left));
     let g = ["g_1", "g_2", "g_3"].map(symbol);
     let (own, weight) = setting.loaded(f, &symbol("n"));
-    let to_below = passed_on(f, g.clone(), &own);
+    let to_below = transmitted(f, g.clone(), &own);
     for (sign, e) in [
         ("+", setting.directions.clone()),
         ("−", setting.turned_directions(f)),

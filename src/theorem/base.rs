@@ -104,7 +104,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
 
 /// The force on the floor at (i, j), in f₀.
 fn on_floor(f: &Formulas, setting: &Setting) -> Vector<P> {
-    setting.handed_on(f, &above_floor(f))
+    setting.support_load(f, &above_floor(f))
 }
 
 fn base_normal(f: &Formulas) -> Vec<Step> {
@@ -239,7 +239,7 @@ fn shear_ratio(f: &Formulas) -> Vec<Step> {
     };
     let corners = [(&zero, &zero), (&last, &zero), (&zero, &last)];
     for (direction, (i, j)) in Direction::ALL.into_iter().zip(corners) {
-        let there = setting.handed_on(f, &(f.above)(i, j, &last));
+        let there = setting.support_load(f, &(f.above)(i, j, &last));
         let claim = format!("|shear|² at the {direction} corner is (L−1)²");
         let shear = setting.horizontal_square(&there);
         steps.push(Step::equal(claim, shear, square.clone()));

@@ -40,7 +40,7 @@ fn discs(f: &Formulas) -> Vec<Step> {
     let inside = (f.above)(&i, &P::zero(), &k);
     let floor = (f.above)(&i, &P::zero(), &last_layer());
     let left = setting.unbalanced(f, &inside);
-    let force = setting.handed_on(f, &floor);
+    let force = setting.support_load(f, &floor);
     let over_base = |p: &P| p.sum(Symbol("i"), &P::zero(), &last_layer());
     let total = over_base(&force.z);
     let mut steps = nothing_left("what is left of all forces is 0", left);
@@ -78,7 +78,7 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
     // A sphere passes on one increment more than it receives along each of its lines, whatever that is.
     let received = named(FORCES).into_iter().zip(&own);
     let added: Vec<P> = received
-        .map(|(g, w)| (f.passed_on)(g.clone(), w) - &g)
+        .map(|(g, w)| (f.transmitted)(g.clone(), w) - &g)
         .collect();
     let vertical = added.iter().fold(P::zero(), |sum, more| sum + more);
     steps.extend(equations! {
@@ -111,7 +111,7 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
     for (n, w) in counts.iter().zip(&own) {
         steps.extend(equations! {
             (claim("what is passed on is received below")):
-                (f.passed_on)((f.force)(n.clone(), w), w) => (f.force)(n.clone() + &P::one(), w),
+                (f.transmitted)((f.force)(n.clone(), w), w) => (f.force)(n.clone() + &P::one(), w),
         });
     }
     let normal = l.clone() + &(dimension.clone() - &int(1));

@@ -53,12 +53,12 @@ pub struct Formulas<P = Polynomial> {
     pub weight: fn(&[P]) -> P,
     /// [`formula::force`].
     pub force: fn(P, &P) -> P,
-    /// [`formula::passed_on`].
-    pub passed_on: fn(P, &P) -> P,
+    /// [`formula::transmitted`].
+    pub transmitted: fn(P, &P) -> P,
     /// [`formula::resultant`].
     pub resultant: fn(&Three<P>, &Directions<P>) -> Vector<P>,
-    /// [`formula::handed_on`].
-    pub handed_on: fn(&Three<P>, &Directions<P>, &P) -> Vector<P>,
+    /// [`formula::support_load`].
+    pub support_load: fn(&Three<P>, &Directions<P>, &P) -> Vector<P>,
     /// [`formula::unbalanced`].
     pub unbalanced: Unbalanced<P>,
     /// [`formula::half_turn`].
@@ -110,9 +110,9 @@ impl<P: Algebra<Numerator = P>> Formulas<P> {
         increments: formula::increments,
         weight: formula::weight,
         force: formula::force,
-        passed_on: formula::passed_on,
+        transmitted: formula::transmitted,
         resultant: formula::resultant,
-        handed_on: formula::handed_on,
+        support_load: formula::support_load,
         unbalanced: formula::unbalanced,
         half_turn: formula::half_turn::<P>,
         tripled_half_turn: formula::tripled_half_turn,

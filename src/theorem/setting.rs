@@ -85,7 +85,7 @@ impl Setting {
     /// What a sphere passes on of the forces from above.
     #[must_use]
     pub fn to_below(&self, f: &Formulas, from_above: [P; 3]) -> [P; 3] {
-        passed_on(f, from_above, &self.increments)
+        transmitted(f, from_above, &self.increments)
     }
 
     /// What a sphere of weight `n` adds to its lines, and that weight in the unit of forces.
@@ -103,8 +103,8 @@ impl Setting {
 
     /// What a sphere with so many above it on its lines hands on, by the forces from above and its weight.
     #[must_use]
-    pub fn handed_on(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
-        (f.handed_on)(&self.received(f, above), &self.directions, &self.weight)
+    pub fn support_load(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
+        (f.support_load)(&self.received(f, above), &self.directions, &self.weight)
     }
 
     /// What is left over of all forces on such a sphere.
@@ -126,12 +126,12 @@ impl Setting {
 
 /// What a sphere passes on along its three lines, from what it receives and adds.
 #[must_use]
-pub fn passed_on(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
+pub fn transmitted(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
     let [own_a, own_b, own_c] = own;
     [
-        (f.passed_on)(a, own_a),
-        (f.passed_on)(b, own_b),
-        (f.passed_on)(c, own_c),
+        (f.transmitted)(a, own_a),
+        (f.transmitted)(b, own_b),
+        (f.transmitted)(c, own_c),
     ]
 }
 

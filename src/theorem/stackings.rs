@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use num_traits::{One, Zero};
 
-use super::setting::{P, Setting, by_line, equations, int, nothing_left, passed_on, symbol};
+use super::setting::{P, Setting, by_line, equations, int, nothing_left, symbol, transmitted};
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign};
@@ -178,18 +178,18 @@ fn run(f: &Formulas) -> Vec<Step> {
     let increments = (f.increments)(&symbol("s"));
     let mut steps = Vec::new();
     for (direction, w) in Direction::ALL.into_iter().zip(&increments) {
-        let passed_on = |force: &P, m: P| (f.passed_on)(force.clone(), &(f.force)(m, w));
-        let after = |m: P| passed_on(&force, m);
-        let with_extra = (f.passed_on)(force.clone(), &extra);
+        let transmitted = |force: &P, m: P| (f.transmitted)(force.clone(), &(f.force)(m, w));
+        let after = |m: P| transmitted(&force, m);
+        let with_extra = (f.transmitted)(force.clone(), &extra);
         steps.extend(equations! {
             (format!("base case along {direction}: f after no sphere")):
                 after(P::zero()) => force.clone(),
             (format!("step along {direction}: an increment more after one sphere more")):
-                after(m.clone() + &P::one()) => (f.passed_on)(after(m.clone()), w),
+                after(m.clone() + &P::one()) => (f.transmitted)(after(m.clone()), w),
             (format!("along {direction}: f + m w after m spheres")):
                 after(m.clone()) => force.clone() + &(m.clone() * w),
             (format!("along {direction}: e before m spheres, or after")):
-                passed_on(&with_extra, m.clone()) => (f.passed_on)(after(m.clone()), &extra),
+                transmitted(&with_extra, m.clone()) => (f.transmitted)(after(m.clone()), &extra),
         });
     }
     steps
@@ -213,7 +213,7 @@ fn change_of_sign(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
     let g = ["g_1", "g_2", "g_3"].map(symbol);
     let (own, weight) = setting.loaded(f, &symbol("n"));
-    let to_below = passed_on(f, (f.half_turn)(&g), &own);
+    let to_below = transmitted(f, (f.half_turn)(&g), &own);
     let (plus, minus) = (setting.directions.clone(), setting.turned_directions(f));
     let mut steps = Vec::new();
     for (claim, above, below) in [
@@ -262,11 +262,11 @@ fn edge(f: &Formulas) -> Vec<Step> {
     let force = symbol("f");
     for (line, direction) in Direction::ALL.into_iter().enumerate() {
         let w = &setting.increments[line];
-        let received = (f.passed_on)(force.clone(), &(f.force)(m.clone() - &P::one(), w));
+        let received = (f.transmitted)(force.clone(), &(f.force)(m.clone() - &P::one(), w));
         let sum = force.clone() + &m - &P::one();
         let mut g = [P::zero(), P::zero(), P::zero()];
         g[line] = received.clone();
-        let passed = passed_on(f, (f.half_turn)(&g), &setting.increments);
+        let passed = transmitted(f, (f.half_turn)(&g), &setting.increments);
         let passed = passed[line].clone();
         let tripled = passed.clone() * &int(3);
         let p = symbol("p");
@@ -364,8 +364,8 @@ fn point_load(f: &Formulas) -> Vec<Step> {
         }
     }
     let h = ["h_1", "h_2", "h_3"].map(symbol);
-    let both = passed_on(f, g.clone(), &h);
-    let turned = passed_on(f, (f.half_turn)(&g), &(f.half_turn)(&h));
+    let both = transmitted(f, g.clone(), &h);
+    let turned = transmitted(f, (f.half_turn)(&g), &(f.half_turn)(&h));
     let claim = "G(g+h) = Gg + Gh, for two loads";
     steps.extend(by_line(claim, (f.half_turn)(&both), turned));
     steps

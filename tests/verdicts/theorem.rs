@@ -93,8 +93,8 @@ macro_rules! fields {
 fn every_formula_has_a_fault() {
     let fields = fields! {
         above bounds_above descent spheres spheres_in_layer contacts contacts_of_strength directions
-        disc_directions turned_about_z position squared_distance increments weight force passed_on
-        resultant handed_on unbalanced half_turn tripled_half_turn tripled_apart pushed beside
+        disc_directions turned_about_z position squared_distance increments weight force transmitted
+        resultant support_load unbalanced half_turn tripled_half_turn tripled_apart pushed beside
     };
     ATTEMPTS.are_faults_of(&fields);
 }

@@ -43,12 +43,12 @@ impl<T: Number> FloorFactors<T> {
             for (line, contact) in contacts.iter_mut().enumerate() {
                 let mut unit = zeros();
                 unit[line] = BigInt::one();
-                let force = formula::handed_on(&unit, directions, &BigInt::zero());
+                let force = formula::support_load(&unit, directions, &BigInt::zero());
                 *contact = [small(&force.z)?, small(&force.x)?, small(&force.y)?];
             }
         }
         let weight = doubled(formula::weight(&formula::increments(&half)));
-        factors.weight = small(&formula::handed_on(&zeros(), &plus, &weight).z)?;
+        factors.weight = small(&formula::support_load(&zeros(), &plus, &weight).z)?;
         Ok(factors)
     }
 

@@ -27,7 +27,7 @@ use cannonpile::geometry::Vector;
 use cannonpile::lattice::Direction;
 use cannonpile::scalar::Algebra;
 use cannonpile::theorem::setting::{
-    P, Setting, by_component, by_line, equations, int, passed_on, symbol,
+    P, Setting, by_component, by_line, equations, int, symbol, transmitted,
 };
 use cannonpile::theorem::{ProofKind, Step};
 use num_traits::{One, Zero};
@@ -294,7 +294,7 @@ fn squares(f: &Formulas) -> Vec<Step> {
     let mut steps = equations! { "3n is the weight": weight => int(3) * &n };
     let (whole, all) = (sum(g.clone()), sum(g.each_ref().map(square)));
     for (name, changes) in [("kept", false), ("changed", true)] {
-        let passed = passed_on(&f.core, turned(f, changes, &g), &own);
+        let passed = transmitted(&f.core, turned(f, changes, &g), &own);
         let more = int(2) * &n * &whole + &(int(3) * &square(&n));
         steps.extend(equations! {
             (format!("the sign is {name}: Σf")):

@@ -10,7 +10,7 @@ Open Scope Q_scope.
 Ltac formulas :=
   cbv beta iota zeta delta
     [above spheres_3 spheres_in_layer_3 contacts_3 contacts_of_strength_3 directions disc_directions
-     turned_about_z position squared_distance increments force passed_on resultant handed_on unbalanced weight
+     turned_about_z position squared_distance increments force transmitted resultant support_load unbalanced weight
      half_turn tripled_half_turn tripled_apart pushed beside contact_drop compression elastic_field corner_field
      least_on_corner greatest_on_corner greatest_inside greatest_on_edge arch
      spheres_2 spheres_in_layer_2 weight_2 third_moment fourth_moment fourth_moment_of_pair mean_third_moment
@@ -22,7 +22,7 @@ Ltac by_components := cbv zeta; repeat split; formulas; ring.
 (** The same for both sides of a hypothesis. *)
 Ltac formulas_in H :=
   cbv beta iota zeta delta
-    [above directions turned_about_z position increments force passed_on resultant handed_on unbalanced weight
+    [above directions turned_about_z position increments force transmitted resultant support_load unbalanced weight
      half_turn beside pushed alpha beta gamma along_x along_y along_z on each map by_line sum nothing same same_vector]
     in H.
 
@@ -44,7 +44,7 @@ Definition directions_under (s : Q) (sigma : sign) : three vector :=
 Definition own (s n : Q) : three Q := map (force n) (increments s).
 
 (** The forces transmitted by a sphere of weight n mg that receives g. *)
-Definition to_below (s : Q) (g : three Q) (n : Q) : three Q := by_line passed_on g (own s n).
+Definition to_below (s : Q) (g : three Q) (n : Q) : three Q := by_line transmitted g (own s n).
 
 (** ** (3), (4), (5), (6) of the paper *)
 
@@ -124,7 +124,7 @@ Proof. intros s [] [] n; unfold to_below, own, directions_under; by_components. 
 (** The reaction of the three supports is opposite to the sum of the forces from above and the weight. *)
 Theorem supports_push_back : forall s g n,
   let e := directions s in
-  combination (to_below s g n) e =v= turned_over (handed_on g e (force n (weight (increments s)))).
+  combination (to_below s g n) e =v= turned_over (support_load g e (force n (weight (increments s)))).
 Proof.
   intros s [] n. unfold to_below, own, combination, turned_over. by_components.
 Qed.
@@ -166,7 +166,7 @@ Theorem half_turn_of_ones : forall x, half_turn (each x) =3= each x.
 Proof. intros. by_components. Qed.
 
 Theorem half_turn_is_linear : forall g h,
-  half_turn (by_line passed_on g h) =3= by_line passed_on (half_turn g) (half_turn h).
+  half_turn (by_line transmitted g h) =3= by_line transmitted (half_turn g) (half_turn h).
 Proof. intros [] []. by_components. Qed.
 
 Theorem tripled : forall g,
@@ -194,7 +194,7 @@ Definition transferred (from to : sign) (g : three Q) : three Q :=
 Theorem newton_in_any_stacking : forall from to g n up,
   (unbalanced up (directions_under (1 # 2) to) g (directions_under (1 # 2) from)
      (force n (weight (increments (1 # 2)))) =v= nothing
-   <-> up =3= by_line passed_on (transferred from to g) (each n)).
+   <-> up =3= by_line transmitted (transferred from to g) (each n)).
 Proof.
   intros from to [a b c] n [x y z].
   destruct from, to; unfold directions_under, transferred;
@@ -204,6 +204,6 @@ Proof.
 Qed.
 
 Theorem change_of_sign : forall from g n,
-  unbalanced (by_line passed_on (half_turn g) (each n)) (directions_under (1 # 2) (opposite from)) g
+  unbalanced (by_line transmitted (half_turn g) (each n)) (directions_under (1 # 2) (opposite from)) g
     (directions_under (1 # 2) from) (force n (weight (increments (1 # 2)))) =v= nothing.
 Proof. intros [] [] n; unfold directions_under, opposite; by_components. Qed.

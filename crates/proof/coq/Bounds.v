@@ -181,7 +181,7 @@ Qed.
 
 Lemma beside_of_whole : forall a b c, a = (b + 1 - c)%Z -> q a == beside (q b) 1 (q c) Plus.
 Proof.
-  intros a b c H. subst. unfold beside, passed_on, Z.sub. rewrite !inject_Z_plus, inject_Z_opp. reflexivity.
+  intros a b c H. subst. unfold beside, transmitted, Z.sub. rewrite !inject_Z_plus, inject_Z_opp. reflexivity.
 Qed.
 
 Theorem edge_pushes_balance : forall edge K, balanced_beside (edge_forces edge) (edge_push edge) K.

@@ -25,8 +25,8 @@ Definition from_table (from : sign) (t : table) (p : Z * Z) (d : direction) : Q 
   let (a, b) := above_in from d (fst p) (snd p) in
   match found t a b with Some f => on d f | None => 0 end.
 
-Definition passes_on (from to : sign) (t : table) (p : Z * Z) : three Q :=
-  reduced_three (by_line passed_on
+Definition transmits (from to : sign) (t : table) (p : Z * Z) : three Q :=
+  reduced_three (by_line transmitted
     (transferred from to (Three (from_table from t p Alpha) (from_table from t p Beta) (from_table from t p Gamma)))
     (each 1)).
 
@@ -35,7 +35,7 @@ Definition sites_below (from : sign) (t : table) : list (Z * Z) :=
     [support from (fst e) Alpha; support from (fst e) Beta; support from (fst e) Gamma]) t).
 
 Definition next_table (from to : sign) (t : table) : table :=
-  List.map (fun p => (p, passes_on from to t p)) (sites_below from t).
+  List.map (fun p => (p, transmits from to t p)) (sites_below from t).
 
 Section Tables.
 Variable step : nat -> sign.
@@ -97,11 +97,11 @@ Proof.
         specialize (IH a b). assert (N := in_found _ _ _ _ H). destruct (found (tables k) a b); [tauto | congruence].
       - intros ([a b] & H & E). specialize (IH a b). destruct (found (tables k) a b) as [f|] eqn:F; [|tauto].
         exists ((a, b), f). split; [apply found_in; exact F | exact E]. }
-    destruct (found_of_map (passes_on (step k) (step (Datatypes.S k)) (tables k)) (sites_below (step k) (tables k)) i j)
+    destruct (found_of_map (transmits (step k) (step (Datatypes.S k)) (tables k)) (sites_below (step k) (tables k)) i j)
       as [F1 F2].
     destruct (in_dec site_eq_dec (i, j) (sites_below (step k) (tables k))) as [H | H];
       [rewrite (F1 H) | rewrite (F2 H)]; rewrite S in H; [|exact H].
-    split; [exact H|]. unfold passes_on. rewrite reduced_is. cbn [Stackings.forces_of].
+    split; [exact H|]. unfold transmits. rewrite reduced_is. cbn [Stackings.forces_of].
     apply passed_of_same. apply transferred_of_same.
     assert (D : forall d, from_table (step k) (tables k) (i, j) d
       == (let (a, b) := above_in (step k) d i j in if member (layer k) a b then on d (forces_of k a b) else 0)).
@@ -225,7 +225,7 @@ Proof.
     if member (layer [(0, 0)%Z] step k) a b then on d (forces_of [(0, 0)%Z] step k a b) else 0)).
   { intros e. destruct (above_in (step k) e i j) as [a b]. destruct (member (layer [(0, 0)%Z] step k) a b) eqn:M; [|lra].
     apply member_iff in M. apply H. exact M. }
-  specialize (P d). destruct d; cbn [on by_line alpha beta gamma] in *; unfold passed_on, each; cbn [alpha beta gamma]; lra.
+  specialize (P d). destruct d; cbn [on by_line alpha beta gamma] in *; unfold transmitted, each; cbn [alpha beta gamma]; lra.
 Qed.
 
 (** By computation: eleven prefixes of ten steps are free of tension. In each of them the last five steps have one

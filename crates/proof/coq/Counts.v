@@ -144,7 +144,7 @@ Proof.
       rewrite (total_is (fun _ => 1) (fun x => x)); [|intros ? ? ?; assumption | reflexivity | intros; ring].
       rewrite (n_of_S (k - j)), n_of_sub by lia. ring.
     + intros i _. unfold exactly, along_gamma, closed_form, brought.
-      assert (E : (by_line passed_on (by_line force (above (n_of i) (n_of j) (n_of k)) (increments (1 # 2)))
+      assert (E : (by_line transmitted (by_line force (above (n_of i) (n_of j) (n_of k)) (increments (1 # 2)))
                     (increments (1 # 2))).(gamma) == n_of j + 1) by (formulas; ring).
       rewrite E. ring.
   - apply (total_of_exactly (S k) m (fun j => n_of k - n_of j + 1)).
@@ -232,11 +232,11 @@ Definition discs_brought (i k : Q) : three Q := by_line force (above i 0 k) (inc
 (** The closed form, as for spheres. *)
 Theorem discs_are_in_balance : forall i k,
   let g := discs_brought i k in
-  unbalanced (by_line passed_on g (increments 0)) disc_directions g disc_directions (weight (increments 0)) =v= nothing.
+  unbalanced (by_line transmitted g (increments 0)) disc_directions g disc_directions (weight (increments 0)) =v= nothing.
 Proof. intros. unfold g, discs_brought. by_components. Qed.
 
 Definition disc_on_floor (L i : Q) : vector :=
-  handed_on (discs_brought i (L - 1)) disc_directions (weight (increments 0)).
+  support_load (discs_brought i (L - 1)) disc_directions (weight (increments 0)).
 
 Theorem disc_base : forall L i,
   disc_on_floor L i =v= Vector (2 * i - (L - 1)) 0 (L + 1).
@@ -271,8 +271,8 @@ Qed.
 (** The reaction of the supports exceeds the forces from above by the weight d, and has no horizontal part, for all
     loads. *)
 Theorem balance_in_any_dimension : forall d (g : nat -> Q),
-  total d (fun m => passed_on (g m) 1 - g m) == n_of d /\
-  forall c, (c < d)%nat -> total d (fun m => sideways d c m * (passed_on (g m) 1 - g m)) == 0.
+  total d (fun m => transmitted (g m) 1 - g m) == n_of d /\
+  forall c, (c < d)%nat -> total d (fun m => sideways d c m * (transmitted (g m) 1 - g m)) == 0.
 Proof.
   intros d g. split.
   - rewrite (total_of_same _ _ (fun _ => 1)) by (intros; opened; ring).
@@ -284,7 +284,7 @@ Qed.
 (** The weight of a sphere is d. The force transmitted after n spheres is the force received after n+1. *)
 Theorem weight_in_dimensions :
   weight_2 1 1 == 2 /\ weight_3 1 1 1 == 3 /\ weight_4 1 1 1 1 == 4 /\ weight_5 1 1 1 1 1 == 5 /\
-  weight_6 1 1 1 1 1 1 == 6 /\ forall n w, passed_on (force n w) w == force (n + 1) w.
+  weight_6 1 1 1 1 1 1 == 6 /\ forall n w, transmitted (force n w) w == force (n + 1) w.
 Proof. repeat split; intros; opened; ring. Qed.
 
 (** For n_1 + ... + n_d = L-1 the normal force on the floor is L+d-1, in mg/d, under every sphere. *)

@@ -7,7 +7,7 @@ Open Scope Q_scope.
 
 (** The force of bottom sphere (i, j) of L layers on the floor, (11) to (14), in f0. *)
 Definition on_floor (s L i j : Q) : vector :=
-  handed_on (brought s i j (L - 1)) (directions s) (weight (increments s)).
+  support_load (brought s i j (L - 1)) (directions s) (weight (increments s)).
 
 (** The normal force, in mg. *)
 Definition normal (s L i j : Q) : Q := (on_floor s L i j).(along_z) / weight (increments s).
@@ -16,7 +16,7 @@ Definition normal (s L i j : Q) : Q := (on_floor s L i j).(along_z) / weight (in
 Theorem on_floor_is_what_arrives : forall s f L i j, ~ 1 + s == 0 ->
   (forall k a b, (k < L)%nat -> occupied k a b = true -> balanced s f k a b) ->
   occupied L i j = true ->
-  handed_on (received f L i j) (directions s) (weight (increments s)) =v= on_floor s (n_of (S L)) (q i) (q j).
+  support_load (received f L i j) (directions s) (weight (increments s)) =v= on_floor s (n_of (S L)) (q i) (q j).
 Proof.
   intros s f L i j Hs Hf Ho.
   assert (R : received f L i j =3= brought s (q i) (q j) (n_of L)).

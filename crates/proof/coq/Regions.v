@@ -126,10 +126,10 @@ Open Scope Q_scope.
 
 (** A line with force f, m spheres further down, step by step. *)
 Fixpoint after (f w : Q) (m : nat) : Q :=
-  match m with O => f | S n => passed_on (after f w n) w end.
+  match m with O => f | S n => transmitted (after f w n) w end.
 
 (** One jump equals m steps. *)
-Theorem run : forall f w m, after f w m == passed_on f (force (n_of m) w).
+Theorem run : forall f w m, after f w m == transmitted f (force (n_of m) w).
 Proof.
   intros f w m. induction m as [|n IH]; cbn [after].
   - formulas. rewrite n_of_0. ring.
@@ -137,5 +137,5 @@ Proof.
 Qed.
 
 (** Additional contributions of spheres can be added before or after. *)
-Theorem run_in_any_order : forall f w e m, after (passed_on f e) w m == passed_on (after f w m) e.
+Theorem run_in_any_order : forall f w e m, after (transmitted f e) w m == transmitted (after f w m) e.
 Proof. intros. rewrite !run. formulas. ring. Qed.

@@ -15,7 +15,7 @@ Proof. intros []. unfold directions_under. by_components. Qed.
 
 (** Sums and squares: f = T g + n adds 3n to the sum of g, and 2n times the sum plus 3n^2 to the sum of squares. *)
 Theorem sums_and_squares : forall from to g n,
-  let f := by_line passed_on (transferred from to g) (each n) in
+  let f := by_line transmitted (transferred from to g) (each n) in
   sum f == sum g + 3 * n /\ dot f f == dot g g + 2 * n * sum g + 3 * n * n /\
   force n (weight (increments (1 # 2))) == 3 * n.
 Proof. intros [] [] [] n; unfold transferred, dot; repeat split; formulas; ring. Qed.
@@ -225,11 +225,11 @@ Definition none (k : nat) (a : axis) (i j : Z) : Q := 0.
 (** For any weights such forces exist. *)
 Fixpoint forces_under (top : list site) (step : nat -> sign) (w : nat -> Z -> Z -> Q) (k : nat) : Z -> Z -> three Q :=
   match k with
-  | O => fun i j => by_line passed_on (transferred (step O) (step O) (each 0)) (each (w O i j))
+  | O => fun i j => by_line transmitted (transferred (step O) (step O) (each 0)) (each (w O i j))
   | S m => fun i j =>
     let from d := let (a, b) := above_in (step m) d i j in
       if member (layer top step m) a b then on d (forces_under top step w m a b) else 0 in
-    by_line passed_on (transferred (step m) (step (S m)) (Three (from Alpha) (from Beta) (from Gamma))) (each (w (S m) i j))
+    by_line transmitted (transferred (step m) (step (S m)) (Three (from Alpha) (from Beta) (from Gamma))) (each (w (S m) i j))
   end.
 
 Theorem forces_under_weights : forall top step w L, equilibrium top step (forces_under top step w) none w L.
@@ -259,8 +259,8 @@ Hypothesis in_equilibrium : equilibrium top step f none w L.
 
 Notation received := (arriving top step f).
 
-Lemma passes_on_beside_none : forall k i j, (k < L)%nat -> In (i, j) (layer top step k) ->
-  f k i j =3= by_line passed_on (transferred (step_above step k) (step k) (received k i j)) (each (w k i j)).
+Lemma transmits_beside_none : forall k i j, (k < L)%nat -> In (i, j) (layer top step k) ->
+  f k i j =3= by_line transmitted (transferred (step_above step k) (step k) (received k i j)) (each (w k i j)).
 Proof.
   intros k i j Hk Hi. assert (B := in_equilibrium k i j Hk Hi). apply newton_beside in B. cbv zeta in B. rewrite B.
   assert (N : forall a, by_next top step none k i j a = 0)
@@ -309,7 +309,7 @@ Proof.
     unfold dot. cbn [arriving]. formulas. ring.
   - rewrite squares_are_given. unfold over_spheres in *. cbn [total]. rewrite <- IH, <- over_of_sum by lia.
     apply over_of_same. intros [i j] I. cbn [fst snd]. apply spheres_are in I.
-    assert (P := passes_on_beside_none k i j Hk I).
+    assert (P := transmits_beside_none k i j Hk I).
     destruct (sums_and_squares (step_above step k) (step k) (received k i j) (w k i j)) as (_ & S & _).
     rewrite Qplus_assoc, <- S. destruct P as (a & b & c). unfold dot. formulas. formulas_in a. formulas_in b. formulas_in c.
     rewrite a, b, c. reflexivity.

@@ -47,7 +47,7 @@ Definition in_balance (f : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) : Prop 
 
 (** The forces that a sphere transmits: T g + 1. *)
 Definition passing (f : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) : three Q :=
-  by_line passed_on (transferred (step_above k) (step k) (arriving f k i j)) (each 1).
+  by_line transmitted (transferred (step_above k) (step k) (arriving f k i j)) (each 1).
 
 Theorem balance_is_transfer : forall f k i j,
   in_balance f k i j <-> f k i j =3= passing f k i j.
@@ -67,7 +67,7 @@ Fixpoint forces_of (k : nat) : Z -> Z -> three Q :=
   | O => fun _ _ => each 1
   | S m => fun i j =>
     let from d := let (a, b) := above_in (step m) d i j in if member (layer m) a b then on d (forces_of m a b) else 0 in
-    by_line passed_on (transferred (step m) (step (S m)) (Three (from Alpha) (from Beta) (from Gamma))) (each 1)
+    by_line transmitted (transferred (step m) (step (S m)) (Three (from Alpha) (from Beta) (from Gamma))) (each 1)
   end.
 
 Lemma transferred_of_same : forall from to g h, g =3= h -> transferred from to g =3= transferred from to h.
@@ -75,7 +75,7 @@ Proof.
   intros from to g h (a & b & c). destruct from, to; unfold transferred; repeat split; formulas; congruent.
 Qed.
 
-Lemma passed_of_same : forall g h n, g =3= h -> by_line passed_on g n =3= by_line passed_on h n.
+Lemma passed_of_same : forall g h n, g =3= h -> by_line transmitted g n =3= by_line transmitted h n.
 Proof. intros g h n (a & b & c). repeat split; formulas; congruent. Qed.
 
 Lemma arriving_of_same : forall f g k i j,

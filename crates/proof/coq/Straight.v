@@ -68,7 +68,7 @@ Proof. intros. by_components. Qed.
 Definition brought (s i j k : Q) : three Q := by_line force (above i j k) (increments s).
 
 (** The forces that it transmits, (10). *)
-Definition closed_form (s i j k : Q) : three Q := by_line passed_on (brought s i j k) (increments s).
+Definition closed_form (s i j k : Q) : three Q := by_line transmitted (brought s i j k) (increments s).
 
 (** The force transmitted above is the force received below, for all i, j, k. *)
 Theorem action_reaction : forall s i j k d,
@@ -85,7 +85,7 @@ Proof. intros. unfold brought. formulas. repeat split; ring. Qed.
 
 Lemma newton_of_mg : forall s g up, ~ 1 + s == 0 ->
   (unbalanced up (directions s) g (directions s) (weight (increments s)) =v= nothing
-   <-> up =3= by_line passed_on g (increments s)).
+   <-> up =3= by_line transmitted g (increments s)).
 Proof.
   intros s g up H. assert (N := newton s g 1 up H).
   destruct g, up. unfold to_below, own in N. formulas_in N. formulas.
@@ -134,12 +134,12 @@ Proof.
     specialize (H k i j HL Ho). unfold balanced in H. apply newton_of_mg in H; [|assumption].
     rewrite H. assert (R : received f k i j =3= brought s (q i) (q j) (n_of k)).
     { apply received_of_closed_form; [assumption|]. intros. apply IH; [assumption | lia | assumption]. }
-    destruct R as (a & b & c). unfold closed_form, by_line, passed_on, same. cbn [alpha beta gamma].
+    destruct R as (a & b & c). unfold closed_form, by_line, transmitted, same. cbn [alpha beta gamma].
     rewrite a, b, c. repeat split; reflexivity.
   - intros H k i j HL Ho. unfold balanced. apply newton_of_mg; [assumption|].
     rewrite (H k i j HL Ho). assert (R : received f k i j =3= brought s (q i) (q j) (n_of k)).
     { apply received_of_closed_form; [assumption|]. intros. apply H; [lia | assumption]. }
-    destruct R as (a & b & c). unfold closed_form, by_line, passed_on, same. cbn [alpha beta gamma].
+    destruct R as (a & b & c). unfold closed_form, by_line, transmitted, same. cbn [alpha beta gamma].
     rewrite a, b, c. repeat split; reflexivity.
 Qed.
 

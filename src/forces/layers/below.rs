@@ -1,6 +1,6 @@
 //! What lines carry, as the forces below the spheres of a row.
 
-use crate::formula::{half_turn, passed_on};
+use crate::formula::{half_turn, transmitted};
 use crate::scalar::Algebra;
 
 /// What turns the numbers that lines carry into forces below a layer.
@@ -36,7 +36,7 @@ impl<T: Algebra> Below<T> {
         let mut defined = true;
         for ((carried, out), own) in carried.into_iter().zip(out).zip(&self.own) {
             for (force, out) in carried.iter().zip(out) {
-                defined &= self.put(passed_on(force.clone(), own), out, &is_defined);
+                defined &= self.put(transmitted(force.clone(), own), out, &is_defined);
             }
         }
         defined
@@ -50,7 +50,7 @@ impl<T: Algebra> Below<T> {
         {
             let turned = half_turn::<T>(&[a.clone(), b.clone(), c.clone()]);
             for ((force, out), own) in turned.into_iter().zip([to_a, to_b, to_c]).zip(&self.own) {
-                defined &= self.put(passed_on(force, own), out, &T::is_defined);
+                defined &= self.put(transmitted(force, own), out, &T::is_defined);
             }
         }
         defined

@@ -46,7 +46,7 @@ impl Layer<'_, '_, BigRational> {
         let mut rest = slices;
         for row in self.region.rows(self.k) {
             check_interrupt()?;
-            let below = self.layers.passed_on_in(&row)?;
+            let below = self.layers.transmitted_in(&row)?;
             let [a, b, c] = split_front(&mut rest, below.len())?;
             for (forces, ((a, b), c)) in below.into_iter().zip(a.iter_mut().zip(b).zip(c)) {
                 [*a, *b, *c] = value(forces.forces)?;
@@ -100,7 +100,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         if self.is_floor() {
             return Err(Error::OnFloor { site });
         }
-        self.passed_on(site)
+        self.transmitted(site)
     }
 
     /// Returns the force of a sphere of this layer, the one on the floor, on the floor.
@@ -164,7 +164,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         if let Walk::Plain(_, Engine::Sweep(sweep)) = walk {
             return self.fill_from(sweep, slices);
         }
-        self.fill_by_rows(slices, |row| walk.passed_on_in(row, *meter))
+        self.fill_by_rows(slices, |row| walk.transmitted_in(row, *meter))
     }
 
     /// Writes the answers of each row into slices.
@@ -330,9 +330,9 @@ impl<T: Algebra> Layer<'_, '_, T> {
     }
 
     /// Returns what a sphere of this layer, above the floor, passes on.
-    fn passed_on(&self, site: Site) -> Result<[T; 3], Error> {
+    fn transmitted(&self, site: Site) -> Result<[T; 3], Error> {
         let Layers { walk, meter, .. } = self.layers;
-        one(walk.passed_on_in(&row_of(site), *meter))
+        one(walk.transmitted_in(&row_of(site), *meter))
     }
 
     /// Fills slices from the cells of a sweep, row by row.
@@ -365,7 +365,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
             let forces = self
                 .layers
                 .terms
-                .contacts(sweep.passed_on(site, Meter::NONE)?)?;
+                .contacts(sweep.transmitted(site, Meter::NONE)?)?;
             self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
         }
         if defined.into_inner() {

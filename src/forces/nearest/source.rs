@@ -186,7 +186,7 @@ impl Layers<'_, BigRational> {
     /// Returns the integers that are rounded for consecutive spheres.
     fn numbers(&self, asked: Asked, row: &Row) -> Result<Vec<[BigInt; 3]>, Error> {
         if asked != Asked::Floor {
-            let below = self.passed_on_in(row)?.into_iter();
+            let below = self.transmitted_in(row)?.into_iter();
             return Ok(below.map(|below| below.forces).collect());
         }
         let sites = row.clone().into_iter();

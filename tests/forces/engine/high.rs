@@ -170,7 +170,7 @@ fn a_sign_change_between_two_very_high_runs() {
     assert_eq!(pile.plan(Selection::Base).unwrap().method, Method::Tree);
     let forces = pile.forces::<BigRational>();
     let big = |n: i128| BigRational::from_integer(n.into());
-    let passed_on = |i: i128, j: i128, m: usize| {
+    let transmitted = |i: i128, j: i128, m: usize| {
         let g = [upper - i - j, i, j];
         let sum: i128 = g.iter().sum();
         big(1) + big(2 * sum - 3 * g[m]) / big(3)
@@ -185,7 +185,7 @@ fn a_sign_change_between_two_very_high_runs() {
         let starts = [(i, j), (i + lower, j), (i, j + lower)];
         let expected = [0, 1, 2].map(|m| {
             let (i, j) = starts[m];
-            passed_on(i, j, m) + big(lower - 1)
+            transmitted(i, j, m) + big(lower - 1)
         });
         assert_eq!(forces.from_above(bottom), Ok(expected));
     }

@@ -2,7 +2,7 @@
 //! evaluate to it.
 
 use cannonpile::formula::{
-    force, half_turn, handed_on, increments, passed_on, resultant, tripled_apart,
+    force, half_turn, increments, resultant, support_load, transmitted, tripled_apart,
     tripled_half_turn, unbalanced, weight,
 };
 use cannonpile::geometry::{Vector, directions, disc_directions, position, squared_distance};
@@ -41,7 +41,7 @@ fn formulas<T: Algebra>(
         <[T; 3]>::try_from(forces).expect("three lines")
     };
     let from_above = by_line(&|(n, w)| force(n, w));
-    let to_below = by_line(&|(n, w)| passed_on(force(n, w), w));
+    let to_below = by_line(&|(n, w)| transmitted(force(n, w), w));
     let mut all = Vec::new();
     let mut add = |name, growth, values: Vec<T>| {
         all.extend(values.into_iter().map(|value| (name, growth, value)));
@@ -60,7 +60,7 @@ fn formulas<T: Algebra>(
     add("above", Growth::Linear, above.to_vec());
     add("half_turn", Growth::Linear, turn(&above).to_vec());
     add("force", Growth::Linear, from_above.to_vec());
-    add("passed_on", Growth::Linear, to_below.to_vec());
+    add("transmitted", Growth::Linear, to_below.to_vec());
     add(
         "tripled_half_turn",
         Growth::Linear,
@@ -81,8 +81,12 @@ fn formulas<T: Algebra>(
         Growth::Linear,
         resultant(&from_above, &e).into_array().to_vec(),
     );
-    let on_floor = handed_on(&from_above, &e, &weight(&w));
-    add("handed_on", Growth::Linear, on_floor.into_array().to_vec());
+    let on_floor = support_load(&from_above, &e, &weight(&w));
+    add(
+        "support_load",
+        Growth::Linear,
+        on_floor.into_array().to_vec(),
+    );
     add(
         "unbalanced",
         Growth::Linear,

@@ -111,7 +111,11 @@ pub(super) fn move_down<T: Numerator>(
 pub(super) fn transmit<T: Numerator>(received: &Planes<T>, own: &T, forces: &mut Planes<T>) {
     for (received, forces) in received.iter().zip(forces) {
         forces.clear();
-        forces.extend(received.iter().map(|g| formula::passed_on(g.clone(), own)));
+        forces.extend(
+            received
+                .iter()
+                .map(|g| formula::transmitted(g.clone(), own)),
+        );
     }
 }
 
@@ -128,9 +132,9 @@ pub(super) fn transmit_turned<T: Numerator>(received: &Planes<T>, own: &T, force
     let below = to_a.iter_mut().zip(to_b).zip(to_c);
     for (((a, b), c), ((to_a, to_b), to_c)) in above.zip(below) {
         let [x, y, z] = formula::tripled_half_turn(&[a.clone(), b.clone(), c.clone()]);
-        *to_a = formula::passed_on(x, own);
-        *to_b = formula::passed_on(y, own);
-        *to_c = formula::passed_on(z, own);
+        *to_a = formula::transmitted(x, own);
+        *to_b = formula::transmitted(y, own);
+        *to_c = formula::transmitted(z, own);
     }
 }
 

@@ -29,10 +29,10 @@ pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {
             Value::Number((f.force)(n, &increment)),
         ),
         of_numbers(
-            "passed_on",
+            "transmitted",
             "The force along a line below a sphere: the force received and its own increment, (10).",
             &["received", "own"],
-            Value::Number((f.passed_on)(received, &own)),
+            Value::Number((f.transmitted)(received, &own)),
         ),
         plain(
             "resultant",
@@ -41,10 +41,10 @@ pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {
             Value::Vector((f.resultant)(&from_above, &e)),
         ),
         plain(
-            "handed_on",
+            "support_load",
             "The force of a sphere on its three supports, (11).",
             &whole,
-            Value::Vector((f.handed_on)(&from_above, &e, &weight)),
+            Value::Vector((f.support_load)(&from_above, &e, &weight)),
         ),
         plain(
             "unbalanced",

@@ -53,7 +53,7 @@ fn formulas_are_exported_as_executed() {
     };
     let text = written(&Formulas::LIBRARY);
     for line in [
-        "Definition passed_on (received : Q) (own : Q) : Q :=\n  received + own.",
+        "Definition transmitted (received : Q) (own : Q) : Q :=\n  received + own.",
         "Definition increments (s : Q) : three Q :=\n  Three 1 1 (s + s).",
         "  | Plus, Gamma => (0, 1)%Z\n",
         "  | Minus => received + own - (- pushed)\n",
@@ -77,7 +77,7 @@ fn formulas_are_exported_as_executed() {
     }
     assert!(all.len() >= 40, "{all:?}");
     let mut wrong = Formulas::LIBRARY;
-    wrong.horizontal.core.passed_on = |received, own| received - own;
+    wrong.horizontal.core.transmitted = |received, own| received - own;
     assert_ne!(written(&wrong), text);
 }
 

@@ -37,7 +37,7 @@ fn list_is_complete_and_ordered() {
 #[test]
 fn wrong_formulas_are_rejected() {
     let mut core: Formulas = Formulas::LIBRARY;
-    core.horizontal.core.passed_on = |received, own| received - own;
+    core.horizontal.core.transmitted = |received, own| received - own;
     let mut horizontal: Formulas = Formulas::LIBRARY;
     horizontal.horizontal.least_on_corner = |k| k.clone() + k;
     let mut disorder: Formulas = Formulas::LIBRARY;

@@ -149,7 +149,7 @@ fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
         &forces.from_above(site)?,
         &solved.from_above[&sphere],
     )?;
-    let Some(passed_on) = solved.to_below.get(&sphere) else {
+    let Some(transmitted) = solved.to_below.get(&sphere) else {
         let floor = floor_of(solved);
         let want = floor.iter().find(|force| force.site == site).cloned();
         return same(
@@ -158,12 +158,12 @@ fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
             &want,
         );
     };
-    for (direction, force) in Direction::ALL.into_iter().zip(passed_on) {
+    for (direction, force) in Direction::ALL.into_iter().zip(transmitted) {
         same("a force", &forces.contact(site, direction)?, force)?;
     }
     let one: Result<Contacts, Error> = forces.contacts(Selection::One(site))?.collect();
     let one = one?.into_iter().map(|contact| contact.force);
-    demand(one.eq(passed_on.iter().cloned()), || {
+    demand(one.eq(transmitted.iter().cloned()), || {
         format!("the rows of {site} give other forces")
     })?;
     same(

@@ -67,14 +67,14 @@ const ORACLES: &[(&str, Oracle)] = &[
     ("weight", |v| vec![formula::weight(&three(v))]),
     ("weight_5", |v| vec![formula::weight(v)]),
     ("force", |v| vec![formula::force(v[0].clone(), &v[1])]),
-    ("passed_on", |v| {
-        vec![formula::passed_on(v[0].clone(), &v[1])]
+    ("transmitted", |v| {
+        vec![formula::transmitted(v[0].clone(), &v[1])]
     }),
     ("resultant", |v| {
         parts(formula::resultant(&three(v), &vectors(&v[3..])))
     }),
-    ("handed_on", |v| {
-        parts(formula::handed_on(&three(v), &vectors(&v[3..]), &v[12]))
+    ("support_load", |v| {
+        parts(formula::support_load(&three(v), &vectors(&v[3..]), &v[12]))
     }),
     ("unbalanced", |v| {
         let (below, over) = (vectors(&v[3..]), vectors(&v[15..]));

@@ -58,7 +58,7 @@ fn to_below(
 ) -> Checked {
     let site = site_of(sphere);
     let one = Selection::One(site);
-    let Some(passed_on) = solved.to_below.get(&sphere) else {
+    let Some(transmitted) = solved.to_below.get(&sphere) else {
         let is_refused = matches!(forces.to_below(site), Err(Error::OnFloor { .. }));
         same("the error below the floor", &is_refused, &true)?;
         let floor = floor_of(solved)
@@ -67,11 +67,11 @@ fn to_below(
         let parts = floor.map(|force| [force.normal, force.shear_x, force.shear_y]);
         return same("a sum of one", &Some(forces.sum_on_floor(one)?), &parts);
     };
-    same("the forces to below", &forces.to_below(site)?, passed_on)?;
+    same("the forces to below", &forces.to_below(site)?, transmitted)?;
     same(
         "a sum of one",
         &forces.sum_of_contacts(one)?,
-        &passed_on.iter().sum(),
+        &transmitted.iter().sum(),
     )
 }
 

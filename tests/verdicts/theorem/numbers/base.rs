@@ -186,8 +186,8 @@ fn total_shear_and_moments() {
 #[test]
 fn rotated_forces_have_a_moment() {
     let turned: Formulas = Formulas {
-        handed_on: |above, directions, weight| {
-            let Vector { x, y, z } = (RIGHT.handed_on)(above, directions, weight);
+        support_load: |above, directions, weight| {
+            let Vector { x, y, z } = (RIGHT.support_load)(above, directions, weight);
             Vector { x: -y, y: x, z }
         },
         ..RIGHT

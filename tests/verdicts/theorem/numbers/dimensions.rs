@@ -97,7 +97,7 @@ fn every_dimension() {
 #[test]
 fn squared_forces_have_a_horizontal_resultant() {
     let squares: Formulas = Formulas {
-        passed_on: |received, own| received.clone() * &received + own,
+        transmitted: |received, own| received.clone() * &received + own,
         ..RIGHT
     };
     let proof = find("dimensions").expect("a theorem").prove_for(&squares);

@@ -10,7 +10,7 @@ use super::{Fault, P, RIGHT, faults, sum, twice};
 macro_rules! force {
     (|$force:ident, $above:ident| $($component:ident = $wrong:expr),+) => {
         |$above, directions, weight| {
-            let $force = (RIGHT.handed_on)($above, directions, weight);
+            let $force = (RIGHT.support_load)($above, directions, weight);
             Vector { $($component: $wrong,)+ ..$force }
         }
     };
@@ -27,26 +27,26 @@ fn squeeze(above: &[P; 3]) -> P {
 
 pub(super) fn faults() -> Vec<Fault> {
     faults! {
-        "the bottom layer's weight left out": handed_on = |from_above, directions, _| {
+        "the bottom layer's weight left out": support_load = |from_above, directions, _| {
             (RIGHT.resultant)(from_above, directions)
         } => ["equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio",
               "discs"];
-        "the shear reversed": handed_on = force!(|f, above| x = -f.x, y = -f.y)
+        "the shear reversed": support_load = force!(|f, above| x = -f.x, y = -f.y)
             => ["equilibrium", "shear", "shear-on-axis", "discs"];
-        "the shear rotated by 90°": handed_on = force!(|f, above| x = -f.y, y = f.x)
+        "the shear rotated by 90°": support_load = force!(|f, above| x = -f.y, y = f.x)
             => ["equilibrium", "shear", "total-moment", "shear-on-axis", "shear-ratio", "discs"];
-        "twice the shear": handed_on = force!(|f, above| x = twice(&f.x), y = twice(&f.y))
+        "twice the shear": support_load = force!(|f, above| x = twice(&f.x), y = twice(&f.y))
             => ["equilibrium", "shear", "shear-on-axis", "shear-ratio", "discs"];
-        "a constant shear along x": handed_on = force!(|f, above| x = f.x + &P::one())
+        "a constant shear along x": support_load = force!(|f, above| x = f.x + &P::one())
             => ["equilibrium", "shear", "total-shear", "shear-on-axis", "shear-ratio", "discs"];
-        "a constant shear along y": handed_on = force!(|f, above| y = f.y + &P::one())
+        "a constant shear along y": support_load = force!(|f, above| y = f.y + &P::one())
             => ["equilibrium", "shear", "total-shear", "total-moment", "shear-on-axis",
                 "shear-ratio", "discs"];
-        "load shifted from γ to α": handed_on = force!(|f, above| z = f.z + &above[0] - &above[2])
+        "load shifted from γ to α": support_load = force!(|f, above| z = f.z + &above[0] - &above[2])
             => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
                 "shear-ratio",
                 "discs"];
-        "load shifted from the rim to the middle": handed_on = force!(|f, above| z = f.z + &squeeze(above))
+        "load shifted from the rim to the middle": support_load = force!(|f, above| z = f.z + &squeeze(above))
             => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
                 "shear-ratio",
                 "discs"];

@@ -47,12 +47,12 @@ pub(super) fn faults() -> Vec<Fault> {
                 "base-normal", "uniform-base", "weight", "total-shear", "total-moment", "second-moment", "run",
                 "change-of-sign", "horizontal-balance", "squares"];
 
-        "weightless spheres": passed_on = |received, _| received => ["equilibrium", "action-reaction", "discs",
+        "weightless spheres": transmitted = |received, _| received => ["equilibrium", "action-reaction", "discs",
                 "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy", "squares"];
-        "the forces from above left out": passed_on = |_, own| own.clone() => ["equilibrium", "action-reaction",
+        "the forces from above left out": transmitted = |_, own| own.clone() => ["equilibrium", "action-reaction",
                 "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy",
                 "squares"];
-        "its own increment twice": passed_on = |received, own| received + own + own => ["equilibrium", "action-reaction",
+        "its own increment twice": transmitted = |received, own| received + own + own => ["equilibrium", "action-reaction",
                 "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy",
                 "squares"];
 
