@@ -60,7 +60,7 @@ pub fn piles() -> impl Strategy<Value = Pile> + Clone {
 /// # Examples
 /// In `f64`, the normal forces on the floor sum to the weight up to rounding:
 /// ```
-/// use cannonpile::scalar::NearestFloat;
+/// use cannonpile::scalar::CorrectlyRounded;
 /// use cannonpile::shape::Selection;
 /// use cannonpile::testing::moderate_piles;
 /// use proptest::prelude::*;

@@ -25,7 +25,7 @@ properties! {
     fixed_width_is_right_or_overflows: claims::fixed::any_pile, 512;
     fixed_width_results_can_be_negated: claims::fixed::results_can_be_negated, 4096;
     short_fractions_fit_128_bits: claims::fixed::small_pile, 256;
-    rows_of_places_are_nearest_floats: claims::packing::one_row, 512;
+    rows_of_places_are_correctly_rounded: claims::packing::one_row, 512;
     packings_follow_the_geometry: claims::packing::one_sphere, 256;
     spacings_are_allowed_exactly_without_overlap: claims::overlap::of_a_spacing, 256;
     distances_are_the_quadratic_form: claims::overlap::of_two_spheres, 256;

@@ -2,7 +2,7 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Exactness, Interval, NearestFloat, RealEmbeddable,
+    Algebra, DoubleDouble, Exactness, Interval, CorrectlyRounded, RealEmbeddable,
 };
 use cannonpile::shape::Selection;
 use cannonpile::{Forces, Packing, Pile};
@@ -82,7 +82,7 @@ fn table<T: Algebra + RealEmbeddable>(bench: &Bench, run: impl FnMut() -> Vec<[T
     bench.run(Method::Table, T::NAME, Measured { seconds, error })
 }
 
-fn nearest<F: NearestFloat + Default>(packing: &Packing<'_>) -> Vec<[F; 3]> {
+fn nearest<F: CorrectlyRounded + Default>(packing: &Packing<'_>) -> Vec<[F; 3]> {
     let layers = packing.layers::<F>(Selection::All).expect("floats");
     filled(layers.slice_len().expect("as many as fit"), |slices| {
         layers.fill(slices).expect("lengths that fit");

@@ -203,9 +203,9 @@ pub fn measured(bytes: &[u8]) -> Corpus {
         bytes,
         &[
             claims::measured::any_file,
-            claims::ladder::any_record,
-            claims::ladder::any_rungs,
-            claims::ladder::given_order,
+            claims::refinement::any_record,
+            claims::refinement::any_levels,
+            claims::refinement::given_order,
             claims::measured::any_table,
             claims::measured::a_file,
             claims::measured::injected_fault,

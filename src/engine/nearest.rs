@@ -12,7 +12,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use super::limbs::{LIMB, limbs};
 use crate::Error;
 use crate::error::bug;
-use crate::scalar::{DoubleDouble, NearestFloat, Surd, float_between};
+use crate::scalar::{CorrectlyRounded, DoubleDouble, Surd, float_between};
 
 /// What integers are multiplied by before they are rounded: c·√r over a denominator.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl Unit {
     }
 
     /// The float nearest to n units.
-    pub(crate) fn nearest<F: NearestFloat>(&self, n: &BigInt) -> Option<F> {
+    pub(crate) fn nearest<F: CorrectlyRounded>(&self, n: &BigInt) -> Option<F> {
         const LEADING: u64 = 120;
         let below = n.bits().saturating_sub(LEADING);
         let decided = if below == 0 {
@@ -64,7 +64,7 @@ impl Unit {
     }
 
     /// The float nearest to n units.
-    pub(crate) fn nearest_to<F: NearestFloat>(&self, n: i128) -> Option<F> {
+    pub(crate) fn nearest_to<F: CorrectlyRounded>(&self, n: i128) -> Option<F> {
         let decided = self.decide(n, 0, 0.0);
         decided.or_else(|| self.exactly(&n.into()))
     }
@@ -79,7 +79,7 @@ impl Unit {
         self.factor.is_some_and(|factor| factor.exponent - 3 > e)
     }
 
-    fn exactly<F: NearestFloat>(&self, n: &BigInt) -> Option<F> {
+    fn exactly<F: CorrectlyRounded>(&self, n: &BigInt) -> Option<F> {
         if n.is_zero() || self.is_zero() {
             return Surd::zero().nearest();
         }
@@ -95,7 +95,7 @@ impl Unit {
         clippy::cast_possible_wrap,
         reason = "high is the nearest float, low the exact rest, its rounding within the slack; below 2^127 nothing wraps"
     )]
-    fn decide<F: NearestFloat>(&self, n: i128, exponent: i64, owed: f64) -> Option<F> {
+    fn decide<F: CorrectlyRounded>(&self, n: i128, exponent: i64, owed: f64) -> Option<F> {
         // 3u² + 7u² + 2^−104 of both sums and the product, u = 2^−53, is below 2^−101.
         const SLACK: i64 = -98;
         let factor = self.factor?;
@@ -161,7 +161,7 @@ impl Readout {
     ///
     /// # Errors
     /// [`Error::Bug`] for more own weight than limbs can hold.
-    pub(crate) fn write<F: NearestFloat>(
+    pub(crate) fn write<F: CorrectlyRounded>(
         &self,
         units: &[Unit; 3],
         top_down: &[[&[i64]; 3]],
@@ -203,7 +203,7 @@ impl Readout {
 }
 
 /// The float nearest to Σ limb(p)·2^(55p), from the top limb down as far as it takes.
-fn nearest_of<F: NearestFloat>(
+fn nearest_of<F: CorrectlyRounded>(
     limb: &impl Fn(usize, usize) -> i128,
     place: usize,
     planes: usize,
@@ -255,13 +255,13 @@ mod tests {
         ]
     }
 
-    fn slowly<F: NearestFloat>(unit: &Unit, n: &BigInt) -> Option<F> {
+    fn slowly<F: CorrectlyRounded>(unit: &Unit, n: &BigInt) -> Option<F> {
         let multiple = BigRational::new(n.clone(), unit.denominator.clone());
         unit.surd.scaled(&multiple).nearest()
     }
 
     /// All lines of all layers in floats, from limbs and from exact numbers, turned or not.
-    fn compare<F: NearestFloat + PartialEq + core::fmt::Debug>(pile: &Pile) {
+    fn compare<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(pile: &Pile) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         let lines = Lines::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, last).unwrap();
@@ -316,7 +316,7 @@ mod tests {
     }
 
     /// An integer in limbs, read out by itself.
-    fn read<F: NearestFloat>(unit: &Unit, n: &BigInt) -> Option<F> {
+    fn read<F: CorrectlyRounded>(unit: &Unit, n: &BigInt) -> Option<F> {
         let limbs = limbs(n, 26).unwrap();
         let top_down: Vec<[&[i64]; 3]> = limbs
             .iter()

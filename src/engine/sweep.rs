@@ -20,7 +20,7 @@ use super::thirds::turned;
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Region, Row, Site};
-use crate::scalar::{Algebra, NearestFloat};
+use crate::scalar::{Algebra, CorrectlyRounded};
 
 /// A pile on its way down: the forces of one layer.
 #[derive(Clone, Debug)]
@@ -177,7 +177,7 @@ impl Descent<'_, BigRational, Planes> {
     ///
     /// # Errors
     /// [`Error::Bug`] if the row is of another layer.
-    pub(crate) fn nearest_row<F: NearestFloat>(
+    pub(crate) fn nearest_row<F: CorrectlyRounded>(
         &self,
         row: &Row,
         (readout, units): (&Readout, &[Unit; 3]),

@@ -18,7 +18,7 @@ use crate::Error;
 use crate::engine::{Table, Unit};
 use crate::error::bug;
 use crate::lattice::{Row, Site};
-use crate::scalar::{NearestFloat, Surd};
+use crate::scalar::{CorrectlyRounded, Surd};
 
 /// A way down through the layers of a part of a pile, in the floats `F` nearest to the exact forces.
 ///
@@ -76,7 +76,7 @@ impl<'p> Layers<'p, BigRational> {
     /// assert_eq!(normal[0], 14.0 / 9.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn nearest<F: NearestFloat>(self) -> Result<NearestLayers<'p, F>, Error> {
+    pub fn nearest<F: CorrectlyRounded>(self) -> Result<NearestLayers<'p, F>, Error> {
         let one = || Surd::from(BigRational::one());
         let units = Units {
             contact: one(),
@@ -87,7 +87,7 @@ impl<'p> Layers<'p, BigRational> {
     }
 
     /// Returns the layers in the floats nearest to the exact forces times units.
-    pub(crate) fn nearest_in<F: NearestFloat>(
+    pub(crate) fn nearest_in<F: CorrectlyRounded>(
         self,
         units: Units,
     ) -> Result<NearestLayers<'p, F>, Error> {
@@ -109,7 +109,7 @@ impl<'p> Layers<'p, BigRational> {
     }
 }
 
-impl<'p, F: NearestFloat> NearestLayers<'p, F> {
+impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
     /// Goes down to the next layer of the part and returns it, or `None` below the last one.
     ///
     /// # Errors
@@ -331,7 +331,7 @@ impl<'p, F: NearestFloat> NearestLayers<'p, F> {
     }
 }
 
-impl<F: NearestFloat> NearestLayer<'_, '_, F> {
+impl<F: CorrectlyRounded> NearestLayer<'_, '_, F> {
     /// Writes the forces below the layer into slices, one for each direction, row after row, each the float nearest to the
     /// exact force; zero along γ for discs.
     ///

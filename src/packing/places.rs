@@ -11,7 +11,7 @@ use crate::engine::{Unit, check_interrupt};
 use crate::forces::check_lengths;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Row, Site};
-use crate::scalar::{NearestFloat, Surd};
+use crate::scalar::{CorrectlyRounded, Surd};
 use crate::{Error, Packing};
 
 /// The centres of spheres and their points of contact, in the floats `F` nearest to the exact coordinates, row by row.
@@ -58,7 +58,7 @@ impl<'p> Packing<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn places<F: NearestFloat>(&self) -> Places<'p, F> {
+    pub fn places<F: CorrectlyRounded>(&self) -> Places<'p, F> {
         // Coordinates are sums of the directions, those of points of contact of halves of them.
         let halves: BigInt = self.forces.direction_scale() * 2;
         let diameter = self.diameter();
@@ -72,7 +72,7 @@ impl<'p> Packing<'p> {
     }
 }
 
-impl<F: NearestFloat> Places<'_, F> {
+impl<F: CorrectlyRounded> Places<'_, F> {
     /// Writes the centres of consecutive spheres of a row into slices of x, y and z.
     ///
     /// # Errors

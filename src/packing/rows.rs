@@ -3,7 +3,7 @@
 use super::on_basis;
 use crate::forces::{NearestLayers, Units};
 use crate::lattice::{ContactKind, Direction, HorizontalContact, Site};
-use crate::scalar::{NearestFloat, Surd, product};
+use crate::scalar::{CorrectlyRounded, Surd, product};
 use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Packing};
 use num_rational::BigRational;
@@ -67,7 +67,10 @@ impl<'p> Packing<'p> {
     /// assert_eq!(forces[0][0], 0.46225016352102425);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn layers<F: NearestFloat>(&self, part: Selection) -> Result<NearestLayers<'p, F>, Error> {
+    pub fn layers<F: CorrectlyRounded>(
+        &self,
+        part: Selection,
+    ) -> Result<NearestLayers<'p, F>, Error> {
         let [x, y, z] = self.roots.forces();
         let basis = |unit: &BigRational| [x, y, z].map(|root| root.scaled(unit));
         let [along_x, along_y, downwards] = basis(&self.weight_per_sum);

@@ -15,8 +15,8 @@ use num_rational::{BigRational, Ratio};
 use num_traits::{Bounded, CheckedAdd, CheckedDiv, CheckedMul, CheckedSub, One, Signed, Zero};
 
 use super::{
-    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
-    Ring,
+    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
+    RealSign, Ring,
 };
 
 mod sealed {

@@ -6,8 +6,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::{
-    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
-    Ring,
+    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
+    RealSign, Ring,
 };
 
 macro_rules! float_scalar {

@@ -9,8 +9,8 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::{
-    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
-    Ring,
+    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
+    RealSign, Ring,
 };
 use exact_surd::error_free::{is_ordinary, significand, two_product, two_sum};
 use exact_surd::layout::padded;

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use self::flawed::{
     Claim, Double, Enclosed, Exact, ExactOrFault, Flawed, Operations, flawed, from_now_on,
 };
-use cannonpile::scalar::{Enclosure, NearestFloat, RealSign, laws};
+use cannonpile::scalar::{CorrectlyRounded, Enclosure, RealSign, laws};
 use cannonpile_testkit::answers::ratio;
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;

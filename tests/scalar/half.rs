@@ -4,8 +4,8 @@ use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use cannonpile::scalar::{
-    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
-    Ring, laws,
+    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
+    RealSign, Ring, laws,
 };
 use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};

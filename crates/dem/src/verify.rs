@@ -27,7 +27,7 @@
 //! # Other codes' tables
 //! A [`Reader`] compares a file while it reads it: columns of any names ([`Columns`]), of known codes ([`Preset`]), contacts by
 //! the numbers of the spheres or by where they are, in whatever [`Frame`]. [`Comparison::findings`] says what differences have
-//! in common, [`Unbalanced`] what is left on each sphere, a [`Ladder`] the observed order of accuracy of several runs.
+//! in common, [`Unbalanced`] what is left on each sphere, a [`RefinementStudy`] the observed order of accuracy of several runs.
 //!
 //! # Examples
 //! A test of a simulation in three lines:
@@ -85,7 +85,6 @@ mod finding;
 mod frame;
 mod gathering;
 mod header;
-mod ladder;
 mod ledger;
 mod lines;
 mod measured;
@@ -94,6 +93,7 @@ mod places;
 mod preset;
 mod read;
 mod reading;
+mod refinement;
 mod refusal;
 mod registration;
 mod report;
@@ -113,15 +113,15 @@ pub use dump::read_dump;
 pub use entry::Force;
 pub use finding::Finding;
 pub use frame::Frame;
-pub use ladder::{
-    Fit, Ladder, LadderFile, LadderFiles, LadderReport, Limit, MAX_RUNGS, NoLadder, NoLadderFiles,
-    NoOrder, Norm, Refinement, Rung, RungPlace,
-};
 pub use measured::{MAX_ENTRIES, Measured};
 pub use placed::Placed;
 pub use preset::Preset;
 pub use read::{Compared, Reader, read};
 pub use reading::Reading;
+pub use refinement::{
+    Fit, Level, LevelPlace, Limit, MAX_LEVELS, NoOrder, NoRefinement, NoRefinementFiles, Norm,
+    Refinement, RefinementFile, RefinementFiles, RefinementReport, RefinementStudy,
+};
 pub use refusal::{Fault, Refusal};
 pub use report::{Report, Source};
 pub use unbalanced::Unbalanced;

@@ -26,9 +26,9 @@ properties! {
     measured_forces_are_read_as_written: claims::measured::a_file, 512;
     tables_are_accepted_by_place_in_any_frame: claims::measured::by_place, 96;
     a_fault_among_measured_forces_is_found: claims::measured::injected_fault, 256;
-    a_planted_order_of_accuracy_is_found: claims::ladder::given_order, 1024;
-    any_ladder_comes_back_from_its_record: claims::ladder::any_rungs, 1024;
-    any_record_of_a_ladder_is_read_or_refused: claims::ladder::any_record, 1024;
+    a_planted_order_of_accuracy_is_found: claims::refinement::given_order, 1024;
+    any_refinement_comes_back_from_its_record: claims::refinement::any_levels, 1024;
+    any_record_of_a_refinement_is_read_or_refused: claims::refinement::any_record, 1024;
 }
 
 #[test]

@@ -31,7 +31,7 @@
 //! | [`response()`] | the forces in a layer under a load on the top |
 //! | [`mean_response()`], [`mean_profile()`] | the mean response of the base over random stackings: as maps, and by distance |
 //! | [`distribution()`] | the force distribution over random stackings |
-//! | [`ladder()`] | the errors of a code at several stiffnesses or time steps, and their order of accuracy |
+//! | [`refinement()`] | the errors of a code at several stiffnesses or time steps, and their order of accuracy |
 //! | [`viewer`] | an HTML viewer of the pile and its forces |
 //! | [`Error`] | the errors of this crate |
 //!
@@ -52,7 +52,6 @@ mod distribution;
 mod error;
 mod glyph;
 mod indexing;
-mod ladder;
 mod layer;
 mod map;
 mod mean;
@@ -60,6 +59,7 @@ mod network;
 mod page;
 mod panel;
 mod pile;
+mod refinement;
 mod response;
 mod shear;
 mod sphere;
@@ -73,11 +73,11 @@ pub use bounds::bounds;
 pub use distribution::distribution;
 pub use error::Error;
 pub use indexing::indexing;
-pub use ladder::ladder;
 pub use mean::{mean_profile, mean_response};
 pub use network::{layer, section};
 pub use page::{Figure, Layout};
 pub use pile::pile;
+pub use refinement::refinement;
 pub use response::{response, with_unit_load};
 pub use shear::shear;
 pub use sphere::{example_site, sphere};

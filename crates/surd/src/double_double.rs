@@ -13,7 +13,7 @@ use alloc::format;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::NearestFloat;
+use crate::CorrectlyRounded;
 use crate::error_free::{fast_two_sum, is_ordinary, scale, significand, two_product, two_sum};
 use crate::layout::padded;
 

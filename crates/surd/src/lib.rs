@@ -17,7 +17,7 @@
 //! | module or type | contents |
 //! |---|---|
 //! | [`Surd`] | numbers c·√r: products, comparison, extraction of square factors |
-//! | [`NearestFloat`] | correct rounding of a rational, by a double-double enclosure or by integer arithmetic |
+//! | [`CorrectlyRounded`] | correct rounding of a rational, by a double-double enclosure or by integer arithmetic |
 //! | [`DoubleDouble`] | unevaluated sums of two floats, about 106 bits, after Joldes, Muller and Popescu (2017) |
 //! | [`error_free`] | error-free transformations: sums and products of floats with their rounding errors |
 //! | [`rational`] | sums, products and quotients of rationals whose denominators are mostly powers of three |
@@ -53,7 +53,7 @@ pub mod text;
 
 pub use double_double::DoubleDouble;
 pub use error::Error;
-pub use nearest::NearestFloat;
+pub use nearest::CorrectlyRounded;
 #[doc(hidden)]
 pub use nearest::float_between;
 pub use surd::Surd;

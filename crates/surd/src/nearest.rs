@@ -37,7 +37,7 @@ use sealed::Assemble;
 /// A binary floating-point format to round to: `f32` or `f64`. The trait is sealed.
 ///
 /// Rounding to `f32` is direct. Rounding to `f64` first and then to `f32` can miss the nearest `f32`.
-pub trait NearestFloat: Assemble + Copy + Send + Sync {
+pub trait CorrectlyRounded: Assemble + Copy + Send + Sync {
     /// The number of bits of the significand, including the leading bit.
     const PRECISION: u32;
 
@@ -48,7 +48,7 @@ pub trait NearestFloat: Assemble + Copy + Send + Sync {
     ///
     /// # Examples
     /// ```
-    /// use exact_surd::NearestFloat;
+    /// use exact_surd::CorrectlyRounded;
     /// use num_rational::BigRational;
     ///
     /// let third = BigRational::new(1.into(), 3.into());
@@ -64,7 +64,7 @@ pub trait NearestFloat: Assemble + Copy + Send + Sync {
 }
 
 /// Returns the float nearest to ±n/d, or `None` if it overflows. d must not be zero.
-pub(crate) fn nearest_ratio<F: NearestFloat>(
+pub(crate) fn nearest_ratio<F: CorrectlyRounded>(
     negative: bool,
     n: &BigUint,
     d: &BigUint,
@@ -77,7 +77,11 @@ pub(crate) fn nearest_ratio<F: NearestFloat>(
 /// Returns the float nearest to ±√(n/d), or `None` if it overflows. d must not be zero.
 ///
 /// The root must be irrational, so that no tie can occur.
-pub(crate) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &BigUint) -> Option<F> {
+pub(crate) fn nearest_root<F: CorrectlyRounded>(
+    negative: bool,
+    n: &BigUint,
+    d: &BigUint,
+) -> Option<F> {
     // ⌊√(2^(2s) n/d)⌋ = ⌊√⌊2^(2s) n/d⌋⌋, so one integer division and one integer square root suffice.
     let scale = guard_bits::<F>() - (bits(n) - bits(d)).div_euclid(2);
     let (quotient, _) = shifted_quotient(n, d, 2 * scale);
@@ -86,7 +90,7 @@ pub(crate) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &Big
 }
 
 /// Returns the float nearest to ±(n/d)·√r if the double-double enclosure decides it. d must not be zero.
-pub(crate) fn screened<F: NearestFloat>(
+pub(crate) fn screened<F: CorrectlyRounded>(
     negative: bool,
     n: &BigUint,
     d: &BigUint,
@@ -102,7 +106,11 @@ pub(crate) fn screened<F: NearestFloat>(
 /// normal.
 #[doc(hidden)]
 #[must_use]
-pub fn float_between<F: NearestFloat>(negative: bool, ends: [f64; 2], exponent: i64) -> Option<F> {
+pub fn float_between<F: CorrectlyRounded>(
+    negative: bool,
+    ends: [f64; 2],
+    exponent: i64,
+) -> Option<F> {
     let exponent = i32::try_from(exponent).ok()?;
     let normal = (-1000..1000).contains(&exponent);
     normal
@@ -110,9 +118,9 @@ pub fn float_between<F: NearestFloat>(negative: bool, ends: [f64; 2], exponent: 
         .flatten()
 }
 
-macro_rules! nearest_float {
+macro_rules! correctly_rounded {
     ($float:ident, $bits:ident, $ends:expr) => {
-        impl NearestFloat for $float {
+        impl CorrectlyRounded for $float {
             const PRECISION: u32 = $float::MANTISSA_DIGITS;
             const MIN_EXPONENT: i64 = $float::MIN_EXP as i64 - $float::MANTISSA_DIGITS as i64;
         }
@@ -153,8 +161,8 @@ macro_rules! nearest_float {
     };
 }
 
-nearest_float!(f32, u32, ends_in_f32);
-nearest_float!(f64, u64, ends_in_f64);
+correctly_rounded!(f32, u32, ends_in_f32);
+correctly_rounded!(f64, u64, ends_in_f64);
 
 /// Returns the ends times a power of two. The ends are `f64` already, and the multiplication is exact.
 fn ends_in_f64(ends: [f64; 2], exponent: i32) -> [f64; 2] {
@@ -172,7 +180,7 @@ fn ends_in_f32([down, up]: [f64; 2], exponent: i32) -> [f32; 2] {
 }
 
 /// Returns the number of bits of a value that are computed: those of the significand and three guard bits.
-fn guard_bits<F: NearestFloat>() -> i64 {
+fn guard_bits<F: CorrectlyRounded>() -> i64 {
     i64::from(F::PRECISION) + 3
 }
 
@@ -197,7 +205,12 @@ fn shifted_quotient(n: &BigUint, d: &BigUint, shift: i64) -> (BigUint, BigUint) 
 /// Rounds ±(m + ε) · 2^exponent, where 0 ≤ ε < 1, and `sticky` is true if ε > 0.
 ///
 /// If `sticky` is true, m must have at least two bits more than the significand.
-fn round<F: NearestFloat>(negative: bool, m: &BigUint, sticky: bool, exponent: i64) -> Option<F> {
+fn round<F: CorrectlyRounded>(
+    negative: bool,
+    m: &BigUint,
+    sticky: bool,
+    exponent: i64,
+) -> Option<F> {
     if m.is_zero() && !sticky {
         return F::assemble(false, 0, F::MIN_EXPONENT);
     }

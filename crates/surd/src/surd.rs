@@ -14,7 +14,7 @@ use num_traits::{One, Signed, Zero};
 
 use crate::nearest::{nearest_ratio, nearest_root, screened};
 use crate::rational::product;
-use crate::{Error, NearestFloat};
+use crate::{CorrectlyRounded, Error};
 
 /// An exact number c·√n, with c rational and n a positive integer.
 ///
@@ -339,7 +339,7 @@ impl Surd {
     /// # Ok::<(), exact_surd::Error>(())
     /// ```
     #[must_use]
-    pub fn nearest<F: NearestFloat>(&self) -> Option<F> {
+    pub fn nearest<F: CorrectlyRounded>(&self) -> Option<F> {
         let (negative, [n, d], root) = self.parts();
         self.screened().or_else(|| match root {
             None => nearest_ratio(negative, n, d),
@@ -349,7 +349,7 @@ impl Surd {
     }
 
     /// Returns the nearest float if the double-double enclosure decides it.
-    fn screened<F: NearestFloat>(&self) -> Option<F> {
+    fn screened<F: CorrectlyRounded>(&self) -> Option<F> {
         let (negative, [n, d], root) = self.parts();
         screened(negative, n, d, root)
     }

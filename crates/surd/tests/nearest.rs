@@ -3,7 +3,7 @@
 
 use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::judge::{Float, Value, beyond_greatest, exact, is_nearest, midpoint};
-use exact_surd::{NearestFloat, Surd};
+use exact_surd::{CorrectlyRounded, Surd};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow};

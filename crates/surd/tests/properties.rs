@@ -7,8 +7,8 @@
 use cannonpile_testkit::{claims, properties};
 
 properties! {
-    roots_round_to_the_nearest_float: claims::nearest::of_a_root, 1024;
-    rationals_round_to_the_nearest_float: claims::nearest::of_a_rational, 1024;
+    roots_round_to_correct_rounding: claims::nearest::of_a_root, 1024;
+    rationals_round_to_correct_rounding: claims::nearest::of_a_rational, 1024;
     roots_are_ordered_as_their_squares: claims::order::of_two_roots, 1024;
     roots_of_squares_are_rational: claims::order::of_a_square, 256;
 }

@@ -10,7 +10,7 @@
 use core::cmp::Ordering;
 use core::fmt::Debug;
 
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::float::FloatCore;
@@ -20,7 +20,7 @@ use num_traits::{Signed, Zero};
 pub type Verdict = Result<(), String>;
 
 /// The operations that the check needs of `f32` and `f64`.
-pub trait Float: NearestFloat + FloatCore + Debug {
+pub trait Float: CorrectlyRounded + FloatCore + Debug {
     /// The next greater float.
     #[must_use]
     fn up(self) -> Self;

@@ -15,7 +15,7 @@ use crate::forces::layers::{Layer, Layers, check_lengths};
 use crate::formula::tripled_half_turn;
 use crate::geometry::Vector;
 use crate::lattice::{Row, Site};
-use crate::scalar::{NearestFloat, Surd};
+use crate::scalar::{CorrectlyRounded, Surd};
 
 /// The units of forces in layers: what an exact multiple is multiplied by before it is rounded, once.
 #[derive(Clone, Debug)]
@@ -57,7 +57,7 @@ pub(super) enum Source<F> {
 
 impl Layers<'_, BigRational> {
     /// Returns how something is found in layer `k`, which was reached.
-    pub(super) fn source<F: NearestFloat>(
+    pub(super) fn source<F: CorrectlyRounded>(
         &self,
         units: &Units,
         asked: Asked,
@@ -126,7 +126,7 @@ impl Layers<'_, BigRational> {
     }
 
     /// Writes what was asked for along consecutive spheres of a row of the layer that was reached.
-    pub(super) fn write_row<F: NearestFloat>(
+    pub(super) fn write_row<F: CorrectlyRounded>(
         &self,
         (asked, source): (Asked, &Source<F>),
         row: &Row,
@@ -172,7 +172,7 @@ impl Layers<'_, BigRational> {
     }
 
     /// Returns what was asked for of a sphere that weighs more or less than the others, or carries loads.
-    fn at_extra<F: NearestFloat>(
+    fn at_extra<F: CorrectlyRounded>(
         &self,
         (asked, units): (Asked, &[Unit; 3]),
         Site { i, j, k }: Site,
@@ -199,7 +199,7 @@ impl Layers<'_, BigRational> {
 }
 
 impl Layer<'_, '_, BigRational> {
-    pub(super) fn fill_nearest<F: NearestFloat>(
+    pub(super) fn fill_nearest<F: CorrectlyRounded>(
         &self,
         units: &Units,
         asked: Asked,
@@ -211,7 +211,7 @@ impl Layer<'_, '_, BigRational> {
     }
 
     /// Writes what was asked for into slices as long as the layer, row after row.
-    fn write<F: NearestFloat>(
+    fn write<F: CorrectlyRounded>(
         &self,
         (asked, source): (Asked, &Source<F>),
         slices: [&mut [F]; 3],
@@ -251,7 +251,7 @@ impl Layer<'_, '_, BigRational> {
 }
 
 /// Returns the floats nearest to the numbers of a sphere.
-fn nearest<F: NearestFloat>(
+fn nearest<F: CorrectlyRounded>(
     (asked, units): (Asked, &[Unit; 3]),
     [x, y, z]: &[BigInt; 3],
 ) -> Result<[F; 3], Error> {

@@ -46,7 +46,7 @@ fn every_force_equals_the_oracle() {
 }
 
 #[test]
-fn every_method_and_its_nearest_floats_agree() {
+fn all_methods_agree_exactly_and_rounded() {
     let mut random = Random(42);
     for case in cases(60, &mut random) {
         let forces = case.pile.forces::<BigRational>();

@@ -2,7 +2,7 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Site};
-use cannonpile::scalar::{FixedRational, NearestFloat};
+use cannonpile::scalar::{CorrectlyRounded, FixedRational};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing, Pile};
@@ -90,7 +90,7 @@ fn transposed<V: Clone>([a, b, c]: &[Vec<V>; 3]) -> Vec<[V; 3]> {
         .collect()
 }
 
-fn nearest_floats_equal_the_packing<F: NearestFloat + PartialEq + core::fmt::Debug>(zero: F) {
+fn rounded_layers_equal_the_packing<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(zero: F) {
     for pile in piles() {
         let packing = packing_of(&pile);
         let single = one_by_one(
@@ -133,12 +133,12 @@ fn nearest_floats_equal_the_packing<F: NearestFloat + PartialEq + core::fmt::Deb
 
 #[test]
 fn nearest_doubles_equal_the_packing() {
-    nearest_floats_equal_the_packing(0.0_f64);
+    rounded_layers_equal_the_packing(0.0_f64);
 }
 
 #[test]
 fn nearest_singles_equal_the_packing() {
-    nearest_floats_equal_the_packing(0.0_f32);
+    rounded_layers_equal_the_packing(0.0_f32);
 }
 
 #[test]

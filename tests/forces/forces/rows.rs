@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use cannonpile::lattice::{Direction, Region, Row, Site};
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, FloorForce, Method, Packing, Pile};
 use num_rational::BigRational;
@@ -23,18 +23,18 @@ fn pieces(pile: &Pile, size: i128) -> impl Iterator<Item = Row> {
         .map(|(_, row)| row)
 }
 
-fn columns<F: NearestFloat + Default>(row: &Row) -> [Vec<F>; 3] {
+fn columns<F: CorrectlyRounded + Default>(row: &Row) -> [Vec<F>; 3] {
     let spheres = row.i.clone().count();
     [(); 3].map(|()| vec![F::default(); spheres])
 }
 
-fn nearest<F: NearestFloat>(exact: &Surd) -> F {
+fn nearest<F: CorrectlyRounded>(exact: &Surd) -> F {
     exact.nearest().expect("a float")
 }
 
 fn rows_are_correctly_rounded<F>(packing: &Packing<'_>, size: i128)
 where
-    F: NearestFloat + Default + PartialEq + core::fmt::Debug,
+    F: CorrectlyRounded + Default + PartialEq + core::fmt::Debug,
 {
     let pile = packing.pile();
     let floor = pile.layers() - 1;
@@ -103,7 +103,7 @@ where
 }
 
 #[test]
-fn rows_have_the_nearest_floats() {
+fn rows_hold_correctly_rounded_values() {
     for (n, pile) in (1..).zip(piles()) {
         let packing = packing_of(&pile);
         rows_are_correctly_rounded::<f64>(&packing, n % 4 + 1);
@@ -112,7 +112,7 @@ fn rows_have_the_nearest_floats() {
 }
 
 #[test]
-fn rows_have_the_nearest_floats_by_any_method() {
+fn rows_of_any_method_are_correctly_rounded() {
     let mut compared = 0;
     for pile in piles() {
         for method in [Method::Closed, Method::Tree, Method::Sweep] {

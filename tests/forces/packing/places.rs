@@ -55,7 +55,7 @@ fn rows_agree(pile: &Pile, rows: impl Iterator<Item = Row>) {
 }
 
 #[test]
-fn centres_and_contact_points_are_the_nearest_floats() {
+fn centres_and_contact_points_are_correctly_rounded() {
     let hcp = Pile::under(Region::hexagon(2, 1).unwrap(), "+-+".parse().unwrap()).unwrap();
     for pile in [
         Pile::triangular(4).unwrap(),

@@ -7,7 +7,7 @@ use cannonpile::lattice::{Dimension, Region};
 use cannonpile::stacking::Pattern;
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use cannonpile_dem::table::WriteError;
-use cannonpile_dem::verify::Ladder;
+use cannonpile_dem::verify::RefinementStudy;
 use cannonpile_figure as figure;
 use cannonpile_figure::{Figure, Layout, Subject};
 use clap::{Args, Subcommand};
@@ -33,7 +33,7 @@ Examples:
   cannonpile plot response --fault-probability 0,1/4,1/2,1 --layers 17 --output mean.svg
   cannonpile plot response --fault-probability 1/4,1/2,3/4 --layers 61 --profile --output wave.svg
   cannonpile ensemble --layers 12 --all --output all.json; cannonpile plot distribution all.json --output forces.svg
-  cannonpile verify --ladder 1e5=soft.csv,1e6=stiff.csv --format json --output ladder.json; cannonpile plot ladder ladder.json";
+  cannonpile verify --refinement 1e5=soft.csv,1e6=stiff.csv --format json --output refinement.json; cannonpile plot refinement refinement.json";
 
 /// A kind of figure.
 #[derive(Subcommand)]
@@ -113,8 +113,8 @@ pub(crate) enum Plot {
         output: FigureOutput,
     },
     /// Draw the errors of a refinement study and their order of accuracy
-    Ladder {
-        /// JSON record of verify --ladder
+    Refinement {
+        /// JSON record of verify --refinement
         #[arg(value_name = "FILE")]
         record: PathBuf,
         #[command(flatten)]
@@ -211,7 +211,7 @@ impl Plot {
     /// Returns the scene options, if the figure has them, and the output options.
     const fn parts(&self) -> (Option<&SceneOptions>, &FigureOutput) {
         let of = match self {
-            Self::Distribution { output, .. } | Self::Ladder { output, .. } => {
+            Self::Distribution { output, .. } | Self::Refinement { output, .. } => {
                 return (None, output);
             }
             Self::Pile(of) | Self::Indexing { of, .. } => of,
@@ -308,17 +308,17 @@ impl Plot {
                     ))
                 })
             }
-            Self::Ladder { record, .. } => Ok(figure::ladder(&read_ladder(record)?)),
+            Self::Refinement { record, .. } => Ok(figure::refinement(&read_study(record)?)),
         }
     }
 }
 
 /// Reads the record of a refinement study.
-fn read_ladder(path: &Path) -> Result<Ladder, Failure> {
+fn read_study(path: &Path) -> Result<RefinementStudy, Failure> {
     let name = path.display();
-    Ladder::read(open(path)?).map_err(|error| {
+    RefinementStudy::read(open(path)?).map_err(|error| {
         Failure::Message(format!(
-            "FILE: {name} is not a ladder: {error}; 'cannonpile verify --ladder K1=FILE1,K2=FILE2 --format json' writes one"
+            "FILE: {name} is not a refinement study: {error}; 'cannonpile verify --refinement K1=FILE1,K2=FILE2 --format json' writes one"
         ))
     })
 }

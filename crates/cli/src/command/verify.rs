@@ -1,6 +1,6 @@
 //! `verify`: compares measured contact forces with the exact ones.
 
-mod ladder;
+mod refinement;
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -10,7 +10,7 @@ use cannonpile::Packing;
 use cannonpile_dem::scene::Scene;
 use cannonpile_dem::table::{FileFormat, NumberFormat};
 use cannonpile_dem::verify::{
-    Columns, Compared, Fault, LadderFiles, Preset, Reader, Refusal, Report, Source,
+    Columns, Compared, Fault, Preset, Reader, RefinementFiles, Refusal, Report, Source,
 };
 use clap::{Args, ValueEnum};
 
@@ -34,7 +34,7 @@ the N-th column. It accepts signs, factors and sums: fx=-#10-#13, force=1e7*over
 with SS in this column; the other rows are contacts with walls. With two centres x1…z2, fx,fy,fz is the force on the first
 sphere. With a contact point x,y,z, the force is compressive unless force is negative.
 
-Refinement study: --ladder takes a file for each stiffness or time step. It prints the error of each level, the observed
+Refinement study: --refinement takes a file for each stiffness or time step. It prints the error of each level, the observed
 order of accuracy and the extrapolated error. The exit status is 1 if the errors show no order.
 
 Examples:
@@ -42,7 +42,7 @@ Examples:
   cannonpile verify measured.csv --scene pile.toml --accept 1e-3
   cannonpile verify contacts.txt --columns id1=A,id2=B,force=Fn --first-id 0 --layers 10 --spacing 1.2
   cannonpile verify Contact_pairs_0100.csv --preset dem-engine --scene pile.toml --accept 1e-3
-  cannonpile verify --ladder 1e5=soft.csv,1e6=firm.csv,1e7=stiff.csv --scene pile.toml
+  cannonpile verify --refinement 1e5=soft.csv,1e6=firm.csv,1e7=stiff.csv --scene pile.toml
   cannonpile verify forces.csv --match place --columns x=cx,y=cy,z=cz --scene pile.toml --unbalanced rest.csv";
 
 #[derive(Args)]
@@ -50,19 +50,24 @@ Examples:
 pub(crate) struct Verify {
     /// Table with columns id1, id2, force or fx, fy, fz; LAMMPS dump local file (the last snapshot); or VTK lines (.vtp, .vtu);
     /// - for stdin
-    #[arg(value_name = "FILE", required_unless_present = "ladder")]
+    #[arg(value_name = "FILE", required_unless_present = "refinement")]
     measured: Option<PathBuf>,
     /// Refinement study: a file for each stiffness or time step, in place of FILE
     #[arg(
         long,
         value_name = "K1=FILE1,K2=FILE2,...",
         conflicts_with_all = ["measured", "unbalanced"],
-        help_heading = "Ladder"
+        help_heading = "Refinement study"
     )]
-    ladder: Option<LadderFiles>,
-    /// Refinement parameter of --ladder [default: stiffness]
-    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Ladder")]
-    refine: Option<Refine>,
+    refinement: Option<RefinementFiles>,
+    /// Refinement parameter of --refinement [default: stiffness]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "WHAT",
+        help_heading = "Refinement study"
+    )]
+    parameter: Option<Parameter>,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
     /// Largest accepted relative error; 0 requires correctly rounded forces
@@ -97,7 +102,7 @@ pub(crate) struct Verify {
 
 /// The parameter of a refinement study.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum Refine {
+enum Parameter {
     /// Spring stiffness k, in N/m; errors fall as 1/k
     Stiffness,
     /// Time step, in s
@@ -121,15 +126,15 @@ impl Verify {
             let reason = "FILE and --scene are both -: only one of them can come from stdin, give a file for the other";
             return Err(Failure::Message(reason.into()));
         }
-        if self.refine.is_some() && self.ladder.is_none() {
-            let reason = "--refine requires --ladder: add it, or leave out --refine";
+        if self.parameter.is_some() && self.refinement.is_none() {
+            let reason = "--parameter requires --refinement: add it, or leave out --parameter";
             return Err(Failure::Message(reason.into()));
         }
         let (scene, pile) = self.scene.read_state()?;
         let packing = scene.packing(&pile)?;
-        let verdict = match (&self.measured, &self.ladder) {
+        let verdict = match (&self.measured, &self.refinement) {
             (Some(path), _) => self.compare_file(path, &scene, &packing)?,
-            (None, Some(files)) => self.compare_ladder(files, &scene, &packing)?,
+            (None, Some(files)) => self.compare_refinement(files, &scene, &packing)?,
             // The parser requires one of the two.
             (None, None) => false,
         };

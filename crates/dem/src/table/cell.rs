@@ -9,7 +9,7 @@ use num_traits::Signed;
 
 use super::line::Line;
 use crate::Error;
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 
 /// One entry of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,7 +186,7 @@ fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
 }
 
 /// The nearest float, as the shortest text that reads back the same: what `Debug` prints.
-fn shortest<F: NearestFloat + core::fmt::Debug>(
+fn shortest<F: CorrectlyRounded + core::fmt::Debug>(
     number: &Surd,
     quantity: &'static str,
     scalar: &'static str,

@@ -16,7 +16,7 @@ use super::rows::Column;
 use super::units::Units;
 use crate::Error;
 use cannonpile::lattice::{Dimension, Site};
-use cannonpile::scalar::NearestFloat;
+use cannonpile::scalar::CorrectlyRounded;
 use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
 
@@ -38,7 +38,7 @@ fn rounding(numbers: NumberFormat, selection: Selection) -> Option<Rounding> {
 }
 
 /// A float that a cell holds.
-trait Float: NearestFloat + Default + Into<Cell> + 'static {}
+trait Float: CorrectlyRounded + Default + Into<Cell> + 'static {}
 
 impl Float for f64 {}
 impl Float for f32 {}

@@ -5,7 +5,7 @@ use num_rational::BigRational;
 
 use crate::Error;
 use cannonpile::lattice::{Dimension, Site};
-use cannonpile::scalar::{NearestFloat, Ring, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Ring, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Forces, Method, NearestLayers, Packing, Pile, Places};
 
@@ -77,7 +77,7 @@ impl<'p> Units<'p> {
     }
 
     /// Returns the layers of a part, in nearest floats.
-    pub(super) fn layers<F: NearestFloat>(
+    pub(super) fn layers<F: CorrectlyRounded>(
         &self,
         part: Selection,
     ) -> Result<NearestLayers<'p, F>, Error> {
@@ -88,7 +88,7 @@ impl<'p> Units<'p> {
     }
 
     /// Returns where spheres are and touch; nothing in pile units.
-    pub(super) fn places<F: NearestFloat>(&self) -> Option<Places<'p, F>> {
+    pub(super) fn places<F: CorrectlyRounded>(&self) -> Option<Places<'p, F>> {
         match self {
             Self::Pile(_) => None,
             Self::Si(packing) => Some(packing.places()),

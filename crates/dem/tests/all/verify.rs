@@ -4,9 +4,9 @@
 
 mod files;
 mod findings;
-mod ladder;
 mod lammps;
 mod places;
+mod refinement;
 mod tables;
 mod vtk;
 

@@ -6,7 +6,7 @@ mod disorder;
 mod error;
 mod figure;
 mod horizontal;
-mod ladder;
+mod refinement;
 mod shear;
 mod svg;
 mod viewer;

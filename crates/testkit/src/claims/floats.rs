@@ -28,7 +28,7 @@ use core::fmt::Debug;
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::scalar::{Algebra, NearestFloat, RealEmbeddable, Ring};
+use cannonpile::scalar::{Algebra, CorrectlyRounded, RealEmbeddable, Ring};
 use cannonpile::{Error, Forces, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -41,9 +41,9 @@ use crate::generators::{number, pile};
 const ROUNDINGS: i64 = 12;
 
 /// A rounded scalar.
-pub trait Float: Algebra + RealEmbeddable + NearestFloat {}
+pub trait Float: Algebra + RealEmbeddable + CorrectlyRounded {}
 
-impl<F: Algebra + RealEmbeddable + NearestFloat> Float for F {}
+impl<F: Algebra + RealEmbeddable + CorrectlyRounded> Float for F {}
 
 /// Checks both formats for a pile whose sin φ is a float.
 pub fn real_pile(u: &mut Unstructured<'_>) -> Checked {
@@ -151,7 +151,7 @@ struct Bound {
 }
 
 impl Bound {
-    fn of<F: NearestFloat>(pile: &Pile) -> Self {
+    fn of<F: CorrectlyRounded>(pile: &Pile) -> Self {
         let precision = i32::try_from(F::PRECISION).expect("a few dozen");
         let least = i32::try_from(F::MIN_EXPONENT).expect("about a thousand");
         Self {

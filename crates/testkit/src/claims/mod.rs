@@ -32,7 +32,7 @@
 //! | `growth` | dilation and erosion of a region of any size, and the lines through its layers |
 //! | `numbered` | the sphere numbers of any pile have no gap |
 //! | `measured` | measured forces are read as written, and an injected fault is found (feature `dem`) |
-//! | `ladder` | a refinement study finds a given order of accuracy and survives a round trip (feature `dem`) |
+//! | `refinement` | a refinement study finds a given order of accuracy and survives a round trip (feature `dem`) |
 //! | `engine` | every way to compute the forces of a mixed pile solves the equations of equilibrium |
 //! | `disorder` | the mean over random stackings equals a plain average over all stackings (feature `disorder`) |
 //! | `ensemble` | tallies equal a plain enumeration, and parts merge into the whole (feature `disorder`) |
@@ -57,8 +57,6 @@ pub mod growth;
 pub mod horizontal;
 #[cfg(feature = "serde")]
 pub mod json;
-#[cfg(feature = "dem")]
-pub mod ladder;
 pub mod laws;
 #[cfg(feature = "dem")]
 pub mod measured;
@@ -73,6 +71,8 @@ pub mod parsers;
 #[cfg(feature = "proof")]
 pub mod recorded;
 pub mod reference;
+#[cfg(feature = "dem")]
+pub mod refinement;
 pub mod regions;
 pub mod scalars;
 #[cfg(feature = "dem")]

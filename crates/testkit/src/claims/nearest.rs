@@ -1,7 +1,7 @@
 //! Roots are rounded correctly, to nearest with ties to even. The reference is [`crate::judge`].
 
 use arbitrary::Unstructured;
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 use num_bigint::Sign;
 use num_traits::Zero;
 

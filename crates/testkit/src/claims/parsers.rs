@@ -9,7 +9,7 @@ use core::str::FromStr;
 use arbitrary::Unstructured;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Axis, Dimension, Direction, Region, Sign};
-use cannonpile::scalar::{NearestFloat, Surd, parse};
+use cannonpile::scalar::{CorrectlyRounded, Surd, parse};
 use cannonpile::stacking::Pattern;
 use num_rational::BigRational;
 

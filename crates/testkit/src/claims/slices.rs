@@ -4,7 +4,7 @@
 //! and the base.
 
 use arbitrary::Unstructured;
-use cannonpile::scalar::{Algebra, DoubleDouble, NearestFloat, RealEmbeddable};
+use cannonpile::scalar::{Algebra, CorrectlyRounded, DoubleDouble, RealEmbeddable};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces, Layers};
 use num_bigint::BigInt;
@@ -132,13 +132,13 @@ where
 /// Correctly rounded floats, unless one overflows.
 fn nearest<F>(layers: Anew<'_, '_>, wanted: &Wanted) -> Checked
 where
-    F: NearestFloat + Zero + PartialEq + core::fmt::Debug,
+    F: CorrectlyRounded + Zero + PartialEq + core::fmt::Debug,
 {
     let (got, done) = fill::<F, _>(wanted.spheres, |slices| layers()?.nearest()?.fill(slices))?;
     are_nearest(&got, done, &wanted.forces)
 }
 
-fn are_nearest<F: NearestFloat + PartialEq + core::fmt::Debug>(
+fn are_nearest<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(
     got: &Slices<F>,
     done: Result<(), Error>,
     wanted: &Slices<BigRational>,
@@ -197,7 +197,7 @@ fn exact_base(forces: &Forces<'_, BigRational>, floor: &Slices<BigRational>) -> 
 
 fn nearest_base<F>(forces: &Forces<'_, BigRational>, floor: &Slices<BigRational>) -> Checked
 where
-    F: NearestFloat + Zero + PartialEq + core::fmt::Debug,
+    F: CorrectlyRounded + Zero + PartialEq + core::fmt::Debug,
 {
     let mut layers = forces.layers(Selection::Base)?.nearest::<F>()?;
     let base = layers.next_layer()?;

@@ -1,6 +1,6 @@
 //! Values c·√r, random and adversarial.
 
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
@@ -38,7 +38,7 @@ pub fn critical_roots(random: &mut Random, cases: u64) -> Tally {
 
 /// Uses √(M²(1 ± δ)) and integers next to the square of 2^p + 1, at several scales. A power of two changes ties only among
 /// subnormals.
-fn near_ties_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
+fn near_ties_by_radicand<F: CorrectlyRounded>(random: &mut Random, tally: &mut Tally) {
     let place = random.critical::<F>();
     let off = random.tiny() * sign(random);
     let square = &place * &place;
@@ -58,7 +58,7 @@ fn near_ties_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally
 }
 
 /// Uses c·√r for a simple r. The value lies close to a critical value, or on it if the root is rational.
-fn near_ties_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
+fn near_ties_by_coefficient<F: CorrectlyRounded>(random: &mut Random, tally: &mut Tally) {
     let squares = random.of(&[1, 4, 9, 49]);
     let plain = [random.within(1..1000), squares, squares];
     let radicand = BigRational::new(random.of(&plain).into(), random.of(&[1, 4, 25]).into());

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Sign;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing, Pile};
 use num_rational::BigRational;

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use cannonpile::scalar::NearestFloat;
+use cannonpile::scalar::CorrectlyRounded;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
@@ -68,7 +68,7 @@ impl Random {
 
     /// A critical value of a format: the midpoint of two floats or, with probability 1/4, a float. It is subnormal, near the
     /// greatest float, or of moderate size.
-    pub fn critical<F: NearestFloat>(&mut self) -> BigRational {
+    pub fn critical<F: CorrectlyRounded>(&mut self) -> BigRational {
         let precision = i64::from(F::PRECISION);
         let (least, greatest) = (F::MIN_EXPONENT, 3 - F::MIN_EXPONENT - 2 * precision);
         let any = (1 << (precision - 1)) | (self.bits() >> (65 - precision));
@@ -94,7 +94,7 @@ impl Random {
 
     /// Tells whether to use an end of the format. This is rare for `f64`, whose extreme values have a thousand bits and are
     /// slow.
-    fn is_extreme<F: NearestFloat>(&mut self) -> bool {
+    fn is_extreme<F: CorrectlyRounded>(&mut self) -> bool {
         self.once_in(if F::PRECISION > 24 { 16 } else { 2 })
     }
 

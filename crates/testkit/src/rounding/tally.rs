@@ -1,6 +1,6 @@
 //! Counts of checked roundings and of wrong ones.
 
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 use num_rational::BigRational;
 
 use crate::judge::{Float, Value, Verdict, is_nearest};

@@ -2,7 +2,7 @@
 
 use super::{cannonpile, refusal, stdout};
 use cannonpile_dem::table::FileFormat;
-use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+use cannonpile_dem::verify::{Level, Refinement, RefinementReport, RefinementStudy};
 use std::fs;
 
 const KINDS: [&str; 7] = [
@@ -209,26 +209,30 @@ fn distribution_of_a_record() {
 }
 
 #[test]
-fn ladder_of_a_record() {
+fn refinement_of_a_record() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
-    let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 4.0 / k, 1.0 / k));
-    let ladder = Ladder::new(Refinement::Stiffness, rungs).unwrap();
+    let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 30, 4.0 / k, 1.0 / k));
+    let study = RefinementStudy::new(Refinement::Stiffness, levels).unwrap();
     let mut json = Vec::new();
-    LadderReport::new(&ladder)
+    RefinementReport::new(&study)
         .write(FileFormat::Json, &mut json)
         .unwrap();
     let (whole, cut) = (path("whole.json"), path("cut.json"));
     fs::write(&whole, &json).unwrap();
     fs::write(&cut, &json[..json.len() / 2]).unwrap();
-    let svg = stdout(&format!("plot ladder {whole}"));
-    assert_eq!(svg, cannonpile_figure::ladder(&ladder).to_string() + "\n");
+    let svg = stdout(&format!("plot refinement {whole}"));
+    assert_eq!(
+        svg,
+        cannonpile_figure::refinement(&study).to_string() + "\n"
+    );
     for wrong in [&cut, "Cargo.toml"] {
-        let refused = refusal(&format!("plot ladder {wrong}"));
+        let refused = refusal(&format!("plot refinement {wrong}"));
         assert!(
-            refused.contains("is not a ladder") && refused.contains("verify --ladder"),
+            refused.contains("is not a refinement study")
+                && refused.contains("verify --refinement"),
             "{refused}"
         );
     }
-    assert!(refusal("plot ladder nowhere.json").contains("nowhere.json cannot be read"));
+    assert!(refusal("plot refinement nowhere.json").contains("nowhere.json cannot be read"));
 }

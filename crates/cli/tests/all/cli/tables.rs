@@ -107,7 +107,7 @@ fn record_contains_scene_and_hash() {
 }
 
 #[test]
-fn ladder_has_an_order_and_a_figure() {
+fn refinement_has_an_order_and_a_figure() {
     let exported = Exported::new();
     let mut files = Vec::new();
     for stiffness in ["1e4", "1e5", "1e6", "1e7"] {
@@ -118,33 +118,33 @@ fn ladder_has_an_order_and_a_figure() {
         });
         files.push(format!("{stiffness}={name}"));
     }
-    let (list, json) = (files.join(","), exported.path("ladder.json"));
-    let table = stdout(&format!("verify --ladder {list} {SCENE} --accept 1e-3"));
+    let (list, json) = (files.join(","), exported.path("refinement.json"));
+    let table = stdout(&format!("verify --refinement {list} {SCENE} --accept 1e-3"));
     assert!(
         table.contains("stiffness") && table.contains("order"),
         "{table}"
     );
     stdout(&format!(
-        "verify --ladder {list} {SCENE} --format json --output {json}"
+        "verify --refinement {list} {SCENE} --format json --output {json}"
     ));
     let text = fs::read_to_string(&json).expect("written");
     let record: Value = serde_json::from_str(&text).expect("json");
     assert_eq!(record["files"].as_array().expect("an array").len(), 4);
-    assert_eq!(record["rungs"].as_array().expect("an array").len(), 4);
+    assert_eq!(record["levels"].as_array().expect("an array").len(), 4);
     assert!(
         record["scene"]
             .as_str()
             .expect("text")
             .contains("layers = 10")
     );
-    let svg = stdout(&format!("plot ladder {json}"));
+    let svg = stdout(&format!("plot refinement {json}"));
     assert!(svg.starts_with("<svg"));
     // Constant errors have no order, so the exit status is 1.
     let same = exported.path("1e4");
     let flat = ["1e-3", "1e-4", "1e-5"].map(|step| format!("{step}={same}"));
     let flat = flat.join(",");
     let output = cannonpile(&format!(
-        "verify --ladder {flat} --refine time-step {SCENE}"
+        "verify --refinement {flat} --parameter time-step {SCENE}"
     ));
     assert_eq!(output.status.code(), Some(1));
 }
@@ -164,8 +164,8 @@ fn usage_errors_of_tables() {
             "--match place --first-id 0",
             "--first-id requires --match numbers",
         ),
-        ("--refine time-step", "--ladder"),
-        ("--ladder 1e5=a.csv", "cannot be used with"),
+        ("--parameter time-step", "--refinement"),
+        ("--refinement 1e5=a.csv", "cannot be used with"),
     ] {
         let line = refusal(&format!("verify {contacts} {options} {SCENE}"));
         assert!(line.contains(said), "{options}: {line}");
@@ -176,11 +176,11 @@ fn usage_errors_of_tables() {
         ("0=a.csv", "0"),
         ("1e5=,1e6=b.csv", "1e5="),
     ] {
-        let line = refusal(&format!("verify --ladder {list} {SCENE}"));
+        let line = refusal(&format!("verify --refinement {list} {SCENE}"));
         assert!(line.contains(said), "{list}: {line}");
     }
     let line = refusal(&format!(
-        "verify --ladder 1e5={contacts},1e6=/not/there {SCENE}"
+        "verify --refinement 1e5={contacts},1e6=/not/there {SCENE}"
     ));
     assert!(line.contains("/not/there cannot be read"), "{line}");
 }

@@ -47,7 +47,7 @@ fn columns_are_found_by_name() {
 }
 
 #[test]
-fn forces_are_read_as_the_nearest_floats() {
+fn forces_are_read_correctly_rounded() {
     let text = "id1,id2,force\n1,2,0.46225016352102424999999999999999999999\n1,3,4.9e-324\n1,4,-1.7976931348623157e308\n";
     let forces = [0.462_250_163_521_024_25, f64::from_bits(1), f64::MIN];
     let got: Vec<f64> = read(text).iter().map(|one| one.force).collect();

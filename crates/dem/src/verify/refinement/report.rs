@@ -1,20 +1,20 @@
-//! A ladder as tables, and as json.
+//! A refinement study as tables, and as json.
 
 use std::io::Write;
 
 use serde_json::{Value, json};
 
-use super::{Fit, Ladder, Limit, NoOrder, Norm, Refinement, Rung};
+use super::{Fit, Level, Limit, NoOrder, Norm, Refinement, RefinementStudy};
 use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 
-/// What a ladder says.
+/// What a refinement study says.
 ///
-/// As csv a rung a row, from the coarsest: `stiffness` (or `timestep`), `contacts, matched, missing, extra, largest_error,
-/// rms_error, order, predicted_error, place`; `order` is that of the largest errors of this rung and the one before, `place`
-/// says whether it is [above the floor](super::RungPlace). As text the same, and below it a row for the
+/// As csv a level a row, from the coarsest: `stiffness` (or `timestep`), `contacts, matched, missing, extra, largest_error,
+/// rms_error, order, predicted_error, place`; `order` is that of the largest errors of this level and the one before, `place`
+/// says whether it is [above the floor](super::LevelPlace). As text the same, and below it a row for the
 /// largest errors and for the root of their mean square: `error, order, standard_error, constant, residual,
-/// extrapolated_error, extrapolated_standard_error, rungs_used`, with a line for what is not known. As json an array of one
-/// object with `refinement`, the array `rungs`, and the objects `largest` and `rms`, in which `no_order` and
+/// extrapolated_error, extrapolated_standard_error, levels_used`, with a line for what is not known. As json an array of one
+/// object with `refinement`, the array `levels`, and the objects `largest` and `rms`, in which `no_order` and
 /// `no_limit` say why there is no order or no limit. An infinite number is `inf`, in json `null`.
 ///
 /// The limit is taken with order 1 for stiffnesses, the order of linear springs, and with the observed order for time steps.
@@ -22,37 +22,37 @@ use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 /// # Examples
 /// ```
 /// use cannonpile_dem::table::FileFormat;
-/// use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+/// use cannonpile_dem::verify::{RefinementStudy, RefinementReport, Refinement, Level};
 ///
-/// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
-/// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+/// let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
+/// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
 /// let mut csv = Vec::new();
-/// LadderReport::new(&ladder).write(FileFormat::Csv, &mut csv)?;
+/// RefinementReport::new(&study).write(FileFormat::Csv, &mut csv)?;
 /// let csv = String::from_utf8(csv)?;
 /// assert!(csv.starts_with("stiffness,contacts,matched,missing,extra,largest_error,"));
 /// assert!(csv.lines().nth(1).unwrap().starts_with("10000.0,30,30,0,0,0.0005,0.0002,,,above"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct LadderReport<'l>(&'l Ladder);
+pub struct RefinementReport<'l>(&'l RefinementStudy);
 
-impl<'l> LadderReport<'l> {
-    /// The report of a ladder.
+impl<'l> RefinementReport<'l> {
+    /// The report of a refinement study.
     ///
     /// # Examples
     /// ```
     /// use cannonpile_dem::table::FileFormat;
-    /// use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, RefinementReport, Refinement, Level};
     ///
-    /// let ladder = Ladder::new(Refinement::TimeStep, [Rung::of_errors(1e-3, 30, 0.1, 0.05)])?;
+    /// let study = RefinementStudy::new(Refinement::TimeStep, [Level::of_errors(1e-3, 30, 0.1, 0.05)])?;
     /// let mut text = Vec::new();
-    /// LadderReport::new(&ladder).write(FileFormat::Text, &mut text)?;
-    /// assert!(String::from_utf8(text)?.contains("no order of the largest errors: 1 of the 2 rungs it takes"));
+    /// RefinementReport::new(&study).write(FileFormat::Text, &mut text)?;
+    /// assert!(String::from_utf8(text)?.contains("no order of the largest errors: 1 of the 2 levels it takes"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub const fn new(ladder: &'l Ladder) -> Self {
-        Self(ladder)
+    pub const fn new(study: &'l RefinementStudy) -> Self {
+        Self(study)
     }
 
     /// Writes it.
@@ -63,14 +63,14 @@ impl<'l> LadderReport<'l> {
     /// # Examples
     /// ```
     /// use cannonpile_dem::table::FileFormat;
-    /// use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, RefinementReport, Refinement, Level};
     ///
-    /// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+    /// let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
     /// let mut json = Vec::new();
-    /// LadderReport::new(&ladder).write(FileFormat::Json, &mut json)?;
+    /// RefinementReport::new(&study).write(FileFormat::Json, &mut json)?;
     /// let json: serde_json::Value = serde_json::from_slice(&json)?;
-    /// assert_eq!(json[0]["largest"]["rungs_used"], 3);
+    /// assert_eq!(json[0]["largest"]["levels_used"], 3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn write(self, format: FileFormat, out: &mut dyn Write) -> Result<(), WriteError> {
@@ -79,9 +79,9 @@ impl<'l> LadderReport<'l> {
                 serde_json::to_writer_pretty(&mut *out, &json!([self.json()]))?;
                 Ok(writeln!(out)?)
             }
-            FileFormat::Csv => self.rungs().write(format, NumberFormat::F64, out),
+            FileFormat::Csv => self.levels().write(format, NumberFormat::F64, out),
             FileFormat::Text => {
-                self.rungs().write(format, NumberFormat::F64, out)?;
+                self.levels().write(format, NumberFormat::F64, out)?;
                 writeln!(out)?;
                 self.fits().write(format, NumberFormat::F64, out)?;
                 for norm in Norm::ALL {
@@ -103,43 +103,43 @@ impl<'l> LadderReport<'l> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, LadderReport, NoLadder, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, RefinementReport, NoRefinement, Refinement, Level};
     ///
-    /// let ladder = Ladder::new(Refinement::TimeStep, [Rung::of_errors(1e-3, 30, 0.1, 0.05)])?;
-    /// let json = LadderReport::new(&ladder).json();
+    /// let study = RefinementStudy::new(Refinement::TimeStep, [Level::of_errors(1e-3, 30, 0.1, 0.05)])?;
+    /// let json = RefinementReport::new(&study).json();
     /// assert_eq!(json["refinement"], "timestep");
-    /// assert_eq!(json["rungs"][0]["largest_error"], 0.1);
-    /// # Ok::<(), NoLadder>(())
+    /// assert_eq!(json["levels"][0]["largest_error"], 0.1);
+    /// # Ok::<(), NoRefinement>(())
     /// ```
     #[must_use]
     pub fn json(self) -> Value {
         let refinement = self.0.refinement().name();
         let orders = self.0.orders(Norm::Largest);
         let places = self.0.places(Norm::Largest);
-        let rungs = self.0.rungs().iter().zip(orders).zip(places);
-        let rungs = rungs.map(|((rung, order), place)| {
+        let levels = self.0.levels().iter().zip(orders).zip(places);
+        let levels = levels.map(|((level, order), place)| {
             json!({
-                refinement: rung.parameter,
-                "contacts": rung.contacts,
-                "matched": rung.matched,
-                "missing": rung.missing,
-                "extra": rung.extra,
-                "largest_error": rung.largest_error,
-                "rms_error": rung.rms_error,
+                refinement: level.parameter,
+                "contacts": level.contacts,
+                "matched": level.matched,
+                "missing": level.missing,
+                "extra": level.extra,
+                "largest_error": level.largest_error,
+                "rms_error": level.rms_error,
                 "order": order,
-                "predicted_error": rung.predicted_error,
+                "predicted_error": level.predicted_error,
                 "place": place.name(),
             })
         });
         json!({
             "refinement": refinement,
-            "rungs": rungs.collect::<Vec<_>>(),
+            "levels": levels.collect::<Vec<_>>(),
             "largest": self.known(Norm::Largest).json(),
             "rms": self.known(Norm::Rms).json(),
         })
     }
 
-    fn rungs(self) -> Table<'static> {
+    fn levels(self) -> Table<'static> {
         let measured = |name| Column::measured(name, "");
         let columns = vec![
             measured(self.0.refinement().name()),
@@ -155,24 +155,24 @@ impl<'l> LadderReport<'l> {
         ];
         let orders = self.0.orders(Norm::Largest);
         let places = self.0.places(Norm::Largest);
-        let row = |((rung, order), place): ((&Rung, Option<f64>), super::RungPlace)| {
+        let row = |((level, order), place): ((&Level, Option<f64>), super::LevelPlace)| {
             let count = |count: u64| Cell::Integer(count.into());
             vec![
-                Cell::F64(rung.parameter),
-                count(rung.contacts),
-                count(rung.matched),
-                count(rung.missing),
-                count(rung.extra),
-                Cell::F64(rung.largest_error),
-                Cell::F64(rung.rms_error),
+                Cell::F64(level.parameter),
+                count(level.contacts),
+                count(level.matched),
+                count(level.missing),
+                count(level.extra),
+                Cell::F64(level.largest_error),
+                Cell::F64(level.rms_error),
                 number(order),
-                number(rung.predicted_error),
+                number(level.predicted_error),
                 place.name().into(),
             ]
         };
-        let rungs = self.0.rungs().iter().zip(orders).zip(places);
-        let rows: Vec<_> = rungs.map(row).collect();
-        Table::of_rows(columns, "rungs", rows.into_iter().map(Ok))
+        let levels = self.0.levels().iter().zip(orders).zip(places);
+        let rows: Vec<_> = levels.map(row).collect();
+        Table::of_rows(columns, "levels", rows.into_iter().map(Ok))
     }
 
     fn fits(self) -> Table<'static> {
@@ -185,7 +185,7 @@ impl<'l> LadderReport<'l> {
             measured("residual"),
             measured("extrapolated_error"),
             measured("extrapolated_standard_error"),
-            Column::plain("rungs_used"),
+            Column::plain("levels_used"),
         ];
         let rows = Norm::ALL.map(|norm| {
             let Known { fit, limit } = self.known(norm);
@@ -200,7 +200,7 @@ impl<'l> LadderReport<'l> {
                 of_fit(|fit| fit.residual),
                 of_limit(|limit| limit.error),
                 of_limit(|limit| limit.standard_error),
-                fit.map_or(Cell::Missing, |fit| Cell::Integer(fit.rungs.into())),
+                fit.map_or(Cell::Missing, |fit| Cell::Integer(fit.levels.into())),
             ])
         });
         Table::of_rows(columns, "orders", rows.into_iter())
@@ -235,12 +235,12 @@ impl Known {
             "standard_error": fit.and_then(|fit| fit.standard_error),
             "constant": fit.map(|fit| fit.constant),
             "residual": fit.map(|fit| fit.residual),
-            "rungs_used": fit.map(|fit| fit.rungs),
+            "levels_used": fit.map(|fit| fit.levels),
             "no_order": self.fit.as_ref().err().map(ToString::to_string),
             "extrapolated_error": limit.map(|limit| limit.error),
             "extrapolated_standard_error": limit.map(|limit| limit.standard_error),
             "extrapolated_with_order": limit.map(|limit| limit.order),
-            "extrapolated_rungs": limit.map(|limit| limit.rungs),
+            "extrapolated_levels": limit.map(|limit| limit.levels),
             "no_limit": no_limit.map(ToString::to_string),
         })
     }

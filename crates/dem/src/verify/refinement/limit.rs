@@ -1,14 +1,14 @@
 //! What is left of the error when nothing is left of the refinement parameter.
 
 use super::fit::count;
-use super::{Ladder, NoOrder, Norm, Rung, RungPlace};
+use super::{Level, LevelPlace, NoOrder, Norm, RefinementStudy};
 
 /// The error at h → 0, by the model e = e∞ + C hᵖ with a given order p: Richardson's extrapolation, by least squares.
 ///
-/// It is of the whole rungs from the coarsest to the one with the least error; what is finer than that is where rounding
+/// It is of the whole levels from the coarsest to the one with the least error; what is finer than that is where rounding
 /// rises, and left out. A floor that stays, of rounding or of a force that should not be there, is in it: that is what e∞
 /// finds.
-/// Each error counts by its share: the sum of ((e∞ + C hᵖ − e)/e)² is the least. Three rungs are the fewest.
+/// Each error counts by its share: the sum of ((e∞ + C hᵖ − e)/e)² is the least. Three levels are the fewest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Limit {
@@ -17,13 +17,13 @@ pub struct Limit {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
     /// // Every force a percent too great, besides the springs.
-    /// let rungs = [1e2, 1e3, 1e4, 1e5].map(|k| Rung::of_errors(k, 30, 0.01 + 5.0 / k, 1.0 / k));
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-    /// assert!((ladder.limit(Norm::Largest, 1.0)?.error - 0.01).abs() < 1e-12);
-    /// assert!(ladder.limit(Norm::Rms, 1.0)?.error.abs() < 1e-15);
+    /// let levels = [1e2, 1e3, 1e4, 1e5].map(|k| Level::of_errors(k, 30, 0.01 + 5.0 / k, 1.0 / k));
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
+    /// assert!((study.limit(Norm::Largest, 1.0)?.error - 0.01).abs() < 1e-12);
+    /// assert!(study.limit(Norm::Rms, 1.0)?.error.abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub error: f64,
@@ -31,10 +31,10 @@ pub struct Limit {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
-    /// let limit = Ladder::new(Refinement::Stiffness, rungs)?.limit(Norm::Largest, 1.0)?;
+    /// let levels = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Level::of_errors(k, 30, error, error));
+    /// let limit = RefinementStudy::new(Refinement::Stiffness, levels)?.limit(Norm::Largest, 1.0)?;
     /// assert!(limit.error.abs() < 2.0 * limit.standard_error);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -43,46 +43,46 @@ pub struct Limit {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [0.1, 0.01, 0.001].map(|step| Rung::of_errors(step, 30, step * step, step));
-    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert_eq!(ladder.limit(Norm::Largest, 2.0)?.order, 2.0);
+    /// let levels = [0.1, 0.01, 0.001].map(|step| Level::of_errors(step, 30, step * step, step));
+    /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
+    /// assert_eq!(study.limit(Norm::Largest, 2.0)?.order, 2.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub order: f64,
-    /// How many rungs it is of.
+    /// How many levels it is of.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
     /// let errors = [(1e2, 0.06), (1e3, 0.015), (1e4, 0.0105), (1e5, 0.0107)];
-    /// let rungs = errors.map(|(k, error)| Rung::of_errors(k, 30, error, error));
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+    /// let levels = errors.map(|(k, error)| Level::of_errors(k, 30, error, error));
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
     /// // The last has not the least error.
-    /// assert_eq!(ladder.limit(Norm::Largest, 1.0)?.rungs, 3);
+    /// assert_eq!(study.limit(Norm::Largest, 1.0)?.levels, 3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub rungs: usize,
+    pub levels: usize,
 }
 
-impl Ladder {
+impl RefinementStudy {
     /// The error at h → 0 for an order p: 1 for the stiffness of linear springs, and else what is known of the method, or
     /// the [order observed](super::Fit::order).
     ///
     /// # Errors
-    /// [`NoOrder`] unless the order is positive, and of whole rungs there are three down to the least error, with errors
+    /// [`NoOrder`] unless the order is positive, and of whole levels there are three down to the least error, with errors
     /// that are not 0 or infinite and fall from each to the next.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, NoOrder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, NoOrder, Norm, Refinement, Level};
     ///
-    /// let rungs = [0.4, 0.2, 0.1].map(|step| Rung::of_errors(step, 30, 1e-3 + step * step, step));
-    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert!((ladder.limit(Norm::Largest, 2.0)?.error - 1e-3).abs() < 1e-15);
-    /// assert_eq!(ladder.limit(Norm::Largest, 0.0), Err(NoOrder::Order { order: 0.0 }));
+    /// let levels = [0.4, 0.2, 0.1].map(|step| Level::of_errors(step, 30, 1e-3 + step * step, step));
+    /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
+    /// assert!((study.limit(Norm::Largest, 2.0)?.error - 1e-3).abs() < 1e-15);
+    /// assert_eq!(study.limit(Norm::Largest, 0.0), Err(NoOrder::Order { order: 0.0 }));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn limit(&self, norm: Norm, order: f64) -> Result<Limit, NoOrder> {
@@ -90,42 +90,42 @@ impl Ladder {
             return Err(NoOrder::Order { order });
         }
         let places = self.places(norm);
-        let whole = self.rungs().iter().zip(places);
-        let whole = whole.filter(|(_, place)| *place != RungPlace::Incomplete);
-        let mut rungs: Vec<&Rung> = Vec::new();
-        for (rung, place) in whole {
-            if rung.error(norm) == 0.0 {
-                let parameter = rung.parameter;
+        let whole = self.levels().iter().zip(places);
+        let whole = whole.filter(|(_, place)| *place != LevelPlace::Incomplete);
+        let mut levels: Vec<&Level> = Vec::new();
+        for (level, place) in whole {
+            if level.error(norm) == 0.0 {
+                let parameter = level.parameter;
                 return Err(NoOrder::Zero { parameter });
             }
             // An infinite error is no larger error, it is none.
-            if place != RungPlace::NoLogarithm {
-                rungs.push(rung);
+            if place != LevelPlace::NoLogarithm {
+                levels.push(level);
             }
         }
-        let least = rungs.iter().map(|rung| rung.error(norm));
+        let least = levels.iter().map(|level| level.error(norm));
         let least = least.fold(f64::INFINITY, f64::min);
-        let last = rungs.iter().position(|rung| rung.error(norm) <= least);
-        rungs.truncate(last.map_or(0, |last| last + 1));
+        let last = levels.iter().position(|level| level.error(norm) <= least);
+        levels.truncate(last.map_or(0, |last| last + 1));
         let few = NoOrder::Few {
-            rungs: rungs.len(),
+            levels: levels.len(),
             least: 3,
         };
-        let (Some(coarsest), true) = (rungs.first(), rungs.len() >= 3) else {
+        let (Some(coarsest), true) = (levels.first(), levels.len() >= 3) else {
             return Err(few);
         };
-        let falls = |pair: &&[&Rung]| matches!(pair, [a, b] if a.error(norm) > b.error(norm));
-        if let Some([_, rung]) = rungs.windows(2).find(|pair| !falls(pair)) {
-            let parameter = rung.parameter;
+        let falls = |pair: &&[&Level]| matches!(pair, [a, b] if a.error(norm) > b.error(norm));
+        if let Some([_, level]) = levels.windows(2).find(|pair| !falls(pair)) {
+            let parameter = level.parameter;
             return Err(NoOrder::Rising { parameter });
         }
-        let ln_h = |rung: &Rung| self.refinement().ln_h(rung.parameter);
+        let ln_h = |level: &Level| self.refinement().ln_h(level.parameter);
         let begin = ln_h(coarsest);
         // Over the least error, and over the coarsest h: no float is left.
-        let terms = rungs.iter().map(|rung| {
-            let error = rung.error(norm);
+        let terms = levels.iter().map(|level| {
+            let error = level.error(norm);
             let share = least / error;
-            let falling = (order * (ln_h(rung) - begin)).exp() * (coarsest.error(norm) / error);
+            let falling = (order * (ln_h(level) - begin)).exp() * (coarsest.error(norm) / error);
             (share, falling)
         });
         let sum = |of: fn((f64, f64)) -> f64| terms.clone().map(of).sum::<f64>();
@@ -144,7 +144,7 @@ impl Ladder {
             .map(|(a, b)| rest * a + falling * b - 1.0)
             .map(|residual| residual * residual)
             .sum();
-        let free = count(rungs.len()) - 2.0;
+        let free = count(levels.len()) - 2.0;
         let spread = (squares / free * (bb / (aa * apart))).sqrt();
         let (error, standard_error) = (rest * least, spread * least);
         if !(error.is_finite() && standard_error.is_finite()) {
@@ -154,7 +154,7 @@ impl Ladder {
             error,
             standard_error,
             order,
-            rungs: rungs.len(),
+            levels: levels.len(),
         })
     }
 }

@@ -1,16 +1,16 @@
-//! A ladder read back from the json of its report.
+//! A refinement study read back from the json of its report.
 
 use std::io::{self, ErrorKind, Read};
 
 use serde_json::Value;
 
-use super::{Ladder, Refinement, Rung};
+use super::{Level, Refinement, RefinementStudy};
 
 /// The most bytes of a record that is read: 16 MiB.
 const MAX_BYTES: u64 = 16 << 20;
 
-impl Ladder {
-    /// Reads a ladder from the json of a [`LadderReport`](super::LadderReport): an object with `refinement` and `rungs`, or
+impl RefinementStudy {
+    /// Reads a refinement study from the json of a [`RefinementReport`](super::RefinementReport): an object with `refinement` and `levels`, or
     /// an array of one. What else is in it is passed over; orders are found anew.
     ///
     /// # Errors
@@ -20,16 +20,16 @@ impl Ladder {
     /// # Examples
     /// ```
     /// use cannonpile_dem::table::FileFormat;
-    /// use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, RefinementReport, Refinement, Level};
     ///
-    /// let rungs = [1e4, 1e5].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+    /// let levels = [1e4, 1e5].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
     /// let mut json = Vec::new();
-    /// LadderReport::new(&ladder).write(FileFormat::Json, &mut json)?;
-    /// assert_eq!(Ladder::read(&*json)?, ladder);
+    /// RefinementReport::new(&study).write(FileFormat::Json, &mut json)?;
+    /// assert_eq!(RefinementStudy::read(&*json)?, study);
     ///
-    /// let refused = Ladder::read(&b"[{\"refinement\": \"stiffness\"}]"[..]).unwrap_err();
-    /// assert_eq!(refused.to_string(), "no array 'rungs'");
+    /// let refused = RefinementStudy::read(&b"[{\"refinement\": \"stiffness\"}]"[..]).unwrap_err();
+    /// assert_eq!(refused.to_string(), "no array 'levels'");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn read(input: impl Read) -> io::Result<Self> {
@@ -52,14 +52,14 @@ impl Ladder {
             .into_iter()
             .find(|known| Some(known.name()) == refinement)
             .ok_or_else(|| invalid("no 'refinement' that is stiffness or timestep".into()))?;
-        let rungs = record.get("rungs").and_then(Value::as_array);
-        let rungs = rungs.ok_or_else(|| invalid("no array 'rungs'".into()))?;
-        let rungs = rungs.iter().enumerate().map(|(n, rung)| {
+        let levels = record.get("levels").and_then(Value::as_array);
+        let levels = levels.ok_or_else(|| invalid("no array 'levels'".into()))?;
+        let levels = levels.iter().enumerate().map(|(n, level)| {
             let fields = Fields {
-                rung,
+                level,
                 number: n + 1,
             };
-            Ok(Rung {
+            Ok(Level {
                 parameter: fields.number(refinement.name())?,
                 contacts: fields.count("contacts")?,
                 matched: fields.count("matched")?,
@@ -67,45 +67,45 @@ impl Ladder {
                 extra: fields.count("extra")?,
                 largest_error: fields.error("largest_error")?,
                 rms_error: fields.error("rms_error")?,
-                predicted_error: match rung.get("predicted_error") {
+                predicted_error: match level.get("predicted_error") {
                     None | Some(Value::Null) => None,
                     Some(_) => Some(fields.number("predicted_error")?),
                 },
             })
         });
-        let rungs = rungs.collect::<io::Result<Vec<_>>>()?;
-        Self::new(refinement, rungs).map_err(|error| invalid(error.to_string()))
+        let levels = levels.collect::<io::Result<Vec<_>>>()?;
+        Self::new(refinement, levels).map_err(|error| invalid(error.to_string()))
     }
 }
 
-/// The fields of a rung, counted from 1.
+/// The fields of a level, counted from 1.
 struct Fields<'v> {
-    rung: &'v Value,
+    level: &'v Value,
     number: usize,
 }
 
 impl Fields<'_> {
     fn number(&self, name: &str) -> io::Result<f64> {
-        let number = self.rung.get(name).and_then(Value::as_f64);
+        let number = self.level.get(name).and_then(Value::as_f64);
         number.ok_or_else(|| self.missing(name, "a number"))
     }
 
     /// An error, which is `null` where it is infinite.
     fn error(&self, name: &str) -> io::Result<f64> {
-        match self.rung.get(name) {
+        match self.level.get(name) {
             Some(Value::Null) => Ok(f64::INFINITY),
             _ => self.number(name),
         }
     }
 
     fn count(&self, name: &str) -> io::Result<u64> {
-        let count = self.rung.get(name).and_then(Value::as_u64);
+        let count = self.level.get(name).and_then(Value::as_u64);
         count.ok_or_else(|| self.missing(name, "a count"))
     }
 
     fn missing(&self, name: &str, what: &str) -> io::Error {
         invalid(format!(
-            "rung {} has no '{name}' that is {what}",
+            "level {} has no '{name}' that is {what}",
             self.number
         ))
     }

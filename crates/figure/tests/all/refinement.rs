@@ -1,24 +1,24 @@
 //! The figure of a refinement study: positions of glyphs, lines and triangle.
 
-use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+use cannonpile_dem::verify::{Level, Norm, Refinement, RefinementStudy};
 use cannonpile_figure as figure;
 use roxmltree::{Document, Node};
 
 use crate::svg::{number, of_class};
 
 /// Returns errors of 4/k down to a floor. The coarsest level has lost contacts.
-fn stiffnesses() -> Ladder {
-    let rungs = [1e3, 1e4, 1e5, 1e6, 1e7, 1e8].map(|k| {
+fn stiffnesses() -> RefinementStudy {
+    let levels = [1e3, 1e4, 1e5, 1e6, 1e7, 1e8].map(|k| {
         let error = 4.0 / k + 2e-15 * k;
         let missing = u64::from(k < 2e3);
-        Rung {
+        Level {
             missing,
             matched: 30 - missing,
-            ..Rung::of_errors(k, 30, error, error / 2.0)
+            ..Level::of_errors(k, 30, error, error / 2.0)
         }
     });
-    let ladder = Ladder::new(Refinement::Stiffness, rungs).unwrap();
-    ladder.predicted(|k| 4.4 / k).unwrap()
+    let study = RefinementStudy::new(Refinement::Stiffness, levels).unwrap();
+    study.predicted(|k| 4.4 / k).unwrap()
 }
 
 /// Returns the middle of a disc or a square.
@@ -41,12 +41,12 @@ fn points(mark: &Node<'_, '_>) -> Vec<[f64; 2]> {
 
 /// Returns, for each axis, the length of a factor of ten on the page and the position of h = e = 1.
 fn decades(document: &Document<'_>, h: impl Fn(f64) -> f64) -> [[f64; 2]; 2] {
-    let rungs = of_class(document, "rung");
+    let levels = of_class(document, "level");
     let log = |mark: &Node<'_, '_>| {
         let [parameter, error] = ["data-parameter", "data-error"].map(|name| number(mark, name));
         [h(parameter).log10(), error.log10()]
     };
-    let (one, other) = (&rungs[1], rungs.last().unwrap());
+    let (one, other) = (&levels[1], levels.last().unwrap());
     let ([a, b], [at, to]) = ([one, other].map(middle), [one, other].map(log));
     [0, 1].map(|n| {
         let decade = (b[n] - a[n]) / (to[n] - at[n]);
@@ -54,10 +54,10 @@ fn decades(document: &Document<'_>, h: impl Fn(f64) -> f64) -> [[f64; 2]; 2] {
     })
 }
 
-fn check(ladder: &Ladder) {
-    let svg = figure::ladder(ladder).to_string();
+fn check(study: &RefinementStudy) {
+    let svg = figure::refinement(study).to_string();
     let document = Document::parse(&svg).unwrap();
-    let h = |parameter| ladder.refinement().h(parameter);
+    let h = |parameter| study.refinement().h(parameter);
     let axes = decades(&document, h);
     let at = |h: f64, error: f64| [h, error].map(f64::log10);
     let near = |[x, y]: [f64; 2], log: [f64; 2]| {
@@ -69,30 +69,30 @@ fn check(ladder: &Ladder) {
     };
     // h increases to the right, and the error upwards.
     assert!(axes[0][0] > 0.0 && axes[1][0] < 0.0);
-    let rungs = of_class(&document, "rung");
+    let levels = of_class(&document, "level");
     for norm in Norm::ALL {
-        let marks = rungs
+        let marks = levels
             .iter()
             .filter(|mark| mark.attribute("data-norm") == Some(norm.name()));
         let marks: Vec<_> = marks.collect();
-        assert_eq!(marks.len(), ladder.rungs().len());
-        for ((mark, rung), place) in marks.iter().zip(ladder.rungs()).zip(ladder.places(norm)) {
+        assert_eq!(marks.len(), study.levels().len());
+        for ((mark, level), place) in marks.iter().zip(study.levels()).zip(study.places(norm)) {
             assert_eq!(
                 number(mark, "data-parameter").to_bits(),
-                rung.parameter.to_bits()
+                level.parameter.to_bits()
             );
             assert_eq!(
                 number(mark, "data-error").to_bits(),
-                rung.error(norm).to_bits()
+                level.error(norm).to_bits()
             );
             assert_eq!(mark.attribute("data-place"), Some(place.name()));
             assert_eq!(
                 mark.attribute("fill") == Some("#ffffff"),
                 place.name() != "above"
             );
-            near(middle(mark), at(h(rung.parameter), rung.error(norm)));
+            near(middle(mark), at(h(level.parameter), level.error(norm)));
         }
-        let fit = ladder.fit(norm).unwrap();
+        let fit = study.fit(norm).unwrap();
         let lines = of_class(&document, "fit");
         let line = lines
             .iter()
@@ -100,27 +100,30 @@ fn check(ladder: &Ladder) {
         let line = line.unwrap();
         assert_eq!(number(line, "data-order").to_bits(), fit.order.to_bits());
         let ends = points(line);
-        let places = ladder.places(norm);
-        let above = ladder
-            .rungs()
+        let places = study.places(norm);
+        let above = study
+            .levels()
             .iter()
             .zip(places)
             .filter(|(_, place)| place.name() == "above");
-        let above: Vec<f64> = above.map(|(rung, _)| h(rung.parameter)).collect();
+        let above: Vec<f64> = above.map(|(level, _)| h(level.parameter)).collect();
         for (end, h) in [(ends[0], above[0]), (ends[1], *above.last().unwrap())] {
             near(end, at(h, fit.at(h)));
         }
     }
     let predicted = of_class(&document, "predicted");
-    let known = ladder
-        .rungs()
+    let known = study
+        .levels()
         .iter()
-        .filter(|rung| rung.predicted_error.is_some())
+        .filter(|level| level.predicted_error.is_some())
         .count();
     assert_eq!(predicted.len(), usize::from(known > 0));
     for line in predicted {
-        for (point, rung) in points(&line).into_iter().zip(ladder.rungs()) {
-            near(point, at(h(rung.parameter), rung.predicted_error.unwrap()));
+        for (point, level) in points(&line).into_iter().zip(study.levels()) {
+            near(
+                point,
+                at(h(level.parameter), level.predicted_error.unwrap()),
+            );
         }
     }
     let [left, corner, top] = points(&of_class(&document, "slope")[0])[..] else {
@@ -137,17 +140,17 @@ fn check(ladder: &Ladder) {
 fn glyphs_are_at_the_errors() {
     check(&stiffnesses());
     let steps =
-        [0.1, 0.05, 0.025].map(|step: f64| Rung::of_errors(step, 30, step.powi(2), step.powi(3)));
-    check(&Ladder::new(Refinement::TimeStep, steps).unwrap());
+        [0.1, 0.05, 0.025].map(|step: f64| Level::of_errors(step, 30, step.powi(2), step.powi(3)));
+    check(&RefinementStudy::new(Refinement::TimeStep, steps).unwrap());
     // Constant errors would be under the legend, so the chart becomes higher.
     let staying =
-        [1.0, 0.1, 0.01, 0.001].map(|step: f64| Rung::of_errors(step, 30, step.max(0.1), step));
-    check(&Ladder::new(Refinement::TimeStep, staying).unwrap());
+        [1.0, 0.1, 0.01, 0.001].map(|step: f64| Level::of_errors(step, 30, step.max(0.1), step));
+    check(&RefinementStudy::new(Refinement::TimeStep, staying).unwrap());
 }
 
 #[test]
 fn legend_has_orders_and_floor() {
-    let svg = figure::ladder(&stiffnesses()).to_string();
+    let svg = figure::refinement(&stiffnesses()).to_string();
     for says in [
         "largest error, order 1.000",
         "rms error, order 1.000",
@@ -159,8 +162,9 @@ fn legend_has_orders_and_floor() {
         assert!(svg.contains(says), "{says}");
     }
     let bent = [(0.1, 0.1), (0.01, 0.02), (0.001, 0.001)]
-        .map(|(step, error)| Rung::of_errors(step, 30, error, step));
-    let svg = figure::ladder(&Ladder::new(Refinement::TimeStep, bent).unwrap()).to_string();
+        .map(|(step, error)| Level::of_errors(step, 30, error, step));
+    let svg =
+        figure::refinement(&RefinementStudy::new(Refinement::TimeStep, bent).unwrap()).to_string();
     assert!(
         svg.contains("largest error, order 1.000 ± 0.2") && svg.contains("log₁₀ Δt"),
         "{svg}"
@@ -170,18 +174,19 @@ fn legend_has_orders_and_floor() {
 
 #[test]
 fn zero_and_infinite_errors_are_left_out() {
-    let rungs =
-        [(1e3, 0.0), (1e4, f64::INFINITY)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
-    let none = Ladder::new(Refinement::Stiffness, rungs).unwrap();
+    let levels =
+        [(1e3, 0.0), (1e4, f64::INFINITY)].map(|(k, error)| Level::of_errors(k, 30, error, error));
+    let none = RefinementStudy::new(Refinement::Stiffness, levels).unwrap();
     let none = none.predicted(|_| f64::INFINITY).unwrap();
-    let svg = figure::ladder(&none).to_string();
+    let svg = figure::refinement(&none).to_string();
     assert!(Document::parse(&svg).is_ok() && !svg.contains("NaN") && !svg.contains("inf\""));
-    assert_eq!(svg.matches("class=\"rung\"").count(), 0);
+    assert_eq!(svg.matches("class=\"level\"").count(), 0);
     assert!(svg.contains("largest error, no order"));
     for k in [1e-300, 1e300] {
-        let rungs = [k, 2.0 * k].map(|k| Rung::of_errors(k, 30, 5e-324, 1e308));
-        let svg = figure::ladder(&Ladder::new(Refinement::Stiffness, rungs).unwrap()).to_string();
+        let levels = [k, 2.0 * k].map(|k| Level::of_errors(k, 30, 5e-324, 1e308));
+        let svg = figure::refinement(&RefinementStudy::new(Refinement::Stiffness, levels).unwrap())
+            .to_string();
         assert!(Document::parse(&svg).is_ok() && !svg.contains("NaN"));
-        assert_eq!(svg.matches("class=\"rung\"").count(), 4);
+        assert_eq!(svg.matches("class=\"level\"").count(), 4);
     }
 }

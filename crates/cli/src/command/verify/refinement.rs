@@ -1,4 +1,4 @@
-//! `verify --ladder`: the observed order of accuracy.
+//! `verify --refinement`: the observed order of accuracy.
 
 use std::io::Write;
 
@@ -7,40 +7,41 @@ use cannonpile_dem::Compliance;
 use cannonpile_dem::scene::Scene;
 use cannonpile_dem::table::{FileFormat, WriteError};
 use cannonpile_dem::verify::{
-    Ladder, LadderFiles, LadderReport, NoLadder, Norm, Refinement, Rung, Source,
+    Level, NoRefinement, Norm, Refinement, RefinementFiles, RefinementReport, RefinementStudy,
+    Source,
 };
 use serde_json::{Value, json};
 
-use super::{Refine, Verify, compare};
+use super::{Parameter, Verify, compare};
 use crate::output::Failure;
 use crate::progress::Progress;
 
 impl Verify {
     /// Compares the files of a refinement study, and returns whether their errors show an order.
-    pub(super) fn compare_ladder(
+    pub(super) fn compare_refinement(
         &self,
-        LadderFiles(files): &LadderFiles,
+        RefinementFiles(files): &RefinementFiles,
         scene: &Scene,
         packing: &Packing<'_>,
     ) -> Result<bool, Failure> {
         let (format, reader) = (self.output.format()?, self.reader()?);
-        let progress = Progress::begin("reading the files of --ladder");
-        let (mut rungs, mut sources, mut with_vectors) = (Vec::new(), Vec::new(), false);
+        let progress = Progress::begin("reading the files of --refinement");
+        let (mut levels, mut sources, mut with_vectors) = (Vec::new(), Vec::new(), false);
         for file in files {
             let read = compare(&reader, packing, &file.path, format);
             let (read, source) =
                 read.map_err(|refusal| self.refused(refusal, &file.path, scene))?;
             let worst = read.comparison.worst();
             with_vectors |= worst.is_some_and(|worst| worst.exact_vector.is_some());
-            rungs.push(Rung::new(file.parameter, &read.comparison, self.accept));
+            levels.push(Level::new(file.parameter, &read.comparison, self.accept));
             sources.extend(source.map(|source| (file.parameter, source)));
         }
-        let refinement = match self.refine {
-            None | Some(Refine::Stiffness) => Refinement::Stiffness,
-            Some(Refine::TimeStep) => Refinement::TimeStep,
+        let refinement = match self.parameter {
+            None | Some(Parameter::Stiffness) => Refinement::Stiffness,
+            Some(Parameter::TimeStep) => Refinement::TimeStep,
         };
-        let blamed = |refusal: NoLadder| Failure::Message(format!("--ladder: {refusal}"));
-        let mut ladder = Ladder::new(refinement, rungs).map_err(blamed)?;
+        let blamed = |refusal: NoRefinement| Failure::Message(format!("--refinement: {refusal}"));
+        let mut study = RefinementStudy::new(refinement, levels).map_err(blamed)?;
         // The spring theory predicts the errors of some scenes only.
         if refinement == Refinement::Stiffness
             && let Ok(springs) = Compliance::new(packing)
@@ -52,21 +53,21 @@ impl Verify {
                     springs.largest_error(stiffness)
                 }
             };
-            ladder = ladder.predicted(error).map_err(blamed)?;
+            study = study.predicted(error).map_err(blamed)?;
         }
-        let report = LadderReport::new(&ladder);
+        let report = RefinementReport::new(&study);
         self.output.write(&progress, |out| match format.into() {
             FileFormat::Json => record(report.json(), &sources, scene, out),
             format => report.write(format, out),
         })?;
         drop(progress);
-        Ok(ladder.fit(Norm::Largest).is_ok())
+        Ok(study.fit(Norm::Largest).is_ok())
     }
 }
 
 /// Writes the JSON record: the refinement study with its files and the scene.
 fn record(
-    ladder: Value,
+    study: Value,
     sources: &[(f64, Source)],
     scene: &Scene,
     out: &mut dyn Write,
@@ -82,7 +83,7 @@ fn record(
             })
         })
         .collect();
-    let mut record = ladder;
+    let mut record = study;
     if let Value::Object(entries) = &mut record {
         entries.insert("version".into(), env!("CARGO_PKG_VERSION").into());
         entries.insert("files".into(), files.into());

@@ -1,23 +1,23 @@
-//! A ladder of simulations of one pile: its errors at several stiffnesses or time steps, and the order in which they vanish.
+//! A refinement study of simulations of one pile: its errors at several stiffnesses or time steps, and the order in which they vanish.
 //!
 //! A code whose errors fall is not yet right: they must fall to 0, and as fast as its method says. With the exact
 //! forces known, both are seen from a few simulations that differ in nothing but a parameter h.
 //!
-//! * h = 1/k of a [stiffness](Refinement::Stiffness) k, h = Δt of a [time step](Refinement::TimeStep) Δt. Rungs go from
+//! * h = 1/k of a [stiffness](Refinement::Stiffness) k, h = Δt of a [time step](Refinement::TimeStep) Δt. Levels go from
 //!   the coarsest, with the greatest h, to the finest.
-//! * The error of a rung is the largest relative error of its contacts, or the root of their mean square
+//! * The error of a level is the largest relative error of its contacts, or the root of their mean square
 //!   ([`Norm`]): those of its [`Comparison`].
-//! * The order observed between neighbouring rungs is p = ln(e₁/e₂)/ln(h₁/h₂). That of the ladder is the slope of the
-//!   line ln e = ln C + p ln h through the rungs above the floor ([`Fit`]).
+//! * The order observed between neighbouring levels is p = ln(e₁/e₂)/ln(h₁/h₂). That of the refinement study is the slope of the
+//!   line ln e = ln C + p ln h through the levels above the floor ([`Fit`]).
 //! * What the error would be at h → 0 is e∞ of e = e∞ + C hᵖ ([`Limit`]): 0, as far as it is known, for a code that
 //!   solves the problem it says.
 //!
 //! # The floor
 //! An error falls until something else is greater: rounding, an iteration that stops early, a force that should not be
-//! there. Which rungs are above that floor is decided by one rule ([`RungPlace`]). It begins behind the first rung, from the
-//! coarsest on, from which no finer one falls with an order of ½ or more, nor, from the third rung on, of ⅔ or more of the
-//! order with which errors fell from the coarsest down to it. Of this rung and the next one the lesser error is the height
-//! of the floor: coarser rungs with less than three times that are near enough to be on it too, as long as two are left. So
+//! there. Which levels are above that floor is decided by one rule ([`LevelPlace`]). It begins behind the first level, from the
+//! coarsest on, from which no finer one falls with an order of ½ or more, nor, from the third level on, of ⅔ or more of the
+//! order with which errors fell from the coarsest down to it. Of this level and the next one the lesser error is the height
+//! of the floor: coarser levels with less than three times that are near enough to be on it too, as long as two are left. So
 //! a method of an order below ½ is taken for one that does not converge.
 
 mod files;
@@ -26,19 +26,19 @@ mod limit;
 mod read;
 mod report;
 
-pub use files::{LadderFile, LadderFiles, NoLadderFiles};
+pub use files::{NoRefinementFiles, RefinementFile, RefinementFiles};
 pub use fit::{Fit, NoOrder};
 pub use limit::Limit;
-pub use report::LadderReport;
+pub use report::RefinementReport;
 
 use core::fmt;
 
 use super::comparison::Comparison;
 
-/// The most rungs of a ladder.
-pub const MAX_RUNGS: usize = 1000;
+/// The most levels of a refinement study.
+pub const MAX_LEVELS: usize = 1000;
 
-/// What is refined from rung to rung.
+/// What is refined from level to level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refinement {
     /// The stiffness k of the springs: h = 1/k.
@@ -120,18 +120,18 @@ impl Norm {
     }
 }
 
-/// A simulation of the ladder: its parameter, and what its comparison with the exact forces says.
+/// A simulation of the study: its parameter, and what its comparison with the exact forces says.
 ///
 /// # Examples
 /// ```
-/// use cannonpile_dem::verify::{Norm, Rung};
+/// use cannonpile_dem::verify::{Norm, Level};
 ///
-/// let rung = Rung::of_errors(1e6, 495, 4e-6, 1e-6);
-/// assert!(rung.is_whole());
-/// assert_eq!(rung.error(Norm::Rms), 1e-6);
+/// let level = Level::of_errors(1e6, 495, 4e-6, 1e-6);
+/// assert!(level.is_whole());
+/// assert_eq!(level.error(Norm::Rms), 1e-6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rung {
+pub struct Level {
     /// The stiffness or the time step, in the unit of the simulation.
     pub parameter: f64,
     /// How many contacts the pile has.
@@ -150,22 +150,22 @@ pub struct Rung {
     pub predicted_error: Option<f64>,
 }
 
-impl Rung {
-    /// The rung of a comparison; pairs besides the contacts count as extra if they carry more than `tolerance` times the
+impl Level {
+    /// The level of a comparison; pairs besides the contacts count as extra if they carry more than `tolerance` times the
     /// largest exact force.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile_dem::verify::{Comparison, Measured, Rung};
+    /// use cannonpile_dem::verify::{Comparison, Measured, Level};
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let measured = [2, 3].map(|id| Measured::new([1, id], 0.46225016352102427));
-    /// let rung = Rung::new(1e6, &Comparison::new(&packing, measured)?, 1e-6);
-    /// assert_eq!((rung.matched, rung.missing, rung.largest_error), (2, 1, 0.0));
+    /// let level = Level::new(1e6, &Comparison::new(&packing, measured)?, 1e-6);
+    /// assert_eq!((level.matched, level.missing, level.largest_error), (2, 1, 0.0));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
@@ -182,14 +182,14 @@ impl Rung {
         }
     }
 
-    /// A rung of which the errors are known, with all contacts measured.
+    /// A level of which the errors are known, with all contacts measured.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::Rung;
+    /// use cannonpile_dem::verify::Level;
     ///
-    /// let rung = Rung::of_errors(1e-3, 30, 2e-5, 1e-5);
-    /// assert_eq!((rung.parameter, rung.matched), (1e-3, 30));
+    /// let level = Level::of_errors(1e-3, 30, 2e-5, 1e-5);
+    /// assert_eq!((level.parameter, level.matched), (1e-3, 30));
     /// ```
     #[must_use]
     pub const fn of_errors(
@@ -215,10 +215,10 @@ impl Rung {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::Rung;
+    /// use cannonpile_dem::verify::Level;
     ///
-    /// let rung = Rung::of_errors(10.0, 30, 0.1, 0.05);
-    /// assert!(rung.is_whole() && !Rung { missing: 3, matched: 27, ..rung }.is_whole());
+    /// let level = Level::of_errors(10.0, 30, 0.1, 0.05);
+    /// assert!(level.is_whole() && !Level { missing: 3, matched: 27, ..level }.is_whole());
     /// ```
     #[must_use]
     pub const fn is_whole(&self) -> bool {
@@ -229,10 +229,10 @@ impl Rung {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Norm, Rung};
+    /// use cannonpile_dem::verify::{Norm, Level};
     ///
-    /// let rung = Rung::of_errors(1e6, 30, 2e-5, 1e-5);
-    /// assert_eq!(Norm::ALL.map(|norm| rung.error(norm)), [2e-5, 1e-5]);
+    /// let level = Level::of_errors(1e6, 30, 2e-5, 1e-5);
+    /// assert_eq!(Norm::ALL.map(|norm| level.error(norm)), [2e-5, 1e-5]);
     /// ```
     #[must_use]
     pub const fn error(&self, norm: Norm) -> f64 {
@@ -243,9 +243,9 @@ impl Rung {
     }
 }
 
-/// Where a rung is, as the order of the ladder sees it.
+/// Where a level is, as the order of the refinement study sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RungPlace {
+pub enum LevelPlace {
     /// Above the floor: it counts.
     Above,
     /// On the floor, where errors do not fall as they did: left out.
@@ -256,14 +256,14 @@ pub enum RungPlace {
     NoLogarithm,
 }
 
-impl RungPlace {
+impl LevelPlace {
     /// The name, as in tables: `above`, `floor`, `incomplete` or `no logarithm`.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::RungPlace;
+    /// use cannonpile_dem::verify::LevelPlace;
     ///
-    /// assert_eq!(RungPlace::Floor.name(), "floor");
+    /// assert_eq!(LevelPlace::Floor.name(), "floor");
     /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -276,155 +276,159 @@ impl RungPlace {
     }
 }
 
-/// Rungs with different parameters, from the coarsest to the finest: a pile simulated at several stiffnesses or time
+/// Levels with different parameters, from the coarsest to the finest: a pile simulated at several stiffnesses or time
 /// steps.
 ///
 /// # Examples
 /// ```
-/// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung, RungPlace};
+/// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level, LevelPlace};
 ///
 /// // Errors of 5/k, and below them a floor of rounding that rises with k.
-/// let rungs = [1e3, 1e4, 1e5, 1e6, 1e7].map(|k| {
+/// let levels = [1e3, 1e4, 1e5, 1e6, 1e7].map(|k| {
 ///     let error = 5.0 / k + 1e-12 * k;
-///     Rung::of_errors(k, 30, error, error / 3.0)
+///     Level::of_errors(k, 30, error, error / 3.0)
 /// });
-/// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-/// let fit = ladder.fit(Norm::Largest)?;
+/// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
+/// let fit = study.fit(Norm::Largest)?;
 /// assert!((fit.order - 1.0).abs() < 1e-3 && (fit.constant / 5.0 - 1.0).abs() < 0.01);
-/// assert_eq!(fit.rungs, 3);
-/// assert_eq!(ladder.places(Norm::Largest).last(), Some(&RungPlace::Floor));
+/// assert_eq!(fit.levels, 3);
+/// assert_eq!(study.places(Norm::Largest).last(), Some(&LevelPlace::Floor));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ladder {
+pub struct RefinementStudy {
     refinement: Refinement,
-    rungs: Vec<Rung>,
+    levels: Vec<Level>,
 }
 
-impl Ladder {
-    /// The ladder of some rungs, in whatever order they come.
+impl RefinementStudy {
+    /// The refinement study of some levels, in whatever order they come.
     ///
     /// # Errors
-    /// [`NoLadder`] for no rungs or more than [`MAX_RUNGS`], a parameter that is not positive and normal or that is there
+    /// [`NoRefinement`] for no levels or more than [`MAX_LEVELS`], a parameter that is not positive and normal or that is there
     /// twice, and an error that is negative or no number.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, NoLadder, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
     ///
-    /// let rungs = [1e3, 1e5, 1e4].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-    /// assert_eq!(ladder.rungs().iter().map(|rung| rung.parameter).collect::<Vec<_>>(), [1e3, 1e4, 1e5]);
-    /// let twice = Ladder::new(Refinement::Stiffness, [rungs[0], rungs[0]]);
-    /// assert_eq!(twice, Err(NoLadder::Twice { parameter: 1e3 }));
-    /// # Ok::<(), NoLadder>(())
+    /// let levels = [1e3, 1e5, 1e4].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
+    /// assert_eq!(study.levels().iter().map(|level| level.parameter).collect::<Vec<_>>(), [1e3, 1e4, 1e5]);
+    /// let twice = RefinementStudy::new(Refinement::Stiffness, [levels[0], levels[0]]);
+    /// assert_eq!(twice, Err(NoRefinement::Twice { parameter: 1e3 }));
+    /// # Ok::<(), NoRefinement>(())
     /// ```
     pub fn new(
         refinement: Refinement,
-        rungs: impl IntoIterator<Item = Rung>,
-    ) -> Result<Self, NoLadder> {
-        let mut rungs: Vec<Rung> = rungs.into_iter().take(MAX_RUNGS + 1).collect();
-        if rungs.is_empty() {
-            return Err(NoLadder::Empty);
+        levels: impl IntoIterator<Item = Level>,
+    ) -> Result<Self, NoRefinement> {
+        let mut levels: Vec<Level> = levels.into_iter().take(MAX_LEVELS + 1).collect();
+        if levels.is_empty() {
+            return Err(NoRefinement::Empty);
         }
-        if rungs.len() > MAX_RUNGS {
-            return Err(NoLadder::TooMany { limit: MAX_RUNGS });
+        if levels.len() > MAX_LEVELS {
+            return Err(NoRefinement::TooMany { limit: MAX_LEVELS });
         }
-        for rung in &rungs {
-            check_parameter(rung.parameter)?;
-            let predicted = rung.predicted_error;
+        for level in &levels {
+            check_parameter(level.parameter)?;
+            let predicted = level.predicted_error;
             for error in Norm::ALL
-                .map(|norm| rung.error(norm))
+                .map(|norm| level.error(norm))
                 .into_iter()
                 .chain(predicted)
             {
                 if error.is_nan() || error < 0.0 {
-                    return Err(NoLadder::Error { error });
+                    return Err(NoRefinement::Error { error });
                 }
             }
         }
         // By the parameter itself: two that are next to each other may have one logarithm.
-        rungs.sort_by(|a, b| match refinement {
+        levels.sort_by(|a, b| match refinement {
             Refinement::Stiffness => a.parameter.total_cmp(&b.parameter),
             Refinement::TimeStep => b.parameter.total_cmp(&a.parameter),
         });
-        let parameters = rungs.iter().map(|rung| rung.parameter);
+        let parameters = levels.iter().map(|level| level.parameter);
         match repeated(parameters) {
-            Some(parameter) => Err(NoLadder::Twice { parameter }),
-            None => Ok(Self { refinement, rungs }),
+            Some(parameter) => Err(NoRefinement::Twice { parameter }),
+            None => Ok(Self { refinement, levels }),
         }
     }
 
-    /// The ladder with what theory says of the largest error at each parameter.
+    /// The refinement study with what theory says of the largest error at each parameter.
     ///
     /// # Errors
-    /// [`NoLadder::Error`] for a prediction that is negative or no number.
+    /// [`NoRefinement::Error`] for a prediction that is negative or no number.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, NoLadder, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
     ///
-    /// let rungs = [1e3, 1e4].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?.predicted(|k| 4.8 / k)?;
-    /// assert_eq!(ladder.rungs()[0].predicted_error, Some(4.8e-3));
-    /// # Ok::<(), NoLadder>(())
+    /// let levels = [1e3, 1e4].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?.predicted(|k| 4.8 / k)?;
+    /// assert_eq!(study.levels()[0].predicted_error, Some(4.8e-3));
+    /// # Ok::<(), NoRefinement>(())
     /// ```
-    pub fn predicted(self, error: impl Fn(f64) -> f64) -> Result<Self, NoLadder> {
-        let rungs = self.rungs.into_iter().map(|rung| Rung {
-            predicted_error: Some(error(rung.parameter)),
-            ..rung
+    pub fn predicted(self, error: impl Fn(f64) -> f64) -> Result<Self, NoRefinement> {
+        let levels = self.levels.into_iter().map(|level| Level {
+            predicted_error: Some(error(level.parameter)),
+            ..level
         });
-        Self::new(self.refinement, rungs)
+        Self::new(self.refinement, levels)
     }
 
     /// What is refined.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, NoLadder, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
     ///
-    /// let ladder = Ladder::new(Refinement::TimeStep, [Rung::of_errors(1e-3, 30, 0.1, 0.05)])?;
-    /// assert_eq!(ladder.refinement(), Refinement::TimeStep);
-    /// # Ok::<(), NoLadder>(())
+    /// let study = RefinementStudy::new(Refinement::TimeStep, [Level::of_errors(1e-3, 30, 0.1, 0.05)])?;
+    /// assert_eq!(study.refinement(), Refinement::TimeStep);
+    /// # Ok::<(), NoRefinement>(())
     /// ```
     #[must_use]
     pub const fn refinement(&self) -> Refinement {
         self.refinement
     }
 
-    /// The rungs, from the coarsest, with the greatest h, to the finest.
+    /// The levels, from the coarsest, with the greatest h, to the finest.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, NoLadder, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
     ///
-    /// let rungs = [1e-4, 1e-3].map(|step| Rung::of_errors(step, 30, step, step / 3.0));
-    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert_eq!(ladder.rungs()[0].parameter, 1e-3);
-    /// # Ok::<(), NoLadder>(())
+    /// let levels = [1e-4, 1e-3].map(|step| Level::of_errors(step, 30, step, step / 3.0));
+    /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
+    /// assert_eq!(study.levels()[0].parameter, 1e-3);
+    /// # Ok::<(), NoRefinement>(())
     /// ```
     #[must_use]
-    pub fn rungs(&self) -> &[Rung] {
-        &self.rungs
+    pub fn levels(&self) -> &[Level] {
+        &self.levels
     }
 
-    /// The orders observed: p = ln(e₁/e₂)/ln(h₁/h₂) of each rung and the one before it. The first has none, nor has one
+    /// The orders observed: p = ln(e₁/e₂)/ln(h₁/h₂) of each level and the one before it. The first has none, nor has one
     /// beside an error that is 0 or infinite.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, NoLadder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Norm, Refinement, Level};
     ///
-    /// let rungs = [0.1, 0.01].map(|step| Rung::of_errors(step, 30, step * step, 0.0));
-    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// let [none, order] = ladder.orders(Norm::Largest)[..] else { panic!() };
+    /// let levels = [0.1, 0.01].map(|step| Level::of_errors(step, 30, step * step, 0.0));
+    /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
+    /// let [none, order] = study.orders(Norm::Largest)[..] else { panic!() };
     /// assert!(none.is_none() && (order.unwrap() - 2.0).abs() < 1e-12);
-    /// assert_eq!(ladder.orders(Norm::Rms), [None, None]);
-    /// # Ok::<(), NoLadder>(())
+    /// assert_eq!(study.orders(Norm::Rms), [None, None]);
+    /// # Ok::<(), NoRefinement>(())
     /// ```
     #[must_use]
     pub fn orders(&self, norm: Norm) -> Vec<Option<f64>> {
-        let logs: Vec<_> = self.rungs.iter().map(|rung| self.log(rung, norm)).collect();
+        let logs: Vec<_> = self
+            .levels
+            .iter()
+            .map(|level| self.log(level, norm))
+            .collect();
         let between = logs.windows(2).map(|pair| match pair {
             [Some(coarse), Some(fine)] => Some(coarse.order_to(*fine)).filter(|p| p.is_finite()),
             _ => None,
@@ -433,16 +437,16 @@ impl Ladder {
     }
 
     /// ln h and ln e, if the error has a logarithm.
-    fn log(&self, rung: &Rung, norm: Norm) -> Option<Log> {
-        let error = rung.error(norm);
+    fn log(&self, level: &Level, norm: Norm) -> Option<Log> {
+        let error = level.error(norm);
         (error > 0.0 && error.is_finite()).then(|| Log {
-            h: self.refinement.ln_h(rung.parameter),
+            h: self.refinement.ln_h(level.parameter),
             e: error.ln(),
         })
     }
 }
 
-/// A point of the ladder on logarithmic axes.
+/// A point of the refinement study on logarithmic axes.
 #[derive(Clone, Copy, Debug)]
 struct Log {
     /// ln h.
@@ -452,17 +456,17 @@ struct Log {
 }
 
 impl Log {
-    /// The order with which the error falls from here to a finer rung.
+    /// The order with which the error falls from here to a finer level.
     fn order_to(self, finer: Self) -> f64 {
         (self.e - finer.e) / (self.h - finer.h)
     }
 }
 
-/// Why there is no ladder: one line with the remedy.
+/// Why there is no study: one line with the remedy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum NoLadder {
-    /// There is no rung.
+pub enum NoRefinement {
+    /// There is no level.
     Empty,
     /// There are more than are read.
     TooMany {
@@ -474,7 +478,7 @@ pub enum NoLadder {
         /// The parameter.
         parameter: f64,
     },
-    /// Two rungs have it.
+    /// Two levels have it.
     Twice {
         /// The parameter.
         parameter: f64,
@@ -486,18 +490,18 @@ pub enum NoLadder {
     },
 }
 
-impl fmt::Display for NoLadder {
+impl fmt::Display for NoRefinement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Empty => f.write_str("a ladder has rungs: give at least one"),
-            Self::TooMany { limit } => write!(f, "more than {limit} rungs: leave some out"),
+            Self::Empty => f.write_str("a refinement study has levels: give at least one"),
+            Self::TooMany { limit } => write!(f, "more than {limit} levels: leave some out"),
             Self::Parameter { parameter } => write!(
                 f,
                 "{parameter:e} is no stiffness and no time step: give a positive number, not below 2.3e-308"
             ),
             Self::Twice { parameter } => write!(
                 f,
-                "two rungs at {parameter:e}: give each stiffness or time step once"
+                "two levels at {parameter:e}: give each stiffness or time step once"
             ),
             Self::Error { error } => {
                 write!(f, "{error:e} is no relative error: give one of 0 or more")
@@ -506,13 +510,13 @@ impl fmt::Display for NoLadder {
     }
 }
 
-impl core::error::Error for NoLadder {}
+impl core::error::Error for NoRefinement {}
 
-fn check_parameter(parameter: f64) -> Result<(), NoLadder> {
+fn check_parameter(parameter: f64) -> Result<(), NoRefinement> {
     if parameter.is_normal() && parameter > 0.0 {
         Ok(())
     } else {
-        Err(NoLadder::Parameter { parameter })
+        Err(NoRefinement::Parameter { parameter })
     }
 }
 

@@ -1,43 +1,43 @@
-//! The files of a ladder, as a user names them.
+//! The files of a refinement study, as a user names them.
 
 use core::fmt;
 use core::str::FromStr;
 use std::path::PathBuf;
 
-use super::{MAX_RUNGS, NoLadder, check_parameter, repeated};
+use super::{MAX_LEVELS, NoRefinement, check_parameter, repeated};
 use crate::error::quoted;
 
 /// A file with the forces of a simulation, and its stiffness or time step.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LadderFile {
+pub struct RefinementFile {
     /// The stiffness or the time step, positive.
     pub parameter: f64,
     /// The file.
     pub path: PathBuf,
 }
 
-/// The files of a ladder: `K1=FILE1,K2=FILE2`, each with its stiffness or time step. A comma ends a file's name, and the
+/// The files of a refinement study: `K1=FILE1,K2=FILE2`, each with its stiffness or time step. A comma ends a file's name, and the
 /// first `=` begins it.
 ///
 /// # Examples
 /// ```
-/// use cannonpile_dem::verify::LadderFiles;
+/// use cannonpile_dem::verify::RefinementFiles;
 ///
-/// let LadderFiles(files) = "1e5=soft.csv,1e6=stiff=2.csv".parse()?;
+/// let RefinementFiles(files) = "1e5=soft.csv,1e6=stiff=2.csv".parse()?;
 /// assert_eq!(files.iter().map(|file| file.parameter).collect::<Vec<_>>(), [1e5, 1e6]);
 /// assert_eq!(files[1].path, std::path::Path::new("stiff=2.csv"));
 ///
-/// let refused = "1e5=soft.csv,stiff.csv".parse::<LadderFiles>().unwrap_err();
+/// let refused = "1e5=soft.csv,stiff.csv".parse::<RefinementFiles>().unwrap_err();
 /// assert_eq!(refused.to_string(), "'stiff.csv' has no =: give every file as its parameter=FILE, as in 1e6=stiff.csv");
-/// # Ok::<(), cannonpile_dem::verify::NoLadderFiles>(())
+/// # Ok::<(), cannonpile_dem::verify::NoRefinementFiles>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct LadderFiles(pub Vec<LadderFile>);
+pub struct RefinementFiles(pub Vec<RefinementFile>);
 
-/// Why a list names no files of a ladder: one line with the remedy.
+/// Why a list names no files of a refinement study: one line with the remedy.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum NoLadderFiles {
+pub enum NoRefinementFiles {
     /// An entry without a `=`.
     NoEquals {
         /// The entry, shortened if it is long.
@@ -53,11 +53,11 @@ pub enum NoLadderFiles {
         /// What does, shortened if it is long.
         text: String,
     },
-    /// The parameters are of no ladder.
-    Ladder(NoLadder),
+    /// The parameters are of no refinement study.
+    RefinementStudy(NoRefinement),
 }
 
-impl fmt::Display for NoLadderFiles {
+impl fmt::Display for NoRefinementFiles {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoEquals { entry } => write!(
@@ -74,15 +74,15 @@ impl fmt::Display for NoLadderFiles {
                 f,
                 "'{text}' is no number: give the stiffness or the time step before the =, as in 1e6=stiff.csv"
             ),
-            Self::Ladder(error) => error.fmt(f),
+            Self::RefinementStudy(error) => error.fmt(f),
         }
     }
 }
 
-impl core::error::Error for NoLadderFiles {}
+impl core::error::Error for NoRefinementFiles {}
 
-impl FromStr for LadderFiles {
-    type Err = NoLadderFiles;
+impl FromStr for RefinementFiles {
+    type Err = NoRefinementFiles;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let mut files = Vec::new();
@@ -90,26 +90,28 @@ impl FromStr for LadderFiles {
             let shown = || quoted(entry);
             let (parameter, path) = entry
                 .split_once('=')
-                .ok_or_else(|| NoLadderFiles::NoEquals { entry: shown() })?;
+                .ok_or_else(|| NoRefinementFiles::NoEquals { entry: shown() })?;
             if path.is_empty() {
-                return Err(NoLadderFiles::NoFile { entry: shown() });
+                return Err(NoRefinementFiles::NoFile { entry: shown() });
             }
             let parameter = parameter.trim();
-            let parameter = parameter.parse().map_err(|_| NoLadderFiles::NoNumber {
+            let parameter = parameter.parse().map_err(|_| NoRefinementFiles::NoNumber {
                 text: quoted(parameter),
             })?;
-            check_parameter(parameter).map_err(NoLadderFiles::Ladder)?;
-            if files.len() == MAX_RUNGS {
-                let many = NoLadder::TooMany { limit: MAX_RUNGS };
-                return Err(NoLadderFiles::Ladder(many));
+            check_parameter(parameter).map_err(NoRefinementFiles::RefinementStudy)?;
+            if files.len() == MAX_LEVELS {
+                let many = NoRefinement::TooMany { limit: MAX_LEVELS };
+                return Err(NoRefinementFiles::RefinementStudy(many));
             }
             let path = path.into();
-            files.push(LadderFile { parameter, path });
+            files.push(RefinementFile { parameter, path });
         }
         let mut parameters: Vec<f64> = files.iter().map(|file| file.parameter).collect();
         parameters.sort_by(f64::total_cmp);
         match repeated(parameters.into_iter()) {
-            Some(parameter) => Err(NoLadderFiles::Ladder(NoLadder::Twice { parameter })),
+            Some(parameter) => Err(NoRefinementFiles::RefinementStudy(NoRefinement::Twice {
+                parameter,
+            })),
             None => Ok(Self(files)),
         }
     }

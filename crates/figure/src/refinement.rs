@@ -1,6 +1,6 @@
-//! The errors of a refinement study (a [`Ladder`]), and their order of accuracy.
+//! The errors of a refinement study (a [`RefinementStudy`]), and their order of accuracy.
 
-use cannonpile_dem::verify::{Fit, Ladder, Norm, Refinement, Rung, RungPlace};
+use cannonpile_dem::verify::{Fit, Level, LevelPlace, Norm, Refinement, RefinementStudy};
 
 use super::chart::Chart;
 use super::colour::{BLUE, DIM, ORANGE, WHITE};
@@ -16,33 +16,36 @@ use super::ticks::digits;
 ///
 /// # Examples
 /// ```
-/// use cannonpile_dem::verify::{Ladder, Refinement, Rung};
+/// use cannonpile_dem::verify::{RefinementStudy, Refinement, Level};
 ///
-/// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 495, 4.2 / k, 1.9 / k));
-/// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-/// let svg = cannonpile_figure::ladder(&ladder).to_string();
-/// assert_eq!(svg.matches("class=\"rung\"").count(), 6);
+/// let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 495, 4.2 / k, 1.9 / k));
+/// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
+/// let svg = cannonpile_figure::refinement(&study).to_string();
+/// assert_eq!(svg.matches("class=\"level\"").count(), 6);
 /// assert!(svg.contains("largest error, order 1.000"));
-/// # Ok::<(), cannonpile_dem::verify::NoLadder>(())
+/// # Ok::<(), cannonpile_dem::verify::NoRefinement>(())
 /// ```
 #[must_use]
-pub fn ladder(ladder: &Ladder) -> Figure {
-    let refinement = ladder.refinement();
-    let across = |rung: &Rung| log_h(refinement, rung.parameter);
+pub fn refinement(study: &RefinementStudy) -> Figure {
+    let refinement = study.refinement();
+    let across = |level: &Level| log_h(refinement, level.parameter);
     let drawn = Norm::ALL.map(|norm| {
-        let rungs = ladder.rungs().iter().zip(ladder.places(norm));
-        let seen = rungs.filter(|(rung, _)| has_log(rung.error(norm)));
-        seen.collect::<Vec<(&Rung, RungPlace)>>()
+        let levels = study.levels().iter().zip(study.places(norm));
+        let seen = levels.filter(|(level, _)| has_log(level.error(norm)));
+        seen.collect::<Vec<(&Level, LevelPlace)>>()
     });
-    let predicted = ladder.rungs().iter().filter_map(|rung| {
-        let error = rung.predicted_error.filter(|error| has_log(*error))?;
-        Some([across(rung), error.log10()])
+    let predicted = study.levels().iter().filter_map(|level| {
+        let error = level.predicted_error.filter(|error| has_log(*error))?;
+        Some([across(level), error.log10()])
     });
     let predicted: Vec<Point> = predicted.collect();
-    let logs = Norm::ALL.into_iter().zip(&drawn).flat_map(|(norm, rungs)| {
-        let point = move |rung: &Rung| [across(rung), rung.error(norm).log10()];
-        rungs.iter().map(move |(rung, _)| point(rung))
-    });
+    let logs = Norm::ALL
+        .into_iter()
+        .zip(&drawn)
+        .flat_map(|(norm, levels)| {
+            let point = move |level: &Level| [across(level), level.error(norm).log10()];
+            levels.iter().map(move |(level, _)| point(level))
+        });
     let points = || logs.clone().chain(predicted.iter().copied());
     let mut ends = [0, 1].map(|axis| ends(points().map(|point| point[axis])));
     if points().any(|point| is_under_legend(point, ends)) {
@@ -51,10 +54,10 @@ pub fn ladder(ladder: &Ladder) -> Figure {
     let chart = Chart::new(ends[0], ends[1]);
     let mut glyphs = triangle(&chart, ends);
     let mut legend = Vec::new();
-    let fits = Norm::ALL.map(|norm| ladder.fit(norm).ok());
+    let fits = Norm::ALL.map(|norm| study.fit(norm).ok());
     for ((norm, fit), colour) in Norm::ALL.into_iter().zip(&fits).zip(COLOURS) {
         let fit = fit.as_ref();
-        glyphs.extend(fit.and_then(|fit| fitted(&chart, ladder, norm, fit, colour)));
+        glyphs.extend(fit.and_then(|fit| fitted(&chart, study, norm, fit, colour)));
         legend.push((named(norm, fit), colour, Sample::Of(norm)));
     }
     if !predicted.is_empty() {
@@ -63,14 +66,14 @@ pub fn ladder(ladder: &Ladder) -> Figure {
         let name = "spring theory, largest error".to_owned();
         legend.push((name, ORANGE, Sample::Dashed));
     }
-    for ((norm, rungs), colour) in Norm::ALL.into_iter().zip(&drawn).zip(COLOURS) {
-        for (rung, place) in rungs {
-            let at = chart.at([across(rung), rung.error(norm).log10()]);
-            let shape = shape(norm, at).class("rung").set("data-norm", norm.name());
-            let shape = shape.with_value("data-parameter", rung.parameter);
-            let shape = shape.with_value("data-error", rung.error(norm));
+    for ((norm, levels), colour) in Norm::ALL.into_iter().zip(&drawn).zip(COLOURS) {
+        for (level, place) in levels {
+            let at = chart.at([across(level), level.error(norm).log10()]);
+            let shape = shape(norm, at).class("level").set("data-norm", norm.name());
+            let shape = shape.with_value("data-parameter", level.parameter);
+            let shape = shape.with_value("data-error", level.error(norm));
             let shape = shape.set("data-place", place.name());
-            let fill = if *place == RungPlace::Above {
+            let fill = if *place == LevelPlace::Above {
                 colour
             } else {
                 WHITE
@@ -78,21 +81,21 @@ pub fn ladder(ladder: &Ladder) -> Figure {
             glyphs.push(shape.fill(fill).stroke(colour, 1.5));
         }
     }
-    let hollow = |(_, place): &(&Rung, RungPlace)| *place != RungPlace::Above;
+    let hollow = |(_, place): &(&Level, LevelPlace)| *place != LevelPlace::Above;
     if drawn.iter().flatten().any(hollow) {
         let name = "on the round-off floor, or contacts missing".to_owned();
         legend.push((name, COLOURS[0], Sample::Hollow));
     }
     glyphs.extend(legend_of(&chart, legend));
-    let rungs = ladder.rungs().len();
-    let above = ladder.places(Norm::Largest);
-    let above = above.iter().filter(|place| **place == RungPlace::Above);
+    let levels = study.levels().len();
+    let above = study.places(Norm::Largest);
+    let above = above.iter().filter(|place| **place == LevelPlace::Above);
     let (title, name) = match refinement {
         Refinement::Stiffness => ("Errors over the softness of springs", "log₁₀ 1/k"),
         Refinement::TimeStep => ("Errors over the time step", "log₁₀ Δt"),
     };
     let caption = format!(
-        "{rungs} levels, {} of them above the round-off floor",
+        "{levels} levels, {} of them above the round-off floor",
         above.count()
     );
     let names = [name.into(), "log₁₀ relative error".into()];
@@ -137,15 +140,21 @@ fn is_under_legend(point: Point, ends: [[f64; 2]; 2]) -> bool {
 }
 
 /// Returns the fitted line, from the coarsest level above the floor to the finest.
-fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -> Option<Glyph> {
-    let places = ladder.places(norm);
-    let above = ladder.rungs().iter().zip(places);
-    let above = above.filter(|(_, place)| *place == RungPlace::Above);
-    let mut ends = above.map(|(rung, _)| rung.parameter);
+fn fitted(
+    chart: &Chart,
+    study: &RefinementStudy,
+    norm: Norm,
+    fit: &Fit,
+    colour: &str,
+) -> Option<Glyph> {
+    let places = study.places(norm);
+    let above = study.levels().iter().zip(places);
+    let above = above.filter(|(_, place)| *place == LevelPlace::Above);
+    let mut ends = above.map(|(level, _)| level.parameter);
     let first = ends.next()?;
     let ends = [first, ends.next_back()?].map(|parameter| {
-        let error = fit.at(ladder.refinement().h(parameter));
-        has_log(error).then(|| [log_h(ladder.refinement(), parameter), error.log10()])
+        let error = fit.at(study.refinement().h(parameter));
+        has_log(error).then(|| [log_h(study.refinement(), parameter), error.log10()])
     });
     let [Some(from), Some(to)] = ends else {
         return None;
@@ -193,7 +202,7 @@ fn named(norm: Norm, fit: Option<&Fit>) -> String {
     };
     let order = format!("{error}, order {:.3}", fit.order).replace('-', "−");
     match fit.standard_error {
-        // Of rungs that are on a line but for their last digits.
+        // Of levels that are on a line but for their last digits.
         Some(error) if error >= 5e-4 => format!("{order} ± {}", digits(error, 1)),
         _ => order,
     }

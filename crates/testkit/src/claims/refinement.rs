@@ -3,13 +3,15 @@
 
 use arbitrary::Unstructured;
 use cannonpile_dem::table::FileFormat;
-use cannonpile_dem::verify::{Ladder, LadderFiles, LadderReport, NoLadder, Norm, Refinement, Rung};
+use cannonpile_dem::verify::{
+    Level, NoRefinement, Norm, Refinement, RefinementFiles, RefinementReport, RefinementStudy,
+};
 
 use super::{Checked, Failure, demand, same};
 use crate::generators::text;
 
-impl From<NoLadder> for Failure {
-    fn from(refusal: NoLadder) -> Self {
+impl From<NoRefinement> for Failure {
+    fn from(refusal: NoRefinement) -> Self {
         Self::Refuted(format!("refused: {refusal}"))
     }
 }
@@ -29,42 +31,42 @@ pub fn given_order(u: &mut Unstructured<'_>) -> Checked {
     let order = 0.6 + 3.4 * part(u)?;
     let constant = 10_f64.powf(20.0 * part(u)? - 10.0);
     let mut h = 10_f64.powf(20.0 * part(u)? - 10.0);
-    let mut rungs = Vec::new();
+    let mut levels = Vec::new();
     for _ in 0..u.int_in_range(3..=9)? {
         let error = constant * h.powf(order);
         // A stiffness k corresponds to h = 1/k, so k = 1/h.
         let parameter = refinement.h(h);
-        rungs.push(Rung::of_errors(parameter, 30, error, 0.25 * error));
+        levels.push(Level::of_errors(parameter, 30, error, 0.25 * error));
         h /= 1.5 + 8.5 * part(u)?;
     }
-    let ladder = Ladder::new(refinement, rungs.iter().copied())?;
-    let other_way = Ladder::new(refinement, rungs.iter().rev().copied())?;
-    same("the study in reverse", &other_way, &ladder)?;
-    found(&ladder, order)?;
+    let study = RefinementStudy::new(refinement, levels.iter().copied())?;
+    let other_way = RefinementStudy::new(refinement, levels.iter().rev().copied())?;
+    same("the study in reverse", &other_way, &study)?;
+    found(&study, order)?;
     for norm in Norm::ALL {
-        let limit = ladder.limit(norm, order);
+        let limit = study.limit(norm, order);
         let limit = limit.map_err(|error| Failure::Refuted(error.to_string()))?;
-        let least = ladder.rungs().iter().map(|rung| rung.error(norm));
+        let least = study.levels().iter().map(|level| level.error(norm));
         let least = least.fold(f64::INFINITY, f64::min);
         demand(limit.error.abs() < 1e-6 * least, || {
-            format!("{limit:?} of {ladder:?}")
+            format!("{limit:?} of {study:?}")
         })?;
     }
     Ok(())
 }
 
 /// All levels lie on a line of this order.
-fn found(ladder: &Ladder, order: f64) -> Checked {
+fn found(study: &RefinementStudy, order: f64) -> Checked {
     for norm in Norm::ALL {
-        let fit = ladder
+        let fit = study
             .fit(norm)
             .map_err(|error| Failure::Refuted(error.to_string()))?;
         let near = (fit.order - order).abs() < 1e-9 && fit.residual < 1e-9;
-        let whole = fit.rungs == ladder.rungs().len();
+        let whole = fit.levels == study.levels().len();
         demand(near && whole, || {
-            format!("{fit:?}, not {order}, of {ladder:?}")
+            format!("{fit:?}, not {order}, of {study:?}")
         })?;
-        let between = ladder.orders(norm);
+        let between = study.orders(norm);
         let near = between
             .iter()
             .skip(1)
@@ -76,66 +78,67 @@ fn found(ladder: &Ladder, order: f64) -> Checked {
 
 /// Random values form a refinement study or are rejected in one line. Every result of a study is finite, and its record is
 /// read back.
-pub fn any_rungs(u: &mut Unstructured<'_>) -> Checked {
+pub fn any_levels(u: &mut Unstructured<'_>) -> Checked {
     let refinement = refinement(u)?;
     let count = u.int_in_range(0..=8)?;
-    let mut rungs = Vec::new();
+    let mut levels = Vec::new();
     for _ in 0..count {
-        let mut rung = Rung::of_errors(f64::from_bits(u.arbitrary()?), 30, 0.0, 0.0);
+        let mut level = Level::of_errors(f64::from_bits(u.arbitrary()?), 30, 0.0, 0.0);
         let sizes = [
             f64::from_bits(u.arbitrary()?),
             f64::from_bits(u.arbitrary()?),
         ];
-        [rung.largest_error, rung.rms_error] = sizes;
+        [level.largest_error, level.rms_error] = sizes;
         if u.arbitrary()? {
             // Most bit patterns do not form a study.
-            rung.parameter = 2_f64.powi(u.int_in_range(-40..=40)?);
-            rung.largest_error = part(u)?;
-            rung.rms_error = rung.largest_error / 2.0;
+            level.parameter = 2_f64.powi(u.int_in_range(-40..=40)?);
+            level.largest_error = part(u)?;
+            level.rms_error = level.largest_error / 2.0;
         }
-        rung.missing = u.int_in_range(0..=3)? / 3;
-        rungs.push(rung);
+        level.missing = u.int_in_range(0..=3)? / 3;
+        levels.push(level);
     }
-    match Ladder::new(refinement, rungs) {
-        Ok(ladder) => round_trips(&ladder),
+    match RefinementStudy::new(refinement, levels) {
+        Ok(study) => round_trips(&study),
         Err(error) => one_line(&error.to_string()),
     }
 }
 
-fn round_trips(ladder: &Ladder) -> Checked {
+fn round_trips(study: &RefinementStudy) -> Checked {
     for norm in Norm::ALL {
-        for order in ladder.orders(norm).into_iter().flatten() {
-            demand(order.is_finite(), || format!("{order} of {ladder:?}"))?;
+        for order in study.orders(norm).into_iter().flatten() {
+            demand(order.is_finite(), || format!("{order} of {study:?}"))?;
         }
-        let fit = ladder.fit(norm);
+        let fit = study.fit(norm);
         if let Ok(fit) = fit {
             let finite = fit.order.is_finite() && fit.residual.is_finite();
             let sure = fit.standard_error.is_none_or(f64::is_finite);
             demand(finite && sure && !fit.constant.is_nan(), || {
-                format!("{fit:?} of {ladder:?}")
+                format!("{fit:?} of {study:?}")
             })?;
         }
-        match ladder.limit(norm, 1.0) {
+        match study.limit(norm, 1.0) {
             Ok(limit) => {
                 let finite = limit.error.is_finite() && limit.standard_error >= 0.0;
-                demand(finite && limit.rungs >= 3, || {
-                    format!("{limit:?} of {ladder:?}")
+                demand(finite && limit.levels >= 3, || {
+                    format!("{limit:?} of {study:?}")
                 })?;
             }
             Err(error) => one_line(&error.to_string())?,
         }
     }
     for format in [FileFormat::Text, FileFormat::Csv] {
-        written(ladder, format)?;
+        written(study, format)?;
     }
-    let json = written(ladder, FileFormat::Json)?;
-    let read = Ladder::read(&*json).map_err(|error| Failure::Refuted(error.to_string()))?;
-    same("the value read back", &read, ladder)
+    let json = written(study, FileFormat::Json)?;
+    let read =
+        RefinementStudy::read(&*json).map_err(|error| Failure::Refuted(error.to_string()))?;
+    same("the value read back", &read, study)
 }
 
-fn written(ladder: &Ladder, format: FileFormat) -> Result<Vec<u8>, Failure> {
+fn written(study: &RefinementStudy, format: FileFormat) -> Result<Vec<u8>, Failure> {
     let mut out = Vec::new();
-    let written = LadderReport::new(ladder).write(format, &mut out);
+    let written = RefinementReport::new(study).write(format, &mut out);
     written.map_err(|error| Failure::Refuted(error.to_string()))?;
     Ok(out)
 }
@@ -147,9 +150,9 @@ fn one_line(message: &str) -> Checked {
 
 /// A damaged record, or any text, is a study that survives a round trip, or is rejected. So is a list of files.
 pub fn any_record(u: &mut Unstructured<'_>) -> Checked {
-    let rungs = [1e3, 1e4, 1e5].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
+    let levels = [1e3, 1e4, 1e5].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
     let whole = written(
-        &Ladder::new(Refinement::Stiffness, rungs)?,
+        &RefinementStudy::new(Refinement::Stiffness, levels)?,
         FileFormat::Json,
     )?;
     let whole = String::from_utf8_lossy(&whole).into_owned();
@@ -158,18 +161,22 @@ pub fn any_record(u: &mut Unstructured<'_>) -> Checked {
     } else {
         text::any(u)?
     };
-    match Ladder::read(record.as_bytes()) {
-        Ok(ladder) => round_trips(&ladder)?,
+    match RefinementStudy::read(record.as_bytes()) {
+        Ok(study) => round_trips(&study)?,
         Err(error) => one_line(&error.to_string())?,
     }
     let list = text::damaged(u, "1e5=soft.csv,1e6=stiff.csv")?;
-    match list.parse::<LadderFiles>() {
-        Ok(LadderFiles(files)) => {
+    match list.parse::<RefinementFiles>() {
+        Ok(RefinementFiles(files)) => {
             let again = files
                 .iter()
                 .map(|file| format!("{:e}={}", file.parameter, file.path.display()));
             let again = again.collect::<Vec<_>>().join(",");
-            same("the list again", &again.parse(), &Ok(LadderFiles(files)))
+            same(
+                "the list again",
+                &again.parse(),
+                &Ok(RefinementFiles(files)),
+            )
         }
         Err(error) => one_line(&error.to_string()),
     }
@@ -181,18 +188,18 @@ mod injected_faults {
 
     #[test]
     fn a_wrong_order_is_caught() {
-        let ladder = |refinement, errors: [f64; 4]| {
-            let rungs = [1.0, 2.0, 4.0, 8.0].into_iter().zip(errors);
-            let rungs = rungs.map(|(of, error)| Rung::of_errors(of, 30, error, error));
-            Ladder::new(refinement, rungs).unwrap()
+        let study = |refinement, errors: [f64; 4]| {
+            let levels = [1.0, 2.0, 4.0, 8.0].into_iter().zip(errors);
+            let levels = levels.map(|(of, error)| Level::of_errors(of, 30, error, error));
+            RefinementStudy::new(refinement, levels).unwrap()
         };
         let squares = [1.0, 4.0, 16.0, 64.0];
-        assert!(found(&ladder(Refinement::TimeStep, squares), 2.0).is_ok());
-        assert!(found(&ladder(Refinement::TimeStep, squares), 2.001).is_err());
+        assert!(found(&study(Refinement::TimeStep, squares), 2.0).is_ok());
+        assert!(found(&study(Refinement::TimeStep, squares), 2.001).is_err());
         // A stiffness in place of a time step.
-        assert!(found(&ladder(Refinement::Stiffness, squares), 2.0).is_err());
+        assert!(found(&study(Refinement::Stiffness, squares), 2.0).is_err());
         // An error that stops decreasing, and one off the line.
-        assert!(found(&ladder(Refinement::TimeStep, [4.0, 4.0, 16.0, 64.0]), 2.0).is_err());
-        assert!(found(&ladder(Refinement::TimeStep, [1.0, 4.001, 16.0, 64.0]), 2.0).is_err());
+        assert!(found(&study(Refinement::TimeStep, [4.0, 4.0, 16.0, 64.0]), 2.0).is_err());
+        assert!(found(&study(Refinement::TimeStep, [1.0, 4.001, 16.0, 64.0]), 2.0).is_err());
     }
 }

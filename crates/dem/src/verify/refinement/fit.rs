@@ -1,8 +1,8 @@
-//! The line through the rungs above the floor, on logarithmic axes.
+//! The line through the levels above the floor, on logarithmic axes.
 
 use core::fmt;
 
-use super::{Ladder, Log, Norm, RungPlace};
+use super::{LevelPlace, Log, Norm, RefinementStudy};
 
 /// An error that falls with less than this order does not fall.
 const MIN_ORDER: f64 = 0.5;
@@ -13,7 +13,7 @@ const KEPT_ORDER: f64 = 2.0 / 3.0;
 /// An error less than so many times that of the floor is partly of the floor.
 const NEAR: f64 = 3.0;
 
-/// The line e = C hᵖ through the rungs above the floor: least squares of ln e = ln C + p ln h, each rung counting alike.
+/// The line e = C hᵖ through the levels above the floor: least squares of ln e = ln C + p ln h, each level counting alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Fit {
@@ -21,26 +21,26 @@ pub struct Fit {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [1e-2, 1e-3, 1e-4].map(|step| Rung::of_errors(step, 30, 7.0 * step * step, step));
-    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert!((ladder.fit(Norm::Largest)?.order - 2.0).abs() < 1e-12);
-    /// assert!((ladder.fit(Norm::Rms)?.order - 1.0).abs() < 1e-12);
+    /// let levels = [1e-2, 1e-3, 1e-4].map(|step| Level::of_errors(step, 30, 7.0 * step * step, step));
+    /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
+    /// assert!((study.fit(Norm::Largest)?.order - 2.0).abs() < 1e-12);
+    /// assert!((study.fit(Norm::Rms)?.order - 1.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub order: f64,
-    /// The standard error of the order, √(Σr²/(n − 2)/Σ(ln h − mean)²) with the residuals r of n rungs; none for two, which
+    /// The standard error of the order, √(Σr²/(n − 2)/Σ(ln h − mean)²) with the residuals r of n levels; none for two, which
     /// every line goes through.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
-    /// let all = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
+    /// let levels = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Level::of_errors(k, 30, error, error));
+    /// let all = RefinementStudy::new(Refinement::Stiffness, levels)?.fit(Norm::Largest)?;
     /// assert!((0.005..0.015).contains(&all.standard_error.unwrap()));
-    /// let two = Ladder::new(Refinement::Stiffness, rungs.into_iter().take(2))?;
+    /// let two = RefinementStudy::new(Refinement::Stiffness, levels.into_iter().take(2))?;
     /// assert_eq!(two.fit(Norm::Largest)?.standard_error, None);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -50,38 +50,38 @@ pub struct Fit {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [1e4, 1e5].map(|k| Rung::of_errors(k, 30, 4.8 / k, 1.0 / k));
-    /// let fit = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
+    /// let levels = [1e4, 1e5].map(|k| Level::of_errors(k, 30, 4.8 / k, 1.0 / k));
+    /// let fit = RefinementStudy::new(Refinement::Stiffness, levels)?.fit(Norm::Largest)?;
     /// assert!((fit.constant - 4.8).abs() < 1e-10);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub constant: f64,
-    /// The root of the mean square of ln e − ln(C hᵖ): 0.01 if the rungs are some 1 % off the line.
+    /// The root of the mean square of ln e − ln(C hᵖ): 0.01 if the levels are some 1 % off the line.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
-    /// let fit = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
+    /// let levels = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Level::of_errors(k, 30, error, error));
+    /// let fit = RefinementStudy::new(Refinement::Stiffness, levels)?.fit(Norm::Largest)?;
     /// assert!((0.01..0.03).contains(&fit.residual));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub residual: f64,
-    /// How many rungs are above the floor.
+    /// How many levels are above the floor.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [1e-2, 1e-3, 1e-4, 1e-5].map(|step: f64| Rung::of_errors(step, 30, step.max(1e-4), step));
-    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
-    /// assert_eq!((ladder.fit(Norm::Largest)?.rungs, ladder.fit(Norm::Rms)?.rungs), (2, 4));
+    /// let levels = [1e-2, 1e-3, 1e-4, 1e-5].map(|step: f64| Level::of_errors(step, 30, step.max(1e-4), step));
+    /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
+    /// assert_eq!((study.fit(Norm::Largest)?.levels, study.fit(Norm::Rms)?.levels), (2, 4));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub rungs: usize,
+    pub levels: usize,
 }
 
 impl Fit {
@@ -89,10 +89,10 @@ impl Fit {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// let rungs = [1e-2, 1e-3].map(|step| Rung::of_errors(step, 30, 7.0 * step, step));
-    /// let fit = Ladder::new(Refinement::TimeStep, rungs)?.fit(Norm::Largest)?;
+    /// let levels = [1e-2, 1e-3].map(|step| Level::of_errors(step, 30, 7.0 * step, step));
+    /// let fit = RefinementStudy::new(Refinement::TimeStep, levels)?.fit(Norm::Largest)?;
     /// assert!((fit.at(1e-5) / 7e-5 - 1.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -104,7 +104,7 @@ impl Fit {
     /// The line through some points.
     fn through(points: &[Log]) -> Result<Self, NoOrder> {
         let few = NoOrder::Few {
-            rungs: points.len(),
+            levels: points.len(),
             least: 2,
         };
         if points.len() < 2 {
@@ -132,28 +132,28 @@ impl Fit {
             standard_error: (free > 0.0).then(|| (squares / free / spread).sqrt()),
             constant: (middle.e - order * middle.h).exp(),
             residual: (squares / count).sqrt(),
-            rungs: points.len(),
+            levels: points.len(),
         })
     }
 }
 
-impl Ladder {
-    /// Where each rung is: which ones the order is taken from.
+impl RefinementStudy {
+    /// Where each level is: which ones the order is taken from.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung, RungPlace};
+    /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level, LevelPlace};
     ///
-    /// let rungs = [(10.0, 0.2), (1e3, 2e-3), (1e4, 2e-4), (1e5, 5e-5), (1e6, 6e-5)];
-    /// let mut rungs = rungs.map(|(k, error)| Rung::of_errors(k, 30, error, error));
-    /// rungs[0].missing = 3;
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-    /// let places = ladder.places(Norm::Largest);
-    /// assert_eq!(places, [RungPlace::Incomplete, RungPlace::Above, RungPlace::Above, RungPlace::Floor, RungPlace::Floor]);
-    /// # Ok::<(), cannonpile_dem::verify::NoLadder>(())
+    /// let levels = [(10.0, 0.2), (1e3, 2e-3), (1e4, 2e-4), (1e5, 5e-5), (1e6, 6e-5)];
+    /// let mut levels = levels.map(|(k, error)| Level::of_errors(k, 30, error, error));
+    /// levels[0].missing = 3;
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
+    /// let places = study.places(Norm::Largest);
+    /// assert_eq!(places, [LevelPlace::Incomplete, LevelPlace::Above, LevelPlace::Above, LevelPlace::Floor, LevelPlace::Floor]);
+    /// # Ok::<(), cannonpile_dem::verify::NoRefinement>(())
     /// ```
     #[must_use]
-    pub fn places(&self, norm: Norm) -> Vec<RungPlace> {
+    pub fn places(&self, norm: Norm) -> Vec<LevelPlace> {
         let logs: Vec<_> = self.logs(norm).collect();
         let points: Vec<Log> = logs.iter().filter_map(|log| log.ok()).collect();
         let above = above(&points);
@@ -161,9 +161,9 @@ impl Ladder {
         let mut place = || {
             met += 1;
             if met <= above {
-                RungPlace::Above
+                LevelPlace::Above
             } else {
-                RungPlace::Floor
+                LevelPlace::Floor
             }
         };
         let places = logs
@@ -172,20 +172,20 @@ impl Ladder {
         places.collect()
     }
 
-    /// The line through the rungs above the floor.
+    /// The line through the levels above the floor.
     ///
     /// # Errors
-    /// [`NoOrder`] for fewer than two such rungs, and for parameters so near to each other that no slope is seen.
+    /// [`NoOrder`] for fewer than two such levels, and for parameters so near to each other that no slope is seen.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Ladder, NoOrder, Norm, Refinement, Rung};
+    /// use cannonpile_dem::verify::{RefinementStudy, NoOrder, Norm, Refinement, Level};
     ///
-    /// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 4.8 / k, 0.01));
-    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
-    /// assert!((ladder.fit(Norm::Largest)?.order - 1.0).abs() < 1e-12);
+    /// let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 30, 4.8 / k, 0.01));
+    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
+    /// assert!((study.fit(Norm::Largest)?.order - 1.0).abs() < 1e-12);
     /// // These do not fall at all: all but the first are on the floor.
-    /// assert_eq!(ladder.fit(Norm::Rms), Err(NoOrder::Few { rungs: 1, least: 2 }));
+    /// assert_eq!(study.fit(Norm::Rms), Err(NoOrder::Few { levels: 1, least: 2 }));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn fit(&self, norm: Norm) -> Result<Fit, NoOrder> {
@@ -194,19 +194,19 @@ impl Ladder {
         Fit::through(&points)
     }
 
-    /// The points of whole rungs, or why there is none.
-    fn logs(&self, norm: Norm) -> impl Iterator<Item = Result<Log, RungPlace>> {
-        self.rungs().iter().map(move |rung| {
-            if rung.is_whole() {
-                self.log(rung, norm).ok_or(RungPlace::NoLogarithm)
+    /// The points of whole levels, or why there is none.
+    fn logs(&self, norm: Norm) -> impl Iterator<Item = Result<Log, LevelPlace>> {
+        self.levels().iter().map(move |level| {
+            if level.is_whole() {
+                self.log(level, norm).ok_or(LevelPlace::NoLogarithm)
             } else {
-                Err(RungPlace::Incomplete)
+                Err(LevelPlace::Incomplete)
             }
         })
     }
 }
 
-/// How many points are above the floor: see [`ladder`](super).
+/// How many points are above the floor: see [`refinement`](super).
 fn above(points: &[Log]) -> usize {
     let last = points.iter().enumerate().position(|(n, from)| {
         let until_here = points.first().filter(|_| n >= 2);
@@ -219,38 +219,38 @@ fn above(points: &[Log]) -> usize {
     let (Some(last), Some(floor)) = (above.last(), floor.first()) else {
         return above.len();
     };
-    let level = last.e.min(floor.e) + NEAR.ln();
-    let is_near = |point: &&Log| point.e < level;
+    let bound = last.e.min(floor.e) + NEAR.ln();
+    let is_near = |point: &&Log| point.e < bound;
     let near = above.iter().skip(2).rev().take_while(is_near).count();
     above.len() - near
 }
 
-#[expect(clippy::cast_precision_loss, reason = "at most a thousand rungs")]
-pub(super) fn count(rungs: usize) -> f64 {
-    rungs as f64
+#[expect(clippy::cast_precision_loss, reason = "at most a thousand levels")]
+pub(super) fn count(levels: usize) -> f64 {
+    levels as f64
 }
 
-/// Why a ladder has no order, or no limit: one line with the remedy.
+/// Why a refinement study has no order, or no limit: one line with the remedy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoOrder {
-    /// Too few rungs.
+    /// Too few levels.
     Few {
         /// How many there are above the floor; for a limit, down to the least error.
-        rungs: usize,
+        levels: usize,
         /// How many it takes.
         least: usize,
     },
     /// Parameters that differ by less than is seen.
     Alike,
-    /// Errors that do not fall from rung to rung down to the least of them.
+    /// Errors that do not fall from level to level down to the least of them.
     Rising {
-        /// The stiffness or the time step of the rung whose error is not below the one before.
+        /// The stiffness or the time step of the level whose error is not below the one before.
         parameter: f64,
     },
     /// An error of 0 among those of which the limit is taken.
     Zero {
-        /// The stiffness or the time step of its rung.
+        /// The stiffness or the time step of its level.
         parameter: f64,
     },
     /// An order that cannot be one.
@@ -263,9 +263,9 @@ pub enum NoOrder {
 impl fmt::Display for NoOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Few { rungs, least } => write!(
+            Self::Few { levels, least } => write!(
                 f,
-                "{rungs} of the {least} rungs it takes have an error that falls, with all contacts there: add coarser ones, \
+                "{levels} of the {least} levels it takes have an error that falls, with all contacts there: add coarser ones, \
                  which are farther above the floor"
             ),
             Self::Alike => f.write_str(
@@ -273,11 +273,11 @@ impl fmt::Display for NoOrder {
             ),
             Self::Rising { parameter } => write!(
                 f,
-                "the error at {parameter:e} is not below that of the coarser rung: only errors that fall have a limit"
+                "the error at {parameter:e} is not below that of the coarser level: only errors that fall have a limit"
             ),
             Self::Zero { parameter } => write!(
                 f,
-                "the error at {parameter:e} is 0: leave this rung out, nothing is left of it"
+                "the error at {parameter:e} is 0: leave this level out, nothing is left of it"
             ),
             Self::Order { order } => write!(f, "{order:e} is no order: it is positive"),
         }
