@@ -158,8 +158,8 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "faults",
-        statement: "Few faults: a run transmits a force along its line. A sign change turns a third of a force into \
-                    the three parts of Gg: −1/3 along the same line, and 2/3 along the others. So d sign changes turn \
+        statement: "Few faults: a run transmits a force along its line. A sign change turns a force into three parts, \
+                    those of Gg: −1/3 of it along the same line, and 2/3 along each of the others. So d sign changes turn \
                     a unit load into 3^(d+1) forces. Their sum is 1, the sum of their squares is 1/3, and the sum of \
                     their absolute values is (5/3)^d. Each sign change multiplies the sum of 3^(d+1)v by 3, the sum of \
                     squares by 9, and the sum of absolute values by 5; by induction",

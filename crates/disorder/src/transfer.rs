@@ -92,7 +92,7 @@ fn run_in<T: Number + TryFrom<BigInt> + Into<BigInt>>(
     denominator: &BigInt,
     shares: Option<[BigInt; 2]>,
 ) -> Result<Vec<Spot<BigInt>>, Error> {
-    let number = |n: BigInt| T::try_from(n).map_err(|_| bug("the bound is that of all numbers"));
+    let number = |n: BigInt| T::try_from(n).map_err(|_| bug("the bound holds for all numerators"));
     let scalar = |x: &BigRational| number(x.numer() * (denominator / x.denom()));
     let spots = match shares {
         None => Transfer::new(domain, classes, [Unity, Unity], scalar)?.run()?,

@@ -27,7 +27,7 @@ impl Sampler {
         let q = samples.fault_probability();
         let [faults, of] = [q.numer(), q.denom()].map(|part| {
             part.to_u64()
-                .ok_or_else(|| bug("a probability to draw with fits 64 bits"))
+                .ok_or_else(|| bug("a sampled probability fits 64 bits"))
         });
         let mut key = [0; 32];
         key.iter_mut()

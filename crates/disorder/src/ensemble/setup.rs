@@ -122,7 +122,8 @@ impl Task {
 
     /// Converts the numerators to integers that are wide enough.
     pub(super) fn setup<T: Numerator>(&self, ensemble: &Ensemble) -> Result<Setup<T>, Error> {
-        let number = |big: BigInt| T::try_from(big).map_err(|_| bug("the bound holds for all"));
+        let number =
+            |big: BigInt| T::try_from(big).map_err(|_| bug("the bound holds for all numerators"));
         let units = |faults: usize| {
             let power = power_of_three(faults);
             Ok(Units {
