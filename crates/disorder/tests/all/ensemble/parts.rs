@@ -259,7 +259,7 @@ fn errors_name_twenty_missing_parts() -> Result<(), Error> {
         let (count, more) = (of - 1, if of > 21 { ", …" } else { "" });
         let parts = if count == 1 { "part is" } else { "parts are" };
         let expected = format!(
-            "{count} {parts} missing, {}{more}: run ensemble with --shard for each, and give its file too",
+            "{count} {parts} missing, {}{more}: run ensemble with --shard for each, and add its file",
             named.join(", ")
         );
         assert_eq!(missing.to_string(), expected);
