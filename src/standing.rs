@@ -371,11 +371,11 @@ impl Packing<'_> {
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Region;
-    /// use cannonpile::{Pile, Verdict};
+    /// use cannonpile::{Packing, Pile, Verdict};
     ///
     /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
-    /// assert_eq!(pile.packing(&"6/5".parse()?)?.stands()?, Verdict::No);
-    /// assert_eq!(pile.packing(&"1".parse()?)?.stands()?, Verdict::Undetermined);
+    /// assert_eq!(Packing::new(&pile, &"6/5".parse()?)?.stands()?, Verdict::No);
+    /// assert_eq!(Packing::new(&pile, &"1".parse()?)?.stands()?, Verdict::Undetermined);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn stands(&self) -> Result<Verdict, Error> {

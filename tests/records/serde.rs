@@ -217,7 +217,7 @@ fn floats_keep_their_last_bit() {
         r#""0","low":"5e-324""#,
     ] {
         assert!(
-            refusal::<DoubleDouble>(&format!("{{\"high\":{parts}}}")).contains("too great"),
+            refusal::<DoubleDouble>(&format!("{{\"high\":{parts}}}")).contains("too large"),
             "{parts}"
         );
     }

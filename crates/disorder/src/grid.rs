@@ -96,7 +96,7 @@ impl Size {
         // The last term estimates the ranges.
         let needed = cells * per_cell + BigUint::from(self.steps.unsigned_abs());
         let words = words.max(1);
-        // Saturation is correct, because no machine has so many words.
+        // Not a default: saturation is correct, because no machine has so many words.
         let bytes = usize::try_from(words).map_or(usize::MAX, |words| words.saturating_mul(8));
         refuse_beyond_memory(
             quantity,
@@ -226,7 +226,7 @@ fn dilated(window: &[Range<usize>]) -> Vec<Range<usize>> {
         let hull = |hull: Range<usize>, part: Range<usize>| {
             hull.start.min(part.start)..hull.end.max(part.end)
         };
-        // No force reaches such a row, so its range is empty.
+        // Not a default: no force reaches such a row, so its range is empty.
         parts.into_iter().flatten().reduce(hull).unwrap_or(0..0)
     });
     hulls.collect()

@@ -293,7 +293,7 @@ impl RandomPiles {
         let tripled: BigInt = q.denom() * 3;
         // Each step except the first and the last multiplies the denominator by 3b.
         let choices = self.stackings.most_faults();
-        // A larger number of steps exceeds the memory limit anyway.
+        // Not a default: a larger number of steps exceeds the memory limit anyway.
         let steps = u64::try_from(choices.max(1)).unwrap_or(u64::MAX);
         let growth = tripled.bits().saturating_mul(steps);
         let domain = Domain::new(self, 1, Width::of(growth).words(growth))?;

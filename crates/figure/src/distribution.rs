@@ -31,7 +31,7 @@ use crate::Error;
 /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
 /// let half = BigRational::new(1.into(), 2.into());
 /// let figure = cannonpile_figure::distribution(&tally, ForceKind::Contact, &half)?.unwrap();
-/// assert!(figure.to_string().contains("those that stand"));
+/// assert!(figure.to_string().contains("stable stackings"));
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
 pub fn distribution(

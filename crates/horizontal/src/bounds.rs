@@ -318,7 +318,7 @@ impl<'p> Solver<'p> {
         Certificate {
             pile: self.pile.clone(),
             claim,
-            // Without forces the claim does not say that the bound is attained.
+            // Not a default: without forces the claim does not say that the bound is attained.
             horizontal: horizontal.unwrap_or_default(),
             field,
         }

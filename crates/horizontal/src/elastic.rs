@@ -203,9 +203,9 @@ fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
     let network = &springs.network;
     let sloping = network.weights.len();
     // Horizontal forces are scaled by √(κ′/κ), so that the objective of the program is a plain sum of squares.
-    // An infinite ratio is clamped below.
+    // Not a default: an infinite ratio is clamped below.
     let ratio = springs.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
-    // Beyond these ratios the set of active contacts hardly changes. The result is only a guess for the exact
+    // Not a default: beyond these ratios the set of active contacts hardly changes. The result is only a guess for the exact
     // method.
     let unit = ratio.clamp(1e-6, 1e6).sqrt();
     let unit = BigRational::from_float(unit).ok_or_else(|| bug("a stiffness ratio is finite"))?;

@@ -220,7 +220,7 @@ impl<'p> Network<'p> {
         let directions = self.pile.dimension().directions().len();
         let spheres = self.spheres.iter().zip(numbers.chunks(directions));
         spheres.map(|(site, numbers)| {
-            // Discs have no third direction; its value is zero.
+            // Not a default: discs have no third direction; its value is zero.
             let number = |l: usize| numbers.get(l).cloned().unwrap_or_else(BigRational::zero);
             (*site, [number(0), number(1), number(2)])
         })

@@ -156,7 +156,7 @@ impl Springs<'_> {
         let unknowns: Vec<usize> = system.rows.keys().copied().collect();
         let mut null_vectors = null_space(system.equations()).ok_or_else(unsolvable)?;
         while let Some(change) = null_vectors.pop() {
-            // A value that overflows a float is also beyond the accuracy of a guess.
+            // Not a default: a value that overflows a float is also beyond the accuracy of a guess.
             let float = |exact: &BigRational| exact.to_f64().unwrap_or(f64::INFINITY);
             let changing = (0..unknowns.len()).filter(|number| !change[*number].is_zero());
             let step = |number: usize| -gaps[unknowns[number]] / float(&change[number]);

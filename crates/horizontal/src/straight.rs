@@ -172,7 +172,7 @@ impl Straight {
 /// those of + steps.
 pub(crate) fn factor_of(pile: &Pile) -> i128 {
     let sign = pile.shape().sign_below(0);
-    // A single sphere has no step; either sign is correct.
+    // Not a default: a single sphere has no step; either sign is correct.
     sign.map_or(1, |sign| sign.factor().into())
 }
 

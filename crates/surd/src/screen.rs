@@ -43,7 +43,7 @@ fn leading(n: &BigUint) -> Option<Scaled> {
     const PART: u128 = (1 << 53) - 1;
     let mut top_down = n.iter_u64_digits().rev();
     let first = top_down.next()?;
-    // Missing digits of a short number are zeros, so 0 is their exact value.
+    // Not a default: missing digits of a short number are zeros, so 0 is their exact value.
     let mut digit = || u128::from(top_down.next().unwrap_or(0));
     let (second, third) = (digit(), digit());
     let zeros = first.leading_zeros();

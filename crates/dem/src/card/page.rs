@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use super::record::{Names, name};
+use super::record::{Names, given, name};
 use super::{CardTitle, layers};
 use crate::numbered::NumberedPile;
 use crate::scene::State;
@@ -129,13 +129,6 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
         ("contact_count", Some(numbered.contact_count().to_string())),
         ("name", Some(cited)),
     ])
-}
-
-/// The texts that are there, by their names.
-pub(super) fn given<const N: usize>(texts: [(&str, Option<String>); N]) -> Names {
-    let texts = texts.into_iter();
-    let given = texts.filter_map(|(name, text)| Some((name.to_owned(), text?)));
-    given.collect()
 }
 
 const SPHERE: &str = "| {id} | {site} | `{x.exact}` | `{y.exact}` | `{z.exact}` |";

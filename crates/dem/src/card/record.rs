@@ -9,7 +9,6 @@ use serde_json::{Value as Json, json};
 
 use super::extremes::{Extreme, Extremes};
 use super::lists::{FORCE, base, contact, contacts, integer, placed, rational, spheres, value};
-use super::page::given;
 use super::{CardTitle, heading};
 use crate::Error;
 use crate::error::bug;
@@ -188,6 +187,13 @@ fn answers(
         "base": few(&pile.base_sphere_count()).then(|| base(numbered)).transpose()?,
         "base_file": "base.csv",
     }))
+}
+
+/// Collects the texts that are present, by their names.
+pub(super) fn given<const N: usize>(texts: [(&str, Option<String>); N]) -> Names {
+    let texts = texts.into_iter();
+    let given = texts.filter_map(|(name, text)| Some((name.to_owned(), text?)));
+    given.collect()
 }
 
 /// Names the texts and the numbers of a record: each by the keys that lead to it.

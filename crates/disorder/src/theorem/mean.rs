@@ -113,7 +113,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     let q_of = cubic(&q, [&t1, &t2, &s], &(square(&lambda) + &mu), &lambda);
     let left = determinant(&rows) - &q_of;
     let relation = product - &P::one();
-    // If the division leaves a remainder, the equation below fails.
+    // Not a default: if the division leaves a remainder, the equation below fails.
     let multiple = left.divide_exactly(&relation).unwrap_or_else(P::zero);
     let mut steps = equations! {
         "det(λ−M) − λ³Q(λ+μ/λ) is a multiple of abc − 1": left => multiple * &relation,

@@ -115,8 +115,8 @@ fn distribution_has_curves_of_all_and_of_stable_stackings() {
         assert_eq!(curve.attribute("points").unwrap().split(' ').count(), 2);
     }
     let svg = of(ForceKind::Contact, &ratio(1, 2));
-    assert!(svg.contains("all stackings") && svg.contains("those that stand"));
-    // Some pull, and those that stand do not: the first curve begins further left.
+    assert!(svg.contains("all stackings") && svg.contains("stable stackings"));
+    // Only unstable stackings have tensile forces, so the first curve begins further left.
     let document = Document::parse(&svg).unwrap();
     let begins = |curve: &roxmltree::Node<'_, '_>| -> f64 {
         let (x, _) = curve.attribute("points").unwrap().split_once(',').unwrap();
