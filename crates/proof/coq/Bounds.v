@@ -76,7 +76,7 @@ Qed.
 
 (** The load on a corner below K layers is at least K f0, for all horizontal forces. *)
 Theorem least_on_a_corner : forall edge f X K, balanced_beside f X K ->
-  least_on_corner (n_of K) <= rests_on f K (corner edge K).
+  least_on_corner (n_of K) <= load_on f K (corner edge K).
 Proof.
   intros edge f X K H. assert (B := at_least f X K _ _ H (corners_are_there edge K) (least_certificate edge K)).
   unfold least_field in B. rewrite sum_along_the_edge in B.
@@ -88,9 +88,9 @@ Qed.
 
 (** The closed form of the paper attains this bound. *)
 Theorem least_is_reached : forall edge K,
-  rests_on paper_forces K (corner edge K) == least_on_corner (n_of K).
+  load_on paper_forces K (corner edge K) == least_on_corner (n_of K).
 Proof.
-  intros edge K. unfold rests_on, rests. rewrite arriving_is_received.
+  intros edge K. unfold load_on, load_below. rewrite arriving_is_received.
   destruct (paper_forces_arrive K (fst (corner edge K)) (snd (corner edge K)) (corners_are_there edge K)) as (a & b & c).
   unfold sum. rewrite a, b, c. clear a b c. unfold brought.
   destruct edge; cbn [corner fst snd]; fold (n_of K); change (q 0) with 0; formulas; ring.
@@ -98,7 +98,7 @@ Qed.
 
 (** The load is at most 3K - 2 f0. *)
 Theorem greatest_on_a_corner : forall edge f X K, (1 <= K)%nat -> balanced_beside f X K ->
-  rests_on f K (corner edge K) <= greatest_on_corner (n_of K).
+  load_on f K (corner edge K) <= greatest_on_corner (n_of K).
 Proof.
   intros edge f X K H1 H. assert (B := at_most f X K _ _ H (corners_are_there edge K) (greatest_certificate edge K)).
   unfold greatest_field in B. rewrite sum_along_the_edge in B.
@@ -202,9 +202,9 @@ Proof.
 Qed.
 
 Theorem greatest_is_reached : forall edge K, (1 <= K)%nat ->
-  rests_on (edge_forces edge) K (corner edge K) == greatest_on_corner (n_of K).
+  load_on (edge_forces edge) K (corner edge K) == greatest_on_corner (n_of K).
 Proof.
-  intros edge [|m] H; [lia|]. unfold rests_on, rests. rewrite arriving_is_received.
+  intros edge [|m] H; [lia|]. unfold load_on, load_below. rewrite arriving_is_received.
   destruct (edge_forces_arrive edge (S m) (fst (corner edge (S m))) (snd (corner edge (S m)))) as (a & b & c).
   unfold sum. rewrite a, b, c. clear. cbn [map alpha beta gamma]. rewrite <- !inject_Z_plus.
   transitivity (q (3 * Z.of_nat m + 1)).
@@ -357,7 +357,7 @@ Qed.
 
 (** The load on a bottom sphere with n_l spheres above it on its lines is at most the sum of C(n_l + 2, 3). *)
 Theorem greatest_on_any_sphere : forall a b c f X, balanced_beside f X (a + b + c) ->
-  rests_on f (a + b + c) (inner_site b c) <= greatest_inside (Three (n_of a) (n_of b) (n_of c)).
+  load_on f (a + b + c) (inner_site b c) <= greatest_inside (Three (n_of a) (n_of b) (n_of c)).
 Proof.
   intros a b c f X H. rewrite <- sum_of_inner. apply (at_most f X); [exact H | | apply inner_certificate].
   apply occupied_iff. cbn [inner_site fst snd]. lia.
@@ -658,7 +658,7 @@ Qed.
 (** For every c. *)
 Theorem greatest_on_an_edge_for : forall a b k j c f X, a <> b -> (1 <= j)%nat -> (1 <= c <= k)%nat ->
   balanced_beside f X (k + j) ->
-  rests_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) <= greatest_on_edge (n_of k) (n_of j) (n_of c).
+  load_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) <= greatest_on_edge (n_of k) (n_of j) (n_of c).
 Proof.
   intros a b k j c f X D Hj Hc H. rewrite <- (sum_of_edge a b k j c D Hj Hc).
   apply (at_most f X); [exact H | | apply edge_certificate; assumption].
@@ -667,10 +667,10 @@ Qed.
 
 (** The bound is that for c = min(j+1, k): the load is at most 2(j+1)(k-1) + 1, and 2k^2 for k = j. *)
 Theorem greatest_on_an_edge : forall a b k j f X, a <> b -> (1 <= j <= k)%nat -> balanced_beside f X (k + j) ->
-  let rests := rests_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) in
-  rests <= greatest_on_edge (n_of k) (n_of j) (n_of (Nat.min (j + 1) k)) /\
-  ((j < k)%nat -> rests <= 2 * (n_of j + 1) * (n_of k - 1) + 1) /\
-  (j = k -> rests <= 2 * n_of k * n_of k).
+  let load := load_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) in
+  load <= greatest_on_edge (n_of k) (n_of j) (n_of (Nat.min (j + 1) k)) /\
+  ((j < k)%nat -> load <= 2 * (n_of j + 1) * (n_of k - 1) + 1) /\
+  (j = k -> load <= 2 * n_of k * n_of k).
 Proof.
   intros a b k j f X D Hj H. cbv zeta.
   assert (B := greatest_on_an_edge_for a b k j (Nat.min (j + 1) k) f X D (proj1 Hj)). specialize (B ltac:(lia) H).

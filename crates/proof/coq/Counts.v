@@ -257,13 +257,13 @@ Qed.
 
     In d dimensions a sphere has d supports, in the directions of the corners of a regular simplex. d times the
     horizontal part of direction m is d-1 along its own coordinate and -1 along each other one. *)
-Definition sideways (d c m : nat) : Q := if (m =? c)%nat then n_of d - 1 else - (1).
+Definition horizontal_part (d c m : nat) : Q := if (m =? c)%nat then n_of d - 1 else - (1).
 
 Lemma total_of_corners : forall d c n,
-  total n (sideways d c) == (if (c <? n)%nat then n_of d else 0) - n_of n.
+  total n (horizontal_part d c) == (if (c <? n)%nat then n_of d else 0) - n_of n.
 Proof.
   intros d c. induction n as [|n IH]; [simpl; rewrite n_of_0; destruct (c <? 0)%nat eqn:A; [discriminate A | ring]|].
-  change (total (S n) ?f) with (total n f + f n). rewrite IH, n_of_S. unfold sideways.
+  change (total (S n) ?f) with (total n f + f n). rewrite IH, n_of_S. unfold horizontal_part.
   destruct (n =? c)%nat eqn:E, (c <? n)%nat eqn:A, (c <? S n)%nat eqn:B;
     rewrite ?Nat.eqb_eq, ?Nat.eqb_neq, ?Nat.ltb_lt, ?Nat.ltb_ge in *; try lia; ring.
 Qed.
@@ -272,12 +272,12 @@ Qed.
     loads. *)
 Theorem balance_in_any_dimension : forall d (g : nat -> Q),
   total d (fun m => transmitted (g m) 1 - g m) == n_of d /\
-  forall c, (c < d)%nat -> total d (fun m => sideways d c m * (transmitted (g m) 1 - g m)) == 0.
+  forall c, (c < d)%nat -> total d (fun m => horizontal_part d c m * (transmitted (g m) 1 - g m)) == 0.
 Proof.
   intros d g. split.
   - rewrite (total_of_same _ _ (fun _ => 1)) by (intros; opened; ring).
     rewrite (total_is (fun _ => 1) (fun x => x)); [reflexivity | intros ? ? ?; assumption | reflexivity | intros; ring].
-  - intros c Hc. rewrite (total_of_same _ _ (sideways d c)) by (intros; opened; ring).
+  - intros c Hc. rewrite (total_of_same _ _ (horizontal_part d c)) by (intros; opened; ring).
     rewrite total_of_corners. apply Nat.ltb_lt in Hc. rewrite Hc. ring.
 Qed.
 

@@ -397,7 +397,7 @@ Definition spread (from to : sign) (c : contact) : list contact :=
   List.map (fun d => Contact (c.(at_x) + (down_by to d).(along_x)) (c.(at_y) + (down_by to d).(along_y)) d (on d f))
     [Alpha; Beta; Gamma].
 
-(** The load rests on three contacts, one third each. *)
+(** Three contacts carry the load, one third each. *)
 Definition first (sigma : sign) : list contact :=
   List.map (fun d => Contact (down_by sigma d).(along_x) (down_by sigma d).(along_y) d
       (on d (increments (1 # 2)) / weight (increments (1 # 2))))

@@ -461,7 +461,7 @@ Hypothesis in_equilibrium : equilibrium top step f X w K.
 Hypothesis nothing_pulls : no_pull top step f X K.
 
 (** The load: the forces that the spheres of the last free layer transmit to it. *)
-Definition rests : Q := sum (arriving top step f K (fst p) (snd p)).
+Definition load_below : Q := sum (arriving top step f K (fst p) (snd p)).
 
 Definition truth (b : bool) : Q := if b then 1 else 0.
 Definition is_at (p r : site) : bool := if same_site r p then true else false.
@@ -512,9 +512,9 @@ Proof.
   destruct (Nat.eqb_spec k K); [lia | reflexivity].
 Qed.
 
-Lemma what_rests : arriving_work top step f with_floor K == rests.
+Lemma work_is_load_below : arriving_work top step f with_floor K == load_below.
 Proof using on_the_floor.
-  unfold arriving_work, rests.
+  unfold arriving_work, load_below.
   transitivity (over (spheres top step K) (fun r =>
     if same_site r p then sum (arriving top step f K (fst r) (snd r)) else 0)).
   - apply over_of_same. intros r _. rewrite (dot_of_same _ _ _ (felt_of_floor r)). unfold is_at, truth, dot.
@@ -525,18 +525,18 @@ Proof using on_the_floor.
 Qed.
 
 (** Weak duality: the load on p is at most the work of the weights. *)
-Theorem at_most_the_weights : certifies Plus -> rests <= over_spheres top step K (work_of_weight w psi).
+Theorem at_most_the_weights : certifies Plus -> load_below <= over_spheres top step K (work_of_weight w psi).
 Proof using on_the_floor in_equilibrium nothing_pulls.
-  intros [D C]. rewrite <- weights_with_floor, <- what_rests.
+  intros [D C]. rewrite <- weights_with_floor, <- work_is_load_below.
   apply (no_more_than_the_weights top step f X w with_floor K); try assumption.
   - intros. rewrite drop_with_floor by assumption. apply (D k i j d); assumption.
   - intros. rewrite squeeze_with_floor by assumption. apply (C k i j x); assumption.
 Qed.
 
 (** The same as a lower bound. *)
-Theorem at_least_the_weights : certifies Minus -> over_spheres top step K (work_of_weight w psi) <= rests.
+Theorem at_least_the_weights : certifies Minus -> over_spheres top step K (work_of_weight w psi) <= load_below.
 Proof using on_the_floor in_equilibrium nothing_pulls.
-  intros [D C]. rewrite <- weights_with_floor, <- what_rests.
+  intros [D C]. rewrite <- weights_with_floor, <- work_is_load_below.
   apply (no_less_than_the_weights top step f X w with_floor K); try assumption.
   - intros. rewrite drop_with_floor by assumption.
     assert (A : 0 <= times Minus (excess k i j d)) by (apply D; assumption). cbn [times] in A. lra.
@@ -578,7 +578,7 @@ Definition balanced_beside (f : nat -> Z -> Z -> three Q) (X : nat -> axis -> Z 
   equilibrium apex straight f X mg K /\ no_pull apex straight f X K.
 
 (** The load on a bottom sphere, in f0. *)
-Definition rests_on (f : nat -> Z -> Z -> three Q) (K : nat) (p : site) : Q := rests apex straight f K p.
+Definition load_on (f : nat -> Z -> Z -> three Q) (K : nat) (p : site) : Q := load_below apex straight f K p.
 
 Definition sum_of (K : nat) (psi : nat -> Z -> Z -> three Q) : Q :=
   over_spheres apex straight K (fun k i j => sum (psi k i j)).
@@ -618,7 +618,7 @@ Proof.
 Qed.
 
 Theorem at_most : forall f X K p psi, balanced_beside f X K -> occupied K (fst p) (snd p) = true ->
-  certificate Plus K p psi -> rests_on f K p <= sum_of K psi.
+  certificate Plus K p psi -> load_on f K p <= sum_of K psi.
 Proof.
   intros f X K [i j] psi [E P] H C. rewrite <- works_of_mg.
   apply (at_most_the_weights apex straight f X mg K (i, j)); try assumption.
@@ -627,7 +627,7 @@ Proof.
 Qed.
 
 Theorem at_least : forall f X K p psi, balanced_beside f X K -> occupied K (fst p) (snd p) = true ->
-  certificate Minus K p psi -> sum_of K psi <= rests_on f K p.
+  certificate Minus K p psi -> sum_of K psi <= load_on f K p.
 Proof.
   intros f X K [i j] psi [E P] H C. rewrite <- works_of_mg.
   apply (at_least_the_weights apex straight f X mg K (i, j)); try assumption.
