@@ -364,7 +364,7 @@ def dark_and_small(browser):
     shown.quiet()
     shown = Shown(browser, path, size=PHONE, scale=2, touch=True)
     wide = shown.run("[document.documentElement.scrollWidth, innerWidth]")
-    check(wide[0] <= wide[1], "a phone has to scroll sideways", wide)
+    check(wide[0] <= wide[1], "a phone has to scroll horizontally", wide)
     shown.run("document.getElementById('above').click()")
     loaded = shown.run("cannonpile.pile.find('0,0,0')")
     x, y = shown.at(loaded)

@@ -1,7 +1,7 @@
 //! Forces in newtons and positions in metres.
 //!
 //! A `Packing` gives a pile its spacing, radius, mass and gravity. Its answers are exact numbers c·√n, and each converts
-//! to the nearest float. Run it with `cargo run --example newtons`.
+//! to a correctly rounded float. Run it with `cargo run --example newtons`.
 
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::{Error, Packing, Pile, ratio};

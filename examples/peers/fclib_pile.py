@@ -68,7 +68,7 @@ with h5py.File(folder / "pile.hdf5", "w") as file:
     local["W/p"], local["W/i"], local["W/x"] = starts.astype("i4"), row.astype("i4"), matrix[row, column]
     local["vectors/q"], local["vectors/mu"] = offset, numpy.zeros(len(pairs))
     local["info/title"] = numpy.bytes_(f"{len(piled)} frictionless spheres, {len(pairs)} contacts")
-    local["info/description"] = numpy.bytes_("a regular pile at rest on a fixed bottom layer, exported by cannonpile")
+    local["info/description"] = numpy.bytes_("a regular pile in equilibrium on a fixed bottom layer, exported by cannonpile")
     local["info/math_info"] = numpy.bytes_("the solution, if there is one, is unique: the pile is isostatic")
     file["solution/r"], file["solution/u"] = forces, matrix @ forces + offset
 print(f"pile.hdf5: {len(pairs)} contacts, {len(row)} entries of W")

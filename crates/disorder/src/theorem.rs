@@ -280,7 +280,7 @@ fn resultant_form(f: &Formulas) -> Vec<Step> {
     );
     let twice = form(true, &form(true, &g));
     steps.extend(by_line(
-        "under −, Gψ = GGg = g is passed on under −",
+        "under −, Gψ = GGg = g is transmitted under −",
         twice,
         g,
     ));

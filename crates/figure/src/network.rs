@@ -135,7 +135,7 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
 /// let pile = Pile::triangular(10)?;
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let subject = Subject::of_pile(&pile, &spacing)?;
-/// // Every sphere of a layer rests on three others.
+/// // Three spheres support every sphere of a layer.
 /// assert_eq!(cannonpile_figure::layer(&subject, 2)?.to_string().matches("class=\"contact\"").count(), 18);
 /// // The bottom layer has no contacts below.
 /// assert!(matches!(cannonpile_figure::layer(&subject, 9), Err(Error::Core(cannonpile::Error::OnFloor { .. }))));

@@ -338,7 +338,7 @@ pub(super) fn below(pile: &Pile, site: Site, direction: Direction) -> Result<Sit
     below.ok_or_else(|| cannonpile::Error::on_floor(site).into())
 }
 
-/// Rounds a number to the nearest float.
+/// Returns a number, correctly rounded.
 pub(super) fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
     let float = number.nearest::<f64>();
     float.ok_or_else(|| cannonpile::Error::overflow(quantity, "f64").into())

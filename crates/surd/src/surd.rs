@@ -37,7 +37,7 @@ use crate::{CorrectlyRounded, Error};
 /// let x = Surd::new(ratio(7, 3), ratio(8, 17))?;
 /// assert_eq!(x.to_string(), "14/51*sqrt(34)");
 /// assert_eq!(x.square(), ratio(7 * 7 * 8, 3 * 3 * 17));
-/// // The nearest float. Rounding after each operation gives the next float above it.
+/// // The correctly rounded value. Rounding after each operation gives the next float above it.
 /// assert_eq!(x.nearest::<f64>(), Some(1.6006534613300825));
 /// assert_eq!(7.0 / 3.0 * (8.0 / 17.0_f64).sqrt(), 1.6006534613300827);
 /// # Ok::<(), exact_surd::Error>(())
@@ -323,7 +323,8 @@ impl Surd {
         })
     }
 
-    /// Returns the nearest float, ties to even, also among the subnormals; `None` if the value overflows.
+    /// Returns the correctly rounded value, ties to even, also among the subnormals. `None` if the value
+    /// overflows.
     ///
     /// The rounding is always correct. A double-double enclosure decides most cases. If the enclosure
     /// contains more than one candidate, one integer square root and a sticky bit decide.
@@ -348,7 +349,7 @@ impl Surd {
         })
     }
 
-    /// Returns the nearest float if the double-double enclosure decides it.
+    /// Returns the correctly rounded value if the double-double enclosure decides it.
     fn screened<F: CorrectlyRounded>(&self) -> Option<F> {
         let (negative, [n, d], root) = self.parts();
         screened(negative, n, d, root)

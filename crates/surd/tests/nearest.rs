@@ -249,7 +249,7 @@ fn overflow_is_none() {
     assert_eq!(Surd::zero().nearest::<f32>(), Some(0.0));
 }
 
-/// The checker rejects the neighbours of the nearest float.
+/// The checker rejects the neighbours of the correctly rounded float.
 #[test]
 fn checker_rejects_wrong_roundings() {
     let squared = |square: &BigRational| Value::with_square(false, square);

@@ -142,7 +142,7 @@ fn comparison_with_floats() {
         for zero in [0.0, -0.0] {
             assert_eq!(a.partial_cmp(&zero), Some(sign.cmp(&0)), "{a}");
         }
-        // The comparison partners are the nearest float, its neighbours and the extremes. The expected
+        // The comparison partners are the correctly rounded float, its neighbours and the extremes. The expected
         // order comes from exact squares.
         let near = a.nearest::<f64>().unwrap();
         for float in [

@@ -253,7 +253,7 @@ fn full_and_empty_limbs() {
 
 #[test]
 fn many_half_turns_between_carries() {
-    // A denominator of full limbs fills the lower limbs of every increment.
+    // A denominator whose limbs are all at their maximum fills the lower limbs of every increment.
     for limbs in [1, 2] {
         let load = BigRational::new(1.into(), full(limbs));
         let case = Case::under(&Bounds::SITE, &repeated("+-", 23));

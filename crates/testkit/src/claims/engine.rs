@@ -191,12 +191,12 @@ fn base_supports_everything(floor: &[FloorForce<BigRational>], solved: &Solved) 
         let acting: BigRational = acting.map(|(sphere, weight)| moment(*sphere, weight)).sum();
         same(name, &total, &acting)?;
     }
-    let sideways = |part: fn(&FloorForce<BigRational>) -> &BigRational| -> BigRational {
+    let total_shear = |part: fn(&FloorForce<BigRational>) -> &BigRational| -> BigRational {
         floor.iter().map(part).sum()
     };
     let shears = [
-        sideways(|force| &force.shear_x),
-        sideways(|force| &force.shear_y),
+        total_shear(|force| &force.shear_x),
+        total_shear(|force| &force.shear_y),
     ];
     same(
         "the shears",

@@ -152,7 +152,7 @@ fn are_nearest<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(
         return demand(refused, || format!("{done:?}, but a value overflows"));
     };
     done?;
-    same("nearest floats", got, &[a, b, c])
+    same("correctly rounded forces", got, &[a, b, c])
 }
 
 /// No value exceeds the error bound of its layer. The claim ignores values that overflow.

@@ -16,7 +16,7 @@ fn discs_on_the_floor() {
         let pile = Pile::discs(layers).expect("a pile");
         let forces = pile.forces::<Q>();
         let l = ("L", int(layers));
-        let (mut total, mut sideways) = (Q::zero(), Q::zero());
+        let (mut total, mut total_shear) = (Q::zero(), Q::zero());
         for force in forces.base(Selection::Base).expect("rows") {
             let FloorForce {
                 site,
@@ -30,14 +30,14 @@ fn discs_on_the_floor() {
             assert_eq!(value(&proof, "shear, in", &values), &shear_x * int(2));
             assert_eq!(value(&proof, "across the plane", &values), shear_y);
             total += normal * int(2);
-            sideways += shear_x;
+            total_shear += shear_x;
         }
         assert_eq!(value(&proof, "ΣF_z", core::slice::from_ref(&l)), total);
         assert_eq!(
             total,
             Q::from_integer(pile.shape().sites().count().into()) * int(2)
         );
-        assert_eq!(value(&proof, "ΣF_x", &[l]), sideways);
+        assert_eq!(value(&proof, "ΣF_x", &[l]), total_shear);
         for site in pile.shape().sites().filter(|site| site.k < layers - 1) {
             let Site { i, k, .. } = site;
             let values = [("i", int(i)), ("k", int(k))];

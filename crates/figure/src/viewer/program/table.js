@@ -115,7 +115,7 @@ class Report {
         ...pile.states.flatMap((state) => this.#force(state, contact)));
     });
     const table = element("table", {},
-      element("caption", { textContent: `Forces on ${this.sphereName(id)}: exact, and rounded to the nearest float` }),
+      element("caption", { textContent: `Forces on ${this.sphereName(id)}: exact, and correctly rounded` }),
       this.#heads(["contact", "with"], unit.unit), element("tbody", {}, ...rows), whole);
     this.#show(`${this.sphereName(id)[0].toUpperCase()}${this.sphereName(id).slice(1)}`, says.join(" "), table);
   }
@@ -129,7 +129,7 @@ class Report {
     const heads = this.isNarrow ? ["state", `${quantity.unit}, N`] : ["state", quantity.unit, "N"];
     const head = element("tr", {}, ...heads.map((text) => element("th", { scope: "col", textContent: text })));
     const table = element("table", {},
-      element("caption", { textContent: `Force of the ${this.contactName(contact)}: exact, and rounded to the nearest float` }),
+      element("caption", { textContent: `Force of the ${this.contactName(contact)}: exact, and correctly rounded` }),
       element("thead", {}, head), element("tbody", {}, ...rows));
     const between = element("p", {}, "Between ", this.#button(this.sphereName(first), { sphere: first }), " and ",
       this.#button(this.sphereName(second), { sphere: second }), ".");
