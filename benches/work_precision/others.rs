@@ -116,7 +116,7 @@ fn relaxed(bench: &Bench, stiffness: f64) -> Run {
         return Run { setting, ..run };
     };
     let error = bench.reference.error(&by_sphere(forces), Unit::Weights);
-    // This bound is twice the measured error of compliance and rounding. It is no theorem, and fails near collapse.
+    // This bound is twice the measured error of compliance and rounding. The bound is empirical, and fails near collapse.
     let bound = layers / stiffness + 1e-15 * layers * stiffness;
     let near_collapse = stiffness < layers.powi(3);
     assert!(

@@ -58,7 +58,7 @@ pub(crate) struct Measured {
     pub(crate) error: f64,
 }
 
-/// The time in seconds from which a run is not repeated, because noise does not affect it.
+/// The shortest time in seconds of a run that is not repeated, because noise does not affect it.
 const LONG: f64 = 10.0;
 
 /// Returns the median time of some runs, and the last result.

@@ -150,8 +150,8 @@ impl<'p> Domain<'p> {
         Nets::of(Place { a, b }, k as i128, top, within)
     }
 
-    /// Returns the rows of cells in which layer `k` can have spheres, with the net numbers for which it has one in each
-    /// cell. On a base only the number `net` is considered.
+    /// Returns the rows of cells that can contain spheres of layer `k`, with the net numbers at which each cell contains
+    /// one. On a base only the number `net` is considered.
     pub(super) fn possible_spheres(
         &self,
         k: usize,

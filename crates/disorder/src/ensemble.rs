@@ -7,7 +7,7 @@
 //! shards [merge](Tally::merge) into the tally of the whole, bit for bit, in any order.
 //!
 //! # What is counted of which piles
-//! *All* includes unstable stackings, in which some contact is in tension. Their forces are those of a prestressed
+//! *All* includes unstable stackings: some contact of them is in tension. Their forces are those of a prestressed
 //! pile. *Standing* are the stackings without tension, which a pile of loose spheres can have.
 //!
 //! # Why it is exact

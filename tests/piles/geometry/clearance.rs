@@ -223,7 +223,7 @@ fn the_bounds_are_sharp() {
     }
 }
 
-/// Layers in which a row has two spheres along one direction only.
+/// Layers whose rows have two spheres along one direction only.
 #[test]
 fn two_spheres_are_neighbours_in_a_layer() {
     let pair = |x, y, s| Region::new(0..=x, 0..=y, 0..=s).unwrap();

@@ -1,7 +1,7 @@
 //! The number of layers that a base supports, and closed counts of piles whose sides vanish on the way up.
 //!
 //! On the way up, the sides of a layer vanish at different heights, and the count then follows another polynomial. The tests
-//! enumerate all ways in which this can happen in a box.
+//! enumerate all such cases in a box.
 
 use cannonpile::Error;
 use cannonpile::lattice::{Region, Row, Sign, Site};
@@ -82,7 +82,7 @@ fn straight_on_random_bases() {
     });
 }
 
-/// All bases of up to four sites a side, with all ways in which i+j cuts off their corners. Each base has every stacking
+/// All bases of up to four sites a side, with all bounds on i+j that cut off their corners. Each base has every stacking
 /// that fits and every one that is too high.
 #[test]
 fn every_stacking_on_every_base_in_a_box() {

@@ -208,8 +208,8 @@ impl TallyRecord {
     ///
     /// # Errors
     /// Any error of the input. The kind is [`InvalidData`](io::ErrorKind::InvalidData) or
-    /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line in the message, if the input is no valid record
-    /// or has more than 512 MiB.
+    /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line in the message, if the input is an
+    /// invalid record or has more than 512 MiB.
     ///
     /// # Examples
     /// ```

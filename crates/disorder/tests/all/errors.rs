@@ -227,7 +227,7 @@ fn size_errors_state_the_size() {
         too_large(under(1001).exact(&half)),
         (MEAN, needed, 100_000_000 / 52)
     );
-    // On a base there is one set for each net number of steps that are left, −99 to 99.
+    // A base has one set for each net number of the remaining steps, −99 to 99.
     let base = Region::triangle(300).unwrap();
     let needed = 302 * 302 * 12 * 199 + 99;
     assert_eq!(

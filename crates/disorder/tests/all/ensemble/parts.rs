@@ -208,7 +208,7 @@ fn mirror_symmetry_of_loads() -> Result<(), Error> {
     };
     for (top, sites) in same {
         assert_eq!(looked_at((top, sites), ratio(1, 2))?, 8, "{top} {sites:?}");
-        // The same number of loads, one of which differs.
+        // The same number of loads, but one load differs.
         let expected = if sites.len() > 1 { 16 } else { 8 };
         let found = looked_at((top, sites), ratio(1, 3))?;
         assert_eq!(found, expected, "{top} {sites:?}");
