@@ -315,7 +315,7 @@ impl Surd {
     /// ```
     #[must_use]
     pub fn to_f64(&self) -> f64 {
-        // Not a default: a number without a nearest float has overflowed, so an infinity of its sign is the answer.
+        // Not a default: a number beyond the range of the float has overflowed, so the result is an infinity of its sign.
         self.nearest().unwrap_or(if self.coefficient.is_negative() {
             f64::NEG_INFINITY
         } else {
