@@ -88,7 +88,10 @@ fn one_by_one(layers: i128, smoke: bool) {
     };
     let all = under(layers);
     let (tally, seconds) = timed(|| all.run(&Choice::All, Shard::WHOLE).expect("a tally"));
-    assert_eq!(tally.standing(ContactSet::Sloping), Some(BigUint::from(11_u32)));
+    assert_eq!(
+        tally.standing(ContactSet::Sloping),
+        Some(BigUint::from(11_u32))
+    );
     let what = format!("all {} stackings of {layers} layers", tally.stackings());
     println!("{what:44} {seconds:10.4} s");
     let count = if smoke { 100 } else { 1_000_000 };

@@ -2,7 +2,7 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Exactness, Interval, CorrectlyRounded, RealEmbeddable,
+    Algebra, CorrectlyRounded, DoubleDouble, Exactness, Interval, RealEmbeddable,
 };
 use cannonpile::shape::Selection;
 use cannonpile::{Forces, Packing, Pile};

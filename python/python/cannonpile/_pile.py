@@ -914,7 +914,7 @@ relative error 8.167e-02
         --------
         >>> from cannonpile import Pile
         >>> Pile(12, "hcp").plot("network").note[:30]
-        'this pile does not stand witho'
+        'this pile is unstable without '
         """
         where = None if at is None else _exact.place("at", at)
         return Figure(
