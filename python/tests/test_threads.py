@@ -98,7 +98,6 @@ def test_threads_share_a_pile():
 ENDLESS = {
     "forces": "[Pile(150, 'hcp').forces() for _ in range(1000)]",
     "multiples": "Pile(300, 'hcp').multiples()",
-    "stands": "Pile(100000, 'hcp').stands",
     "census": "list(cannonpile.census(2000))",
     "mean": "cannonpile.mean(200)",
     "elastic": "Pile(27, '+-+-+' + '+' * 21).elastic()",
