@@ -1,5 +1,5 @@
-//! Is a simulation right? A DEM of a few lines lets ten spheres settle on springs; its contact forces are compared with the
-//! exact ones. `cargo run --package cannonpile-dem --example check_dem`
+//! Checks a small DEM code: ten spheres settle on springs, and their contact forces are compared with the exact ones.
+//! Run it with `cargo run --package cannonpile-dem --example check_dem`.
 
 use std::error::Error;
 
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut centres = Vec::new();
         for site in pile.shape().sites() {
             let nearest = packing.position(site)?.map(|x| x.nearest());
-            centres.push(nearest.map(|x| x.expect("not beyond the floats")));
+            centres.push(nearest.map(|x| x.expect("a position within the range of f64")));
         }
         settle(&mut centres, mobile, stiffness);
         let measured = contacts(&centres, stiffness).map(|([one, other], vector)| {
@@ -32,12 +32,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         assert!(comparison.accepted(10.0 / stiffness));
         errors.push(error);
     }
-    // What is left is the compliance of the springs: ten times as stiff, a tenth of the error.
+    // The remaining error comes from the compliance of the springs: ten times the stiffness gives a tenth of the error.
     assert!(errors.windows(2).all(|pair| pair[1] < pair[0] / 5.0));
     Ok(())
 }
 
-/// Damped motion until nothing moves; only the first spheres are free.
+/// Integrates damped motion until the spheres are at rest. Only the first `mobile` spheres can move.
 fn settle(centres: &mut [Vector], mobile: usize, stiffness: f64) {
     let step = 0.1 / stiffness.sqrt();
     let mut velocities = vec![[0.0; 3]; centres.len()];
@@ -59,7 +59,7 @@ fn settle(centres: &mut [Vector], mobile: usize, stiffness: f64) {
     }
 }
 
-/// Pairs that overlap, and the force on the first: it grows with the overlap.
+/// Returns the overlapping pairs, each with the force on its first sphere, which is proportional to the overlap.
 fn contacts(centres: &[Vector], stiffness: f64) -> impl Iterator<Item = ([usize; 2], Vector)> {
     let pairs = (0..centres.len()).flat_map(|one| (0..one).map(move |other| [one, other]));
     pairs.filter_map(move |pair| {

@@ -1,4 +1,4 @@
-//! A whole pile in slices, for who computes on.
+//! A whole pile in slices provided by the caller.
 
 mod forces;
 mod places;
@@ -13,10 +13,11 @@ use cannonpile::shape::{Numbering, Selection};
 use cannonpile::{Interrupt, PackedContact, Packing, Pile, Quantity};
 use places::{check_length, pieces, put, put_vectors};
 
-/// The spheres and contacts of a pile as numbers in slices, each in the order of the exported files.
+/// The spheres and contacts of a pile as numbers in slices, in the order of the exported files.
 ///
-/// Spheres come in the order of their numbers, from 1 in row order from the top; contacts by their upper sphere, along α, β
-/// and γ, and after them the horizontal ones with a force. Floats are the nearest to the exact numbers.
+/// Spheres are in the order of their numbers: from 1, row by row from the top. Contacts are ordered by their upper
+/// sphere and then by direction α, β, γ. Horizontal contacts with a force follow at the end. Floats are correctly
+/// rounded.
 ///
 /// # Examples
 /// ```
@@ -43,10 +44,10 @@ pub struct PileArrays<'p> {
 }
 
 impl<'p> PileArrays<'p> {
-    /// The arrays of a pile, whose forces are multiples of f₀ and mg.
+    /// Returns the arrays of a pile. Forces are multiples of f₀ and mg.
     ///
     /// # Errors
-    /// [`Error::TooLarge`](cannonpile::Error::TooLarge) for more spheres than are numbered.
+    /// [`Error::TooLarge`](cannonpile::Error::TooLarge) if the pile has too many spheres to number them.
     ///
     /// # Examples
     /// ```
@@ -75,7 +76,7 @@ impl<'p> PileArrays<'p> {
         })
     }
 
-    /// The arrays of a packing, whose forces are in N.
+    /// Returns the arrays of a packing. Forces are in N.
     ///
     /// # Errors
     /// As for [`of_pile`](Self::of_pile).
@@ -99,7 +100,7 @@ impl<'p> PileArrays<'p> {
         })
     }
 
-    /// The number of spheres.
+    /// Returns the number of spheres.
     ///
     /// # Examples
     /// ```
@@ -114,7 +115,7 @@ impl<'p> PileArrays<'p> {
         self.spheres
     }
 
-    /// The number of contacts: all sloping ones, and horizontal ones with a force.
+    /// Returns the number of contacts: all sloping contacts, and the horizontal contacts with a force.
     ///
     /// # Examples
     /// ```
@@ -135,10 +136,11 @@ impl<'p> PileArrays<'p> {
         self.contacts
     }
 
-    /// Writes the sites of all spheres: k, i, j.
+    /// Writes the sites of all spheres as k, i, j.
     ///
     /// # Errors
-    /// [`Error::Length`](cannonpile::Error::Length); [`Error::Overflow`](cannonpile::Error::Overflow) for a coordinate beyond `V`.
+    /// [`Error::Length`](cannonpile::Error::Length) for a slice of another length;
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a coordinate that does not fit in `V`.
     ///
     /// # Examples
     /// ```
@@ -165,7 +167,8 @@ impl<'p> PileArrays<'p> {
     /// Writes the centres of all spheres, in m, z up.
     ///
     /// # Errors
-    /// [`Error::Length`](cannonpile::Error::Length); [`Error::NeedsUnits`] of a pile that is no packing; [`Error::Overflow`](cannonpile::Error::Overflow) for a place beyond the floats.
+    /// [`Error::Length`](cannonpile::Error::Length) for a slice of another length; [`Error::NeedsUnits`] for the arrays
+    /// of a pile; [`Error::Overflow`](cannonpile::Error::Overflow) for a position that exceeds the floats.
     ///
     /// # Examples
     /// ```
@@ -191,10 +194,11 @@ impl<'p> PileArrays<'p> {
         Ok(())
     }
 
-    /// Writes the numbers of the two spheres of all contacts, that of the upper one first.
+    /// Writes the numbers of the two spheres of each contact, the upper sphere first.
     ///
     /// # Errors
-    /// [`Error::Length`](cannonpile::Error::Length); [`Error::Overflow`](cannonpile::Error::Overflow) for a number beyond `V`.
+    /// [`Error::Length`](cannonpile::Error::Length) for a slice of another length;
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a sphere number that does not fit in `V`.
     ///
     /// # Examples
     /// ```
@@ -226,7 +230,7 @@ impl<'p> PileArrays<'p> {
         Ok(())
     }
 
-    /// Writes the points of all contacts, in m.
+    /// Writes the contact points of all contacts, in m.
     ///
     /// # Errors
     /// As for [`fill_centres`](Self::fill_centres).

@@ -1,4 +1,4 @@
-//! `card.md` and `card.json`: a pile as a benchmark, for people and for machines.
+//! The benchmark card of a pile: `card.md` for readers, and `card.json` for programs.
 
 mod extremes;
 mod lists;
@@ -15,7 +15,7 @@ use crate::table::WriteError;
 use cannonpile::Pile;
 use cannonpile::lattice::Dimension;
 
-/// What a card says of a pile beside what the pile itself tells.
+/// The texts and options on a card that the pile itself does not determine.
 ///
 /// # Examples
 /// ```
@@ -37,23 +37,23 @@ use cannonpile::lattice::Dimension;
 pub struct CardTitle {
     /// The name of a benchmark case (`scene::cases`), such as `C2`; empty for any other pile.
     pub case: String,
-    /// What the pile is, in a few words; if it is empty, the card has words of its own.
+    /// A short description of the pile. If it is empty, the card generates one.
     pub title: String,
-    /// What the pile tests; may be empty.
+    /// The purpose of the benchmark; may be empty.
     pub purpose: String,
-    /// Which forces the pile was given.
+    /// The state whose forces the pile has.
     pub state: State,
-    /// κ′/κ of the elastic state; 1 if it is not given.
+    /// κ′/κ of the elastic state; 1 if absent.
     pub stiffness_ratio: Option<BigRational>,
 }
 
-/// The most contacts, and the most spheres, that the card for people lists.
+/// The maximal number of contacts, and of spheres, that `card.md` lists.
 const FOR_PEOPLE: u32 = 130;
 
-/// The same of the card for machines.
+/// The maximal number of contacts, and of spheres, that `card.json` lists.
 const FOR_MACHINES: u32 = 10_000;
 
-/// What the pile is, in one line.
+/// Returns a description of the pile in one line.
 #[must_use]
 pub fn heading(pile: &NumberedPile<'_>, title: &CardTitle) -> String {
     let own = if title.title.is_empty() {
@@ -80,7 +80,7 @@ fn layers(pile: &Pile) -> String {
     }
 }
 
-/// Writes the card for people, in Markdown.
+/// Writes the card in Markdown.
 pub(super) fn write_markdown(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
@@ -92,7 +92,7 @@ pub(super) fn write_markdown(
     Ok(out.write_all(page.as_bytes())?)
 }
 
-/// Writes the card for machines, in JSON.
+/// Writes the card in JSON.
 pub(super) fn write_json(
     pile: &NumberedPile<'_>,
     title: &CardTitle,

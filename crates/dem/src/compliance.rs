@@ -1,37 +1,40 @@
-//! How far the forces between spheres on springs are from the exact ones.
+//! The difference between the forces of spheres on springs and the exact forces.
 //!
 //! # The springs
-//! The bottom spheres are fixed. Each contact is a linear spring of stiffness κ, F = κδ, where δ is how deep two spheres
-//! sink into each other; nothing turns, nothing rubs, and weights stay vertical. For κ → ∞ the forces are
+//!
+//! The bottom spheres are fixed. Each contact is a linear spring of stiffness κ, F = κδ, where δ is the overlap of the
+//! two spheres. Spheres are frictionless and do not rotate, and weights stay vertical. For κ → ∞ the forces are
 //!
 //! F(κ) = F₀ + F₁/κ + O(1/κ²)
 //!
-//! with the exact forces F₀ of the rigid pile, and F₁ is found in two sweeps. Let ê be the unit vector of a contact from the
+//! with the exact forces F₀ of the rigid pile. Two sweeps yield F₁. Let ê be the unit vector of a contact from the
 //! lower sphere to the upper one.
 //!
-//! * *Upwards, displacements.* Overlaps F₀/κ move the centres by u/κ: ê·(u_upper − u_lower) = −F₀ for each contact, u = 0 on
-//!   the floor. A sphere has as many contacts below it as there are dimensions, so these equations give its u from those of
-//!   the spheres below.
-//! * *Downwards, forces.* Contacts turn by τ/κ, where 2Rτ = w − ê(ê·w) with w = u_upper − u_lower. The force on the upper
-//!   sphere is F₀ê + (F₁ê + F₀τ)/κ + …, and balance in first order says that the sums of F₁ê + F₀τ below and above a sphere
-//!   are equal. Without τ of its own a contact line would hand on F₁ as it hands on F₀ without a weight.
+//! * *Upwards, displacements.* Overlaps F₀/κ move the centres by u/κ: ê·(u_upper − u_lower) = −F₀ for each contact, and
+//!   u = 0 on the floor. A sphere has as many contacts below it as there are dimensions. So these equations yield its u
+//!   from those of the spheres below.
+//! * *Downwards, forces.* Contacts turn by τ/κ, where 2Rτ = w − ê(ê·w) with w = u_upper − u_lower. The force on the
+//!   upper sphere is F₀ê + (F₁ê + F₀τ)/κ + …. In first order, the sums of F₁ê + F₀τ below and above a sphere are equal.
+//!   For τ = 0 the transfer of F₁ along a line of contacts is that of F₀ for weightless spheres.
 //!
-//! So the relative error of a contact is F₁/(F₀κ), and |F₁ê + F₀τ|/(F₀κ) of its vector.
+//! So the relative error of a contact force is F₁/(F₀κ), and that of its vector is |F₁ê + F₀τ|/(F₀κ).
 //!
 //! # Straight piles under one sphere
-//! There all of it is a polynomial. Of a contact in layer k that has n spheres above it on its line, and carries
-//! (n + 1) f₀, the relative error is ε·f₀/(κR), with q = (a/R)² and
+//!
+//! Both errors are polynomials. Consider a contact in layer k with n spheres above it on its line, so that its force is
+//! (n + 1) f₀. Its relative error is ε·f₀/(κR), with q = (a/R)² and
 //!
 //! * spheres: ε = [(4 − q)(5 − q) n − 2(5 − q) k + q(2L + q − 4)] / (2q(3 − q)), f₀ = mg/(3cosθ),
 //! * discs: ε = [(4 − q)(6 − q) n − 4(4 − q) k + q(2L + q − 4)] / (2q(4 − q)), f₀ = mg/(2cosθ).
 //!
-//! It is linear in n and k, so the largest is at a corner of 0 ≤ n ≤ k ≤ L − 2. For 6/5 that is the lowest contact of an
-//! edge, n = k = L − 2, with (0.5014 L − 0.7895) mg/(κR): 0.42 L mg/(κR) for 10 layers, 0.48 L for 40. From q = 2 on it is
-//! the apex, n = k = 0.
+//! ε is linear in n and k, so the largest error is at a corner of 0 ≤ n ≤ k ≤ L − 2. For 6/5 this is the lowest contact
+//! of an edge, n = k = L − 2, with (0.5014 L − 0.7895) mg/(κR). This is 0.42 L mg/(κR) for 10 layers, and 0.48 L for
+//! 40. For q ≥ 2 the corner is the apex, n = k = 0.
 //!
-//! # What is not covered
-//! Where neighbours touch besides the contacts they bear something too; and a spring cannot pull, so a contact without a
-//! force opens or closes by a rule of its own.
+//! # Limits
+//!
+//! Further touching neighbours also exert forces, so packings with such neighbours are rejected. Contacts without a
+//! force are rejected too, because a spring without tension opens or closes them by a rule of its own.
 
 mod sweeps;
 
@@ -44,10 +47,9 @@ use cannonpile::Packing;
 use cannonpile::lattice::{Direction, Site};
 use sweeps::Sweeps;
 
-/// The errors that linear springs bring into the forces of a pile, to leading order in 1/κ: how large they are at a
-/// stiffness κ.
+/// The errors of contact forces on linear springs, to leading order in 1/κ.
 ///
-/// A *coefficient* c stands for the error c·mg/(κR).
+/// A *coefficient* c means the error c·mg/(κR).
 ///
 /// # Examples
 /// ```
@@ -66,40 +68,39 @@ pub struct Compliance {
     forces: Extremes,
     vectors: Extremes,
     contacts: f64,
-    /// mg/R.
+    /// The unit of stiffness, mg/R.
     unit: f64,
 }
 
-/// Coefficients of many contacts.
+/// The extreme coefficients of many contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Extremes {
     largest: f64,
     sum_of_squares: f64,
 }
 
-/// What the springs do to one contact.
+/// The error of one contact on springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SoftContact {
     /// The numbers of the upper and of the lower sphere.
     pub ids: [u64; 2],
-    /// The upper sphere.
+    /// The site of the upper sphere.
     pub site: Site,
-    /// Where the lower one lies.
+    /// The direction from the upper sphere to the lower one.
     pub direction: Direction,
-    /// The coefficient of the relative error of its force, with its sign.
+    /// The coefficient of the relative error of the force, with its sign.
     pub coefficient: f64,
-    /// The coefficient of the relative error of its force as a vector, which turns too.
+    /// The coefficient of the relative error of the force vector, including its rotation.
     pub vector_coefficient: f64,
 }
 
 impl Compliance {
-    /// The compliance of a packing.
+    /// Returns the compliance of a packing.
     ///
     /// # Errors
-    /// [`NoCompliance::Touching`] where neighbours touch besides the contacts, [`NoCompliance::Slack`] for a contact that
-    /// has no force or pulls; [`NoCompliance::Scene`] for more spheres than fit in memory, and for forces beyond the
-    /// floats.
+    /// [`NoCompliance::Touching`] if further neighbours touch, [`NoCompliance::Slack`] if a contact has no force or a
+    /// tensile one. [`NoCompliance::Scene`] if the spheres do not fit in memory, or a force exceeds the floats.
     ///
     /// # Examples
     /// ```
@@ -116,7 +117,7 @@ impl Compliance {
         Self::inspected(packing, |_| {})
     }
 
-    /// The compliance of a packing, whose contacts are shown to `look` one by one, from the top.
+    /// Returns the compliance of a packing, and calls `look` with each contact, from the top.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -170,7 +171,7 @@ impl Compliance {
         }
     }
 
-    /// The largest coefficient of forces, c: a contact has the relative error c·mg/(κR), and none has a larger one.
+    /// Returns the largest coefficient of forces, c. No contact has a relative error above c·mg/(κR).
     ///
     /// # Examples
     /// ```
@@ -187,7 +188,7 @@ impl Compliance {
         self.forces.largest
     }
 
-    /// The largest coefficient of forces as vectors.
+    /// Returns the largest coefficient of force vectors.
     ///
     /// # Examples
     /// ```
@@ -205,7 +206,7 @@ impl Compliance {
         self.vectors.largest
     }
 
-    /// The largest relative error of a force at the stiffness κ, in the unit of mg/R: N/m in SI.
+    /// Returns the largest relative error of a force at the stiffness κ, in units of mg/R (N/m in SI).
     ///
     /// # Examples
     /// ```
@@ -225,7 +226,7 @@ impl Compliance {
         self.forces.largest * (self.unit / stiffness)
     }
 
-    /// The largest relative error of a force as a vector at the stiffness κ.
+    /// Returns the largest relative error of a force vector at the stiffness κ.
     ///
     /// # Examples
     /// ```
@@ -242,7 +243,7 @@ impl Compliance {
         self.vectors.largest * (self.unit / stiffness)
     }
 
-    /// The root of the mean square of the relative errors of all forces at the stiffness κ; 0 without contacts.
+    /// Returns the root mean square of the relative errors of all forces at the stiffness κ; 0 without contacts.
     ///
     /// # Examples
     /// ```
@@ -259,7 +260,7 @@ impl Compliance {
         self.forces.rms(self.contacts) * (self.unit / stiffness)
     }
 
-    /// The root of the mean square of the relative errors of all forces as vectors at the stiffness κ; 0 without contacts.
+    /// Returns the root mean square of the relative errors of all force vectors at the stiffness κ; 0 without contacts.
     ///
     /// # Examples
     /// ```
@@ -294,20 +295,20 @@ impl Extremes {
     }
 }
 
-/// Why the errors of springs are not known for a packing: one line.
+/// The reason why the errors of springs are unknown for a packing, in one line.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoCompliance {
-    /// Neighbours touch besides the contacts.
+    /// Neighbours touch in addition to the contacts.
     Touching,
-    /// A contact has no force, or pulls.
+    /// A contact has no force, or a tensile one.
     Slack {
-        /// Its upper sphere.
+        /// The site of the upper sphere.
         site: Site,
-        /// Where the lower one lies.
+        /// The direction from the upper sphere to the lower one.
         direction: Direction,
     },
-    /// The forces are not known either.
+    /// The exact forces are unknown.
     Scene(Error),
 }
 

@@ -1,4 +1,4 @@
-//! `spheres.csv`, `contacts.csv`, `base.csv`, and what is in their columns.
+//! The files `spheres.csv`, `contacts.csv` and `base.csv`, and the meaning of their columns.
 
 use std::io::Write;
 
@@ -8,7 +8,7 @@ use crate::table::WriteError;
 use cannonpile::FloorForce;
 use cannonpile::lattice::{Dimension, Site};
 
-/// Writes where every sphere is, and what it weighs and bears.
+/// Writes the position, size, mass and load of every sphere.
 pub(super) fn write_spheres(
     pile: &NumberedPile<'_>,
     out: &mut dyn Write,
@@ -98,7 +98,7 @@ pub(super) fn write_columns(
     Ok(())
 }
 
-/// The lines of `columns.csv` for a pile: file, column, unit, meaning. Discs have neither j nor a shear along y.
+/// Returns the lines of `columns.csv` for a pile: file, column, unit, meaning. Discs have no j and no shear along y.
 fn columns(pile: &NumberedPile<'_>) -> impl Iterator<Item = &'static str> + use<> {
     let flat = pile.pile().dimension() == Dimension::Two;
     let left_out = |line: &str| matches!(line.split(',').nth(1), Some("j" | "shear_y"));
@@ -113,7 +113,7 @@ fn write_heads(out: &mut dyn Write, file: &str, pile: &NumberedPile<'_>) -> std:
     writeln!(out, "{}", columns.collect::<Vec<_>>().join(","))
 }
 
-/// How the place of a sphere is written: `k,i,j`, of a disc `k,i`.
+/// The format of a site: `k,i,j`, or `k,i` for a disc.
 #[derive(Clone, Copy)]
 struct Place(Dimension);
 

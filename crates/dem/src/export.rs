@@ -1,4 +1,4 @@
-//! A pile written as files.
+//! The export of a pile to files.
 
 use std::io::Write;
 use std::path::Path;
@@ -14,7 +14,7 @@ use crate::table::{Progress, WriteError, write_all};
 use cannonpile::Packing;
 use cannonpile::shape::{Numbering, Selection};
 
-/// A pile to be written as files.
+/// A pile with its export options.
 ///
 /// # Examples
 /// ```
@@ -41,11 +41,12 @@ pub struct PileExport<'p> {
 }
 
 impl<'p> PileExport<'p> {
-    /// The files of this pile.
+    /// Returns the export of a packing.
     ///
     /// # Errors
-    /// [`Error::TooManyRows`](cannonpile::Error::TooManyRows) for more than [`MAX_ROWS`](crate::table::MAX_ROWS) contacts, [`Error::TooLarge`](cannonpile::Error::TooLarge) if a
-    /// layer does not fit in memory where forces have to be swept.
+    /// [`Error::TooManyRows`](cannonpile::Error::TooManyRows) for more than [`MAX_ROWS`](crate::table::MAX_ROWS)
+    /// contacts; [`Error::TooLarge`](cannonpile::Error::TooLarge) if the forces need a sweep and a layer does not fit
+    /// in memory.
     ///
     /// # Examples
     /// ```
@@ -71,7 +72,7 @@ impl<'p> PileExport<'p> {
         })
     }
 
-    /// The files with `scene.toml` besides, the text of the scene that the pile was made of.
+    /// Adds `scene.toml` with the text of the scene that describes the pile.
     ///
     /// # Examples
     /// ```
@@ -94,7 +95,7 @@ impl<'p> PileExport<'p> {
         Self { scene, ..self }
     }
 
-    /// The files with what a card says besides, and what tests are called.
+    /// Sets the texts of cards and the titles of tests.
     ///
     /// # Examples
     /// ```
@@ -117,7 +118,7 @@ impl<'p> PileExport<'p> {
         Self { title, ..self }
     }
 
-    /// The pile with its sizes and weights.
+    /// Returns the packing.
     ///
     /// # Examples
     /// ```
@@ -137,7 +138,7 @@ impl<'p> PileExport<'p> {
         self.pile.packing()
     }
 
-    /// The numbers that its spheres have in all files.
+    /// Returns the numbers of the spheres, which are the same in all files.
     ///
     /// # Examples
     /// ```
@@ -158,7 +159,8 @@ impl<'p> PileExport<'p> {
         self.pile.numbering()
     }
 
-    /// How many spheres or contacts a file lists; `None` for one that lists neither, as a script.
+    /// Returns the number of spheres or contacts that a file lists; `None` for a file without such a list, such as a
+    /// script.
     ///
     /// # Examples
     /// ```
@@ -176,7 +178,7 @@ impl<'p> PileExport<'p> {
     /// ```
     #[must_use]
     pub fn rows(&self, file: PileFile) -> Option<u64> {
-        // Not more than the most rows.
+        // The counts do not exceed the maximal number of rows.
         let few = |count: BigUint| u64::try_from(count).ok();
         match file {
             PileFile::SpheresCsv
@@ -189,12 +191,15 @@ impl<'p> PileExport<'p> {
         }
     }
 
-    /// Writes one file. Memory does not grow with its rows; `progress` is called from time to time with how many
-    /// more of them are done, all of them in the end.
+    /// Writes one file. The memory does not grow with its rows. `progress` is called from time to time with the number
+    /// of further rows written, including the last ones.
     ///
     /// # Errors
-    /// [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number does not fit in an `f64`, with [`Error::TooLarge`](cannonpile::Error::TooLarge) or
-    /// [`Error::MustPull`] if a test of a suite would be too large, or of no state at rest; [`WriteError::Io`] if the output refuses.
+    /// * [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number does not fit in an
+    ///   `f64`.
+    /// * [`WriteError::Answer`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) if a suite test would have too
+    ///   many spheres, and with [`Error::MustPull`] if it would have no state at rest.
+    /// * [`WriteError::Io`] if writing to `out` fails.
     ///
     /// # Examples
     /// ```
@@ -247,14 +252,14 @@ impl<'p> PileExport<'p> {
         }
     }
 
-    /// Writes all files of some formats into a folder, which is made if it is not there.
+    /// Writes all files of some formats into a folder, which is created if necessary.
     ///
-    /// They are written aside and renamed when the last is complete: a failure leaves no new file and no new folder,
-    /// and what was there as it was.
+    /// The files are written under temporary names, and renamed when the last one is complete. A failure leaves no new
+    /// file or folder, and leaves existing files unchanged.
     ///
     /// # Errors
-    /// [`WriteError::Answer`] as for [`write_file`](Self::write_file); [`WriteError::File`], which names the file or
-    /// the folder that could not be written.
+    /// [`WriteError::Answer`] as for [`write_file`](Self::write_file); [`WriteError::File`] with the path of the file
+    /// or folder that could not be written.
     ///
     /// # Examples
     /// ```
@@ -283,12 +288,12 @@ impl<'p> PileExport<'p> {
         self.write_with(formats, &[], folder, progress)
     }
 
-    /// Writes all files of some formats into a folder as [`write`](Self::write) does, and files of the caller with them.
+    /// Writes all files of some formats into a folder like [`write`](Self::write), together with files of the caller.
     ///
-    /// The files of the caller come after those of the formats, and before `scene.toml`.
+    /// The files of the caller follow those of the formats, and precede `scene.toml`.
     ///
     /// # Errors
-    /// As for [`write`](Self::write), and those of the files of the caller.
+    /// As for [`write`](Self::write), and the errors of the files of the caller.
     ///
     /// # Examples
     /// ```
@@ -338,7 +343,7 @@ impl<'p> PileExport<'p> {
     }
 }
 
-/// A file of this crate, or one of the caller.
+/// A file of this crate, or a file of the caller.
 #[derive(Clone, Copy)]
 enum ToWrite<'f> {
     Own(PileFile),

@@ -1,4 +1,4 @@
-//! The files that a pile is written to.
+//! The files of an export.
 
 use core::fmt;
 use std::io::Write;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use crate::table::{Cell, Column, Table, WriteError};
 
-/// The program that a pile is written for.
+/// An export format, named after the program that reads it.
 ///
 /// # Examples
 /// ```
@@ -18,28 +18,28 @@ use crate::table::{Cell, Column, Table, WriteError};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum PileFormat {
-    /// Any: `spheres.csv`, `contacts.csv`, `base.csv`, and `columns.csv`, which says what is in their columns.
+    /// Any program: `spheres.csv`, `contacts.csv`, `base.csv`, and `columns.csv`, which explains their columns.
     Csv,
-    /// LAMMPS: `pile.data`, and `pile.in`, which relaxes it and writes the forces: those of springs that are all alike, whatever
-    /// forces horizontal contacts were given.
+    /// LAMMPS: `pile.data`, and `pile.in`, which relaxes the pile and writes its forces. All springs are equal, so
+    /// forces given to horizontal contacts are not reproduced.
     Lammps,
     /// ParaView: `spheres.vtp`, `contacts.vtp`.
     Vtp,
     /// YADE: `spheres.txt`, and `pile.py`, which relaxes it and writes the forces, as LAMMPS does.
     Yade,
-    /// A benchmark card: `card.md` for people, `card.json` for machines. What the pile is, the exact answers, how exact they are,
-    /// what a code must satisfy, how to cite.
+    /// A benchmark card: `card.md` for readers, `card.json` for programs. It contains the pile, the exact answers,
+    /// their accuracy, the criteria for a code, and the references.
     Card,
-    /// The suite of LAMMPS: `dem-pile.yaml`, a test in the style of `unittest/granular`, of up to 2000 spheres that come to rest,
-    /// on springs that are all alike.
+    /// The test suite of LAMMPS: `dem-pile.yaml`, in the style of `unittest/granular`. The pile has up to 2000 spheres
+    /// on equal springs, and comes to rest.
     LammpsTest,
-    /// The suite of YADE: `checkPile.py`, a check in the style of `scripts/checks-and-tests/checks`, of up to 2000 spheres; of a
-    /// pile that cannot stand it checks that contacts are lost.
+    /// The test suite of YADE: `checkPile.py`, in the style of `scripts/checks-and-tests/checks`, for up to 2000
+    /// spheres. For an unstable pile the script checks that contacts are lost.
     YadeCheck,
 }
 
 impl PileFormat {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 7] = [
         Self::Csv,
         Self::Lammps,
@@ -50,7 +50,7 @@ impl PileFormat {
         Self::YadeCheck,
     ];
 
-    /// Its files, in the order in which they are written.
+    /// Returns the files of the format, in writing order.
     ///
     /// # Examples
     /// ```
@@ -78,52 +78,51 @@ impl PileFormat {
     }
 }
 
-/// One of the files that a pile is written to.
+/// A file of an export.
 ///
-/// All numbers are in SI, each the float nearest to the exact one, with the digits that read back the same. Spheres
-/// have the numbers of [`Numbering`](cannonpile::shape::Numbering) in all of them.
+/// All numbers are in SI units and correctly rounded, with the fewest digits that read back the same. Spheres have the
+/// numbers of [`Numbering`](cannonpile::shape::Numbering) in all files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum PileFile {
-    /// `spheres.csv`: the table of [`table::spheres`](crate::table::spheres), and `load`, the force downwards that acts
-    /// besides the weight.
+    /// `spheres.csv`: the table of [`table::spheres`](crate::table::spheres), and `load`, the downward force in
+    /// addition to the weight.
     SpheresCsv,
-    /// `contacts.csv`: `id1,id2,force,fx,fy,fz,k,i,j,direction`; id1 is the upper sphere, on which the force acts, at
-    /// k, i, j.
+    /// `contacts.csv`: `id1,id2,force,fx,fy,fz,k,i,j,direction`. The force acts on id1, the upper sphere, which has the
+    /// site k, i, j.
     ContactsCsv,
-    /// `base.csv`: the table of [`table::base`](crate::table::base), a row for each sphere of the floor, and its `id`.
+    /// `base.csv`: the table of [`table::base`](crate::table::base), one row per bottom sphere, with its `id`.
     BaseCsv,
-    /// `columns.csv`: `file,column,unit,meaning`, a row for each column of the other three.
+    /// `columns.csv`: `file,column,unit,meaning`, one row per column of the other three files.
     ColumnsCsv,
-    /// `pile.data`: spheres of `atom_style sphere`, those on the floor of type 2.
+    /// `pile.data`: spheres of `atom_style sphere`; bottom spheres have type 2.
     LammpsData,
-    /// `pile.in`: lets the pile relax on springs, and writes the forces to `forces.dump`.
+    /// `pile.in`: relaxes the pile on springs, and writes the forces to `forces.dump`.
     LammpsInput,
-    /// `spheres.vtp`: points with `id`, `layer`, `radius`, `weight`, `load` and `reaction`, the force of the floor.
+    /// `spheres.vtp`: points with `id`, `layer`, `radius`, `weight`, `load` and `reaction`, the force from the floor.
     SpheresVtp,
-    /// `contacts.vtp`: lines between centres with `id1`, `id2`, `direction` (0, 1, 2 for α, β, γ), `force` and
-    /// `force_vector`, that on the upper sphere; `force` at the ends too, which tubes are as wide as.
+    /// `contacts.vtp`: lines between centres with `id1`, `id2`, `direction` (0, 1, 2 for α, β, γ), `force`, and
+    /// `force_vector` on the upper sphere. Both end points also have `force`, for the width of tubes.
     ContactsVtp,
-    /// `spheres.txt`: `x y z r`, for `ymport.text`; sphere n is body n − 1.
+    /// `spheres.txt`: `x y z r` for `ymport.text`; sphere n is body n − 1.
     YadeSpheres,
-    /// `pile.py`: lets the pile relax, and writes the forces to `forces.csv`.
+    /// `pile.py`: relaxes the pile, and writes the forces to `forces.csv`.
     YadeScript,
-    /// `card.md`: the benchmark in Markdown; lists of more than 130 rows are left to the csv files.
+    /// `card.md`: the benchmark in Markdown. Lists of more than 130 rows are only in the csv files.
     CardMarkdown,
-    /// `card.json`: the same for machines, each number as `{"exact": …, "float": …}`, the exact one as text; lists of more than
-    /// 10,000 rows are left to the csv files.
+    /// `card.json`: the benchmark for programs. Each number is `{"exact": …, "float": …}`, with the exact number as
+    /// text. Lists of more than 10,000 rows are only in the csv files.
     CardJson,
-    /// `dem-pile.yaml`: the pile, and where its spheres come to rest.
+    /// `dem-pile.yaml`: the pile, and the positions at rest.
     LammpsTest,
-    /// `checkPile.py`: the pile and its forces; raises `YadeCheckError` with the worst contact.
+    /// `checkPile.py`: the pile and its exact forces. The script raises `YadeCheckError` with the worst contact.
     YadeCheck,
-    /// `scene.toml`: the scene that the pile was made of, written with any format if it is
-    /// [given](super::PileExport::with_scene).
+    /// `scene.toml`: the scene of the pile, written with any format if it is [given](super::PileExport::with_scene).
     Scene,
 }
 
 impl PileFile {
-    /// The name of the file.
+    /// Returns the name of the file.
     ///
     /// # Examples
     /// ```
@@ -156,13 +155,13 @@ impl PileFile {
 /// A file that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Which file of this crate it is; `None` for an [`OtherFile`].
+    /// The kind of file; `None` for an [`OtherFile`].
     pub file: Option<PileFile>,
-    /// Where it is.
+    /// The path of the file.
     pub path: PathBuf,
-    /// Its spheres or contacts; none in a script, a card, a scene, a list of columns, or another file.
+    /// The number of spheres or contacts that the file lists; `None` for a file without such a list.
     pub rows: Option<u64>,
-    /// Its size.
+    /// The size of the file in bytes.
     pub bytes: u64,
 }
 
@@ -201,7 +200,7 @@ impl fmt::Debug for OtherFile<'_> {
     }
 }
 
-/// Files that were written, one a row: `file, rows, bytes`.
+/// Returns a table of written files, one row each: `file, rows, bytes`.
 ///
 /// # Examples
 /// ```

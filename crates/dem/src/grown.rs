@@ -1,4 +1,4 @@
-//! How a pile is grown, in a few words.
+//! Short descriptions of stackings and anchors.
 
 use num_traits::One;
 
@@ -6,7 +6,7 @@ use cannonpile::Pile;
 use cannonpile::lattice::Dimension;
 use cannonpile::shape::Shape;
 
-/// Returns the stacking by its name, or the first of its Hägg signs; none of discs, or of one layer.
+/// Returns the name of the stacking, or its first Hägg signs; `None` for discs and for a single layer.
 #[must_use]
 pub fn stacking(pile: &Pile) -> Option<String> {
     let stacking = pile.shape().stacking();
@@ -17,7 +17,7 @@ pub fn stacking(pile: &Pile) -> Option<String> {
     (pile.dimension() == Dimension::Three && pile.layers() > 1).then(name)
 }
 
-/// Returns the layer that all others are grown from, unless it is the top and one sphere.
+/// Returns the top or base that the pile grows from; `None` for one sphere on top.
 #[must_use]
 pub fn anchor(shape: &Shape) -> Option<String> {
     let base = shape.base();
@@ -32,7 +32,7 @@ pub fn anchor(shape: &Shape) -> Option<String> {
     Some(format!("top {}", brief(&format!("{top:#}"), 40)))
 }
 
-/// Returns a text without what exceeds some letters.
+/// Returns a text of at most `most` characters. A longer text is cut, and ends with an ellipsis.
 #[must_use]
 pub fn brief(text: &str, most: usize) -> String {
     if text.chars().count() <= most {

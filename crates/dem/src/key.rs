@@ -21,9 +21,9 @@ pub enum Key {
     Layers,
     /// How layers follow one another.
     Stacking,
-    /// The top layer, from which the pile grows down.
+    /// The top layer of a pile that grows down.
     Top,
-    /// The bottom layer, from which the pile grows up.
+    /// The bottom layer of a pile that grows up.
     Base,
     /// Discs or spheres.
     Dimension,
@@ -43,12 +43,12 @@ pub enum Key {
     Gravity,
     /// The isostatic or the elastic state.
     State,
-    /// κ′/κ, the stiffness of horizontal contacts over that of sloping ones.
+    /// κ′/κ, the stiffness of horizontal contacts over that of sloping contacts.
     StiffnessRatio,
 }
 
 impl Key {
-    /// All keys, in the order in which a scene file is written.
+    /// All keys, in the order of a written scene file.
     pub const ALL: [Self; 14] = [
         Self::Layers,
         Self::Stacking,
@@ -66,7 +66,7 @@ impl Key {
         Self::StiffnessRatio,
     ];
 
-    /// Returns the key as it is written in a file: `layers`, `sin-phi`.
+    /// Returns the key as written in a file: `layers`, `sin-phi`.
     ///
     /// # Examples
     /// ```

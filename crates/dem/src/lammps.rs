@@ -11,10 +11,10 @@ use crate::table::WriteError;
 use cannonpile::engine::refuse_beyond;
 use cannonpile::lattice::Dimension;
 
-/// The most atoms of LAMMPS compiled as usual.
+/// The maximal number of atoms in a standard build of LAMMPS.
 const MAX_ATOMS: u64 = i32::MAX as u64;
 
-/// Writes the spheres, those on the floor of type 2, in a box that leaves them room to fall.
+/// Writes the spheres in a box with room to fall. Bottom spheres have type 2.
 pub(super) fn write_data(
     pile: &NumberedPile<'_>,
     out: &mut dyn Write,
@@ -59,7 +59,7 @@ pub(super) fn write_data(
     Ok(())
 }
 
-/// Writes a script that lets the pile relax, and writes the forces of the last state.
+/// Writes a script that relaxes the pile, and writes the forces of the final state.
 pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
     let springs = Springs::of(pile)?;
     let weight = match springs.gravity {
@@ -77,7 +77,7 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
         include_str!("pile.in"),
         &[
             ("stiffness", number(springs.stiffness)),
-            // LAMMPS takes it by the mass of the pair, which is m/2.
+            // LAMMPS multiplies this number by the mass of the pair, m/2.
             ("damping", number(springs.dashpot() / (springs.mass / 2.0))),
             ("skin", number(0.2 * springs.radius)),
             ("weight", weight),
@@ -93,8 +93,8 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
     Ok(out.write_all(script.as_bytes())?)
 }
 
-/// The commands that put loads on spheres; nothing if there are none. A set command begins with `set`, and the lines before
-/// them and after them are around them.
+/// Returns the commands that apply loads to spheres, or an empty text without loads. Each set command begins with
+/// `set`. The other texts precede and follow the set commands.
 pub(super) fn loads(
     pile: &NumberedPile<'_>,
     [before, set, after]: [&str; 3],

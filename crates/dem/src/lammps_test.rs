@@ -15,8 +15,8 @@ use crate::Error;
 use crate::table::WriteError;
 use cannonpile::lattice::Dimension;
 
-/// The relative error of positions that is let pass: where each contact bears a force, and where some bear none, so that a
-/// sphere comes to rest against them in its own time.
+/// The accepted relative error of positions if every contact has a force, and if some contacts have none. A sphere
+/// settles slowly against contacts without a force.
 const BEARING: f64 = 1e-11;
 const IDLE: f64 = 1e-9;
 
@@ -42,14 +42,14 @@ fn text(pile: &NumberedPile<'_>, title: &str, forces: &Forces) -> Result<String,
     let number = |x: f64| format!("{x:?}");
     let flat = pile.pile().dimension() == Dimension::Two;
     let overlap = forces.greatest / springs.stiffness;
-    let has_sideways = pile.pile().horizontal_forces().len() > 0;
-    let epsilon = match (has_sideways, forces.has_idle) {
-        // A sphere may have left one that it rested on.
+    let has_horizontal = pile.pile().horizontal_forces().len() > 0;
+    let epsilon = match (has_horizontal, forces.has_idle) {
+        // A sphere may have lost contact with one of its supports.
         (true, _) => 10.0_f64.powf((overlap / springs.radius).log10().ceil() + 1.0),
         (false, true) => IDLE,
         (false, false) => BEARING,
     };
-    let compared = if has_sideways {
+    let compared = if has_horizontal {
         "it is the shape that is compared, no more".to_owned()
     } else {
         let resolution = epsilon * middle(&at_rest) / overlap;
@@ -91,13 +91,13 @@ fn text(pile: &NumberedPile<'_>, title: &str, forces: &Forces) -> Result<String,
             ("forces", reactions(pile)?),
             ("steps", steps.to_string()),
             ("positions", positions(&at_rest)),
-            // Whatever stands there is not filled in again.
+            // The title comes last, so that names in braces within it are not replaced.
             ("title", title.to_owned()),
         ],
     ))
 }
 
-/// The mean coordinate.
+/// Returns the mean of all coordinates.
 fn middle(centres: &[[f64; 3]]) -> f64 {
     let all = centres.as_flattened();
     #[expect(
@@ -108,7 +108,7 @@ fn middle(centres: &[[f64; 3]]) -> f64 {
     all.iter().sum::<f64>() / count
 }
 
-/// `xlo xhi ylo yhi zlo zhi`, with room to move.
+/// Returns `xlo xhi ylo yhi zlo zhi`, with room for motion.
 fn boundaries(centres: &[[f64; 3]], radius: f64) -> String {
     let sides = [0, 1, 2].map(|axis| {
         let greatest = centres.iter().map(|centre| centre[axis]);
@@ -127,7 +127,7 @@ fn atoms(pile: &NumberedPile<'_>, centres: &[[f64; 3]]) -> String {
     atoms.collect()
 }
 
-/// The spheres that do not weigh what others do.
+/// Returns commands that set the density of spheres with other weights.
 fn densities(pile: &NumberedPile<'_>, springs: &Springs) -> Result<String, Error> {
     let masses = inertias(pile)?.into_iter().map(|(site, mass)| {
         let (id, density) = (pile.numbering().id(site)?, density(mass, springs.radius)?);
@@ -142,7 +142,7 @@ const LOADS: [&str; 3] = [
     "  variable load atom d_load\n  fix push all addforce 0.0 0.0 v_load\n",
 ];
 
-/// What acts on each sphere at rest, but for the floor that holds it: nothing off the floor.
+/// Returns the force on each sphere at rest, without the force from the floor: zero above the floor.
 fn reactions(pile: &NumberedPile<'_>) -> Result<String, Error> {
     let off_the_floor = 1..pile.numbering().first_on_floor();
     let off_the_floor = off_the_floor.map(|id| Ok(format!("  {id} 0.0 0.0 0.0\n")));
@@ -150,7 +150,7 @@ fn reactions(pile: &NumberedPile<'_>) -> Result<String, Error> {
         let (id, force) = force?;
         let load = pile.pile().load(force.site)?;
         let load = nearest_rational(&(load * pile.packing().sphere_weight()), "a load")?;
-        // A sphere without weight of its own has a mass in LAMMPS, which gravity pulls at.
+        // LAMMPS assigns a mass, and so a weight, to weightless spheres too.
         let weight = pile.pile().sphere_weight(force.site)?;
         let pulled = if weight.is_zero() && !pile.pile().is_weightless() {
             nearest_rational(&pile.packing().sphere_weight(), "weight")?

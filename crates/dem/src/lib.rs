@@ -1,8 +1,8 @@
 //! Sphere piles for DEM codes: scenes read, piles exported, and forces of simulations verified.
 //!
 //! The exact forces come from the crates [`cannonpile`] and [`cannonpile_horizontal`]. This crate exchanges them with
-//! other programs. All exported files are in SI units: lengths in m, masses in kg, forces in N, z up. `columns.csv`,
-//! which is written with the csv files, states the unit and the meaning of each of their columns.
+//! other programs. All exported files are in SI units: lengths in m, masses in kg, forces in N, z up. `columns.csv`
+//! accompanies the csv files, and states the unit and the meaning of each column.
 //!
 //! # Map
 //! A module may use the modules above it in this table, never one below.
@@ -13,11 +13,11 @@
 //! | [`scene`] | a pile as a user describes it: options, TOML files, named benchmark cases |
 //! | [`table`] | tables of forces and spheres as csv, JSON and text; files that are complete or absent |
 //! | the crate root | whole piles: [`PileExport`] for files, [`PileArrays`] for slices, [`NumberedPile`] for both |
-//! | | [`Compliance`]: how far the forces of a code with springs are from the exact ones |
+//! | | [`Compliance`]: the difference between forces on springs and exact forces |
 //! | [`verify`] | measured contact forces, compared with the exact ones |
 //!
 //! # Example
-//! A pile of two layers is exported, and then the forces of a simulation are compared with the exact ones.
+//! The example exports a pile of two layers, and then compares the forces of a simulation with the exact ones.
 //! ```
 //! use cannonpile_dem::scene::Scene;
 //! use cannonpile_dem::verify::{Comparison, Measured};

@@ -10,7 +10,7 @@ use cannonpile::scalar::Surd;
 use cannonpile::shape::{Numbering, Rows, Selection};
 use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
 
-/// A packing, and the numbers of its spheres.
+/// A packing with numbered spheres.
 ///
 /// # Examples
 /// ```
@@ -34,23 +34,24 @@ pub struct NumberedPile<'p> {
     numbering: Numbering<'p>,
 }
 
-/// A contact of a pile, its force rounded.
+/// A contact of a pile with its correctly rounded force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct NumberedContact {
-    /// The numbers of the upper sphere and of the lower one; of two neighbours that of the one that names their contact first.
+    /// The numbers of the upper and the lower sphere. For two neighbours, the sphere that names the contact is first.
     pub ids: [u64; 2],
-    /// The upper sphere; of two neighbours the one that names their contact.
+    /// The upper sphere; for two neighbours, the sphere that names the contact.
     pub site: Site,
-    /// Where the other one lies.
+    /// The direction from this sphere to the other one.
     pub direction: ContactKind,
-    /// The float nearest to the force in N; positive is push. It is 0 if and only if the force is.
+    /// The force in N, correctly rounded; a positive force is a push. The float is 0 if and only if the exact force is
+    /// 0.
     pub force: f64,
-    /// The floats nearest to x, y and z (up) of the force on the sphere that comes first in `ids`, in N.
+    /// The force on the first sphere of `ids` as x, y and z (up), in N and correctly rounded.
     pub vector: [f64; 3],
 }
 
-/// Where a sloping contact is.
+/// The spheres and the direction of a sloping contact.
 #[derive(Clone, Copy)]
 pub(super) struct Touch {
     pub(super) ids: [u64; 2],
@@ -64,9 +65,9 @@ pub struct LinkedRow {
     first: Site,
     /// The number of the first sphere.
     pub upper: u64,
-    /// How many there are; their numbers follow each other.
+    /// The number of spheres in the row; their numbers are consecutive.
     pub spheres: u64,
-    /// The directions of the contacts, and the numbers of the spheres that the first one touches there.
+    /// The contact directions, and for each the number of the sphere below the first sphere.
     pub below: Vec<(Direction, u64)>,
 }
 
@@ -74,7 +75,8 @@ impl<'p> NumberedPile<'p> {
     /// Numbers the spheres of a packing.
     ///
     /// # Errors
-    /// [`Error::TooManyRows`](cannonpile::Error::TooManyRows) for more than [`MAX_ROWS`](crate::table::MAX_ROWS) spheres or contacts.
+    /// [`Error::TooManyRows`](cannonpile::Error::TooManyRows) for more than [`MAX_ROWS`](crate::table::MAX_ROWS)
+    /// spheres or contacts.
     ///
     /// # Examples
     /// ```
@@ -98,7 +100,7 @@ impl<'p> NumberedPile<'p> {
         })
     }
 
-    /// The packing.
+    /// Returns the packing.
     ///
     /// # Examples
     /// ```
@@ -118,7 +120,7 @@ impl<'p> NumberedPile<'p> {
         &self.packing
     }
 
-    /// The numbers of the spheres.
+    /// Returns the numbers of the spheres.
     ///
     /// # Examples
     /// ```
@@ -143,12 +145,12 @@ impl<'p> NumberedPile<'p> {
         self.packing.pile()
     }
 
-    /// The spheres, in the order of their numbers.
+    /// Returns the sites of the spheres, in the order of their numbers.
     pub(super) fn sites(&self) -> Result<impl Iterator<Item = Site> + use<'p>, Error> {
         Ok(self.pile().rows(Selection::All)?.flatten())
     }
 
-    /// The spheres with their centres as the nearest floats, in the order of their numbers.
+    /// Returns the sites and the correctly rounded centres of the spheres, in the order of their numbers.
     pub(crate) fn centres(
         &self,
     ) -> Result<impl Iterator<Item = Result<(Site, [f64; 3]), Error>> + use<'p>, Error> {
@@ -162,14 +164,14 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// How many contacts there are: sloping ones, and horizontal ones with a force.
+    /// Returns the number of contacts: all sloping contacts, and the horizontal contacts with a force.
     #[doc(hidden)]
     #[must_use]
     pub fn contact_count(&self) -> BigUint {
         self.pile().contact_count() + self.pile().horizontal_forces().len()
     }
 
-    /// How contacts lie, and their spheres: in the order of [`contacts`](Self::contacts).
+    /// Returns the directions and sphere numbers of all contacts, in the order of [`contacts`](Self::contacts).
     pub(super) fn touches(
         &self,
     ) -> Result<impl Iterator<Item = Result<(ContactKind, [u64; 2]), Error>> + '_, Error> {
@@ -182,7 +184,7 @@ impl<'p> NumberedPile<'p> {
         Ok(sloping.chain(horizontal.map(|contact| contact.map(|c| (c.direction, c.ids)))))
     }
 
-    /// The centres of both spheres of all contacts, in the order of [`contacts`](Self::contacts).
+    /// Returns the centres of both spheres of all contacts, in the order of [`contacts`](Self::contacts).
     pub(crate) fn links(
         &self,
     ) -> Result<impl Iterator<Item = Result<[[f64; 3]; 2], Error>> + '_, Error> {
@@ -226,7 +228,7 @@ impl<'p> NumberedPile<'p> {
         rounded(&self.packing.position(site)?, "a position")
     }
 
-    /// All contacts in the order of [`contacts`](Self::contacts), with the nearest floats to their forces.
+    /// Returns all contacts with correctly rounded forces, in the order of [`contacts`](Self::contacts).
     pub(super) fn forces(
         &self,
     ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
@@ -258,7 +260,7 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// The bottom spheres' numbers, and the nearest floats to their forces on the floor.
+    /// Returns the numbers of the bottom spheres, and their correctly rounded forces on the floor.
     pub(super) fn on_floor(
         &self,
     ) -> Result<impl Iterator<Item = Result<(u64, FloorForce<f64>), Error>> + use<'p>, Error> {
@@ -270,7 +272,7 @@ impl<'p> NumberedPile<'p> {
             layers.fill_row_of_base(piece, slices(&mut forces))?;
             let [normal, x, y] = forces;
             let forces = normal.into_iter().zip(x).zip(y);
-            // Sites first: no number is drawn for one past the end.
+            // Sites come first in the zip, so that the end of a piece consumes no number.
             let spheres = piece.clone().into_iter().zip(ids.by_ref()).zip(forces);
             let forces = spheres.map(|((site, id), ((normal, shear_x), shear_y))| {
                 let force = FloorForce {
@@ -285,7 +287,7 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// The horizontal contacts with a force, in the order of tables.
+    /// Returns the horizontal contacts with a force, in the order of the tables.
     pub(crate) fn horizontal(
         &self,
     ) -> impl Iterator<Item = Result<NumberedContact, Error>> + use<'_, 'p> {
@@ -311,10 +313,10 @@ impl<'p> NumberedPile<'p> {
         Ok(self.pile().rows(Selection::All)?.off_the_floor())
     }
 
-    /// The rows above the floor, with the numbers of their spheres and of those below.
+    /// Returns the rows above the floor, with the numbers of their spheres and of the spheres below.
     ///
     /// # Errors
-    /// Those of [`Pile::rows`].
+    /// The errors of [`Pile::rows`].
     #[doc(hidden)]
     pub fn linked_rows(
         &self,
@@ -323,12 +325,12 @@ impl<'p> NumberedPile<'p> {
         Ok(rows.map(|row| self.linked(&row)))
     }
 
-    /// The numbers of a row of spheres, and of those below.
+    /// Returns the numbers of a row of spheres, and of the spheres below.
     fn linked(&self, row: &Row) -> Result<LinkedRow, Error> {
         LinkedRow::of(&self.numbering, row)
     }
 
-    /// The contacts of a row of spheres with those below.
+    /// Returns the contacts of a row of spheres with the spheres below.
     fn touches_of(&self, row: &Row) -> Result<impl Iterator<Item = Touch> + use<>, Error> {
         let LinkedRow {
             first,
@@ -339,7 +341,7 @@ impl<'p> NumberedPile<'p> {
         let contacts = 0..spheres * below.len() as u64;
         Ok(contacts.filter_map(move |n| {
             let (done, direction) = (n / below.len() as u64, n % below.len() as u64);
-            // One of so many.
+            // The remainder is a valid index, so the conversion succeeds.
             let (direction, lower) = below.get(usize::try_from(direction).ok()?)?;
             Some(Touch {
                 ids: [upper + done, lower + done],
@@ -352,11 +354,13 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// All contacts in the order of the upper spheres, and then the horizontal ones with a force, made one by one.
+    /// Iterates over all contacts in the order of their upper spheres, and then over the horizontal contacts with a
+    /// force.
     ///
     /// # Errors
-    /// [`Error::TooLarge`](cannonpile::Error::TooLarge) if a layer does not fit in memory where forces have to be swept. Of a contact
-    /// [`Error::Overflow`](cannonpile::Error::Overflow) if its force is not 0 and no normal `f64` is near to it.
+    /// [`Error::TooLarge`](cannonpile::Error::TooLarge) if the forces need a sweep and a layer does not fit in memory.
+    /// For a single contact, [`Error::Overflow`](cannonpile::Error::Overflow) if its force is not 0 and exceeds the
+    /// normal range of `f64`.
     ///
     /// # Examples
     /// ```
@@ -391,7 +395,7 @@ impl<'p> NumberedPile<'p> {
 }
 
 impl LinkedRow {
-    /// The numbers of a row of spheres, and of those below: along a row they follow each other.
+    /// Returns the numbers of a row of spheres, and of the spheres below. Along a row both are consecutive.
     pub(super) fn of(numbering: &Numbering<'_>, row: &Row) -> Result<Self, Error> {
         let shape = numbering.shape();
         let at = |i| Site {
@@ -416,7 +420,7 @@ impl LinkedRow {
 }
 
 impl NumberedContact {
-    /// Returns it as seen from the sphere with the lesser number.
+    /// Returns the contact as seen from the sphere with the smaller number.
     pub(crate) fn in_order(self) -> Self {
         let [first, second] = self.ids;
         if first < second {
@@ -424,13 +428,13 @@ impl NumberedContact {
         }
         Self {
             ids: [second, first],
-            // Not −0.
+            // The subtraction yields 0, never −0.
             vector: self.vector.map(|component| 0.0 - component),
             ..self
         }
     }
 
-    /// Returns it, if its force is a normal float.
+    /// Returns the contact if its force is a normal float.
     fn checked(self) -> Result<Self, Error> {
         if self.force.is_normal() {
             return Ok(self);
@@ -442,7 +446,7 @@ impl NumberedContact {
 
 const FORCE: &str = "a contact force";
 
-/// The nearest floats.
+/// Returns the correctly rounded components of a vector.
 pub(super) fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64; 3], Error> {
     let [x, y, z] = vector;
     Ok([
@@ -452,10 +456,10 @@ pub(super) fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64
     ])
 }
 
-/// The nearest float; `quantity` is named if there is none.
+/// Returns a number correctly rounded. The error of an overflow contains `quantity`.
 ///
 /// # Errors
-/// [`Error::Overflow`](cannonpile::Error::Overflow) beyond the floats.
+/// [`Error::Overflow`](cannonpile::Error::Overflow) if the number exceeds the floats.
 pub fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
     let scalar = "f64";
     number

@@ -1,11 +1,12 @@
-//! VTK's XML files of points and what they make: a head that says where each array is, and the arrays after it, raw.
+//! VTK's XML files of poly data: a header with the offset of each array, then the arrays in raw binary form.
 //!
-//! <https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>: an array is its bytes, after their number as
-//! a `u64`. All sizes are known before the first number is written.
+//! Each array is its size in bytes as a `u64`, followed by the bytes
+//! (<https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>). All sizes are known before the first number
+//! is written.
 
 use std::io::{self, Write};
 
-/// The type of the numbers of an array.
+/// The number type of an array.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Kind {
     Float64,
@@ -22,7 +23,7 @@ impl Kind {
     }
 }
 
-/// An array: its name, what it holds, how many numbers for each of how many things.
+/// An array: its name, its number type, the components of an element, and the number of elements.
 pub(super) struct Array {
     pub(super) name: &'static str,
     pub(super) kind: Kind,
@@ -51,17 +52,17 @@ pub(super) struct Section {
     pub(super) arrays: Vec<Array>,
 }
 
-/// A file being written.
+/// A writer of a file.
 pub(super) struct PolyData<'w> {
     out: &'w mut dyn Write,
-    /// The bytes of the arrays that are still to come, the last first.
+    /// The sizes in bytes of the remaining arrays, in reverse order.
     coming: Vec<u64>,
-    /// The bytes left of the array that is being written.
+    /// The remaining bytes of the current array.
     left: u64,
 }
 
 impl<'w> PolyData<'w> {
-    /// Writes the head. The arrays have to follow in the order of the sections.
+    /// Writes the header. The arrays must follow in the order of the sections.
     pub(super) fn begin(
         out: &'w mut dyn Write,
         points: u64,
@@ -121,7 +122,7 @@ impl<'w> PolyData<'w> {
         vector.into_iter().try_for_each(|x| self.float(x))
     }
 
-    /// An integer that fits in an `i64`.
+    /// Writes an integer that fits in an `i64`.
     pub(super) fn integer(&mut self, n: u64) -> io::Result<()> {
         self.bytes(&n.to_le_bytes())
     }
@@ -130,17 +131,17 @@ impl<'w> PolyData<'w> {
         self.bytes(&[n])
     }
 
-    /// `step`, 2·`step`, … : where the cells of as many points end.
+    /// Writes `step`, 2·`step`, …: the offsets of the ends of cells with `step` points each.
     pub(super) fn multiples(&mut self, step: u64, cells: u64) -> io::Result<()> {
         (1..=cells).try_for_each(|cell| self.integer(step * cell))
     }
 
-    /// 0, 1, 2, …
+    /// Writes 0, 1, 2, ….
     pub(super) fn count_up(&mut self, points: u64) -> io::Result<()> {
         (0..points).try_for_each(|point| self.integer(point))
     }
 
-    /// Writes the end.
+    /// Writes the end of the file.
     pub(super) fn end(self) -> io::Result<()> {
         self.check_done()?;
         if !self.coming.is_empty() {

@@ -1,4 +1,4 @@
-//! What a pile of stiff spheres is to a code that has springs: how stiff, how damped, in which steps.
+//! Springs for simulation codes: their stiffness, their damping and the timestep.
 
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -9,24 +9,24 @@ use crate::Error;
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Ring;
 
-/// Springs, dashpots and steps that let a pile relax to its exact forces.
+/// Springs, dashpots and timesteps that relax a pile to its exact forces.
 ///
-/// With the spring constant k and forces up to F, spheres sink into each other by F/k: forces are wrong by some F/(kR),
-/// and by the last digit of a position times k. Here F/(kR) is 10⁻⁶, a hundred times what the last digits bring.
+/// With the spring constant k and forces up to F, overlaps are F/k. The relative error of forces is about F/(kR), plus
+/// the rounding error of positions times k. Here F/(kR) is 10⁻⁶, a hundred times the effect of rounding.
 pub(super) struct Springs {
     pub(super) radius: f64,
     pub(super) mass: f64,
-    /// The gravity, 0 for spheres that weigh nothing.
+    /// The gravity; 0 for weightless spheres.
     pub(super) gravity: f64,
-    /// k = 10⁶ L·mg/(R cos²θ), for the greatest load in place of mg where that is more.
+    /// k = 10⁶ L·mg/(R cos²θ), with the greatest load instead of mg if it is larger.
     pub(super) stiffness: f64,
     /// A tenth of √(m/k).
     pub(super) timestep: f64,
-    /// The distance of the floats at the greatest coordinate: a sphere whose steps are shorter stays where it is.
+    /// The spacing of floats at the greatest coordinate. A shorter step does not move a sphere.
     pub(super) last_digit: f64,
     /// The number of layers.
     pub(super) layers: f64,
-    /// Steps after which a pile that comes to no rest is given up.
+    /// The number of steps before the script gives up.
     pub(super) most_steps: u64,
     /// The least and the greatest x, y and z of the centres.
     pub(super) bounds: [[f64; 2]; 3],
@@ -37,7 +37,7 @@ impl Springs {
         let (pile, packing) = (numbered.pile(), numbered.packing());
         let layers = BigRational::from_i128(pile.layers());
         let most = greatest_extra(pile)?;
-        // In mg. Of spheres that weigh nothing only the loads matter, and without any nothing does.
+        // In mg. For weightless spheres only the loads matter; without loads any value is correct.
         let greatest = match (pile.is_weightless(), most.is_zero()) {
             (true, false) => layers.clone() * most,
             _ => layers.clone() + most,
@@ -49,7 +49,7 @@ impl Springs {
         let mass = normal(packing.mass(), "mass")?;
         let gravity = ordinary_weight(pile) * packing.gravity();
         let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
-        // Layers are convex: their corners are their extremes.
+        // Layers are convex, so corners have the extreme coordinates.
         for k in 0..pile.layers() {
             for [i, j] in pile.shape().layer(k)?.corners() {
                 for (bound, x) in bounds.iter_mut().zip(packing.position(Site { i, j, k })?) {
@@ -78,24 +78,24 @@ impl Springs {
         })
     }
 
-    /// The dashpot between two spheres, in kg/s: critical for the two on the spring.
+    /// Returns the dashpot between two spheres, in kg/s: the critical damping of two spheres on the spring.
     pub(super) fn dashpot(&self) -> f64 {
         (2.0 * self.stiffness * self.mass).sqrt()
     }
 
-    /// The drag on each sphere, in kg/s: critical for the slowest swing of the whole pile, whose frequency is about
-    /// √(k/m)/L. It stops with the spheres, and leaves no force behind.
+    /// Returns the drag on each sphere, in kg/s: the critical damping of the slowest mode of the pile, whose frequency
+    /// is about √(k/m)/L. At rest the drag exerts no force.
     pub(super) fn drag(&self) -> f64 {
         2.0 * (self.stiffness * self.mass).sqrt() / self.layers
     }
 
-    /// The greatest force on a sphere that is left over where coordinates end.
+    /// Returns the greatest force on a sphere that can remain because of the rounding of coordinates.
     pub(super) fn rest(&self) -> f64 {
         4.0 * self.stiffness * self.last_digit
     }
 }
 
-/// ρ of a sphere of this mass: m/(4/3·πR³).
+/// Returns the density of a sphere of this mass: m/(4/3·πR³).
 pub(super) fn density(mass: f64, radius: f64) -> Result<f64, Error> {
     let volume = 4.0 / 3.0 * core::f64::consts::PI * radius * radius * radius;
     checked(

@@ -1,37 +1,39 @@
-//! What tests in the suites of other codes have in common: they take seconds, and hold all of their pile.
+//! Common parts of tests for the suites of other codes. These tests take seconds, and contain the whole pile.
 
 use super::numbered::NumberedPile;
 use crate::Error;
 use cannonpile::engine::refuse_beyond;
 
-/// The most spheres of a test that runs beside many others.
+/// The maximal number of spheres, because suites run many tests.
 const MAX_SPHERES: u64 = 2000;
 
-/// The error that is let pass, of the greatest force: of springs as stiff as here it is a hundredth of that in straight piles.
+/// The accepted error, relative to the greatest force. On these springs the error of straight piles is a hundredth of
+/// it.
 pub(super) const TOLERANCE: f64 = 1e-5;
 
-/// What a suite is to do with the pile.
+/// The expected outcome of a test.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Outcome {
-    /// It comes to rest with its exact forces.
+    /// The pile reaches equilibrium with its exact forces.
     Rests,
-    /// Contacts are lost: no forces that only push are in balance.
+    /// Contacts are lost, because no compressive forces are in equilibrium.
     Falls,
-    /// Neither: spheres without weight, some contacts of which would have to pull; or further contacts may hold it.
+    /// Undecided: weightless spheres where some contacts need a tensile force, or further contacts may support the
+    /// pile.
     Unclear,
 }
 
-/// What the tests have to know of all contact forces.
+/// The properties of all contact forces that the tests need.
 pub(super) struct Forces {
-    /// The greatest, in N.
+    /// The greatest force, in N.
     pub(super) greatest: f64,
-    /// Whether a contact bears none.
+    /// True if some contact has no force.
     pub(super) has_idle: bool,
     pub(super) outcome: Outcome,
 }
 
 impl Forces {
-    /// Looks at all contacts of a pile that is small enough.
+    /// Examines all contacts of a sufficiently small pile.
     pub(super) fn of(pile: &NumberedPile<'_>) -> Result<Self, Error> {
         let spheres = pile.numbering().sphere_count();
         refuse_beyond(

@@ -1,22 +1,23 @@
-//! Where spheres come to rest on springs: they sink into each other by f/k.
+//! The equilibrium positions of spheres that overlap by f/k on springs.
 
 use super::numbered::NumberedPile;
 use super::springs::Springs;
 use crate::Error;
 use cannonpile::lattice::ContactKind;
 
-/// The centres of the spheres in the order of their numbers, as springs of stiffness k leave them, moved by a multiple of R
-/// so that all coordinates are at least 2R: what is compared by a relative error must not be near to 0.
+/// The centres of the spheres in equilibrium on springs of stiffness k, in the order of their numbers. They are
+/// translated by a multiple of R, so that all coordinates are at least 2R. Coordinates near 0 would make a comparison
+/// by relative errors impossible.
 ///
-/// From the floor up each sphere is where its distance from the spheres that it rests on is 2R − f/k, with the exact force
-/// f. The forces themselves change as contacts turn, by F/(kR) of themselves, so that centres are wrong by (F/(kR))² R times
-/// the number of layers.
+/// From the floor up, the distance of each sphere from its supports is set to 2R − f/k, with the exact force f. The
+/// rotation of contacts changes forces by F/(kR) of themselves. So the error of centres is (F/(kR))² R times the number
+/// of layers.
 pub(super) struct Sunk {
     pub(super) rigid: Vec<[f64; 3]>,
     pub(super) at_rest: Vec<[f64; 3]>,
 }
 
-/// A sphere that another rests on: its place in the list, and the force.
+/// A supporting sphere: its index, and the contact force.
 type Support = (usize, f64);
 
 impl Sunk {
@@ -34,7 +35,7 @@ impl Sunk {
         for contact in pile.forces()? {
             let contact = contact?;
             let [upper, lower] = contact.ids.map(|id| usize::try_from(id - 1));
-            // Numbers of spheres that are kept in memory.
+            // All numbers are indices of spheres in memory.
             let (Ok(upper), Ok(lower), ContactKind::Sloping(_)) = (upper, lower, contact.direction)
             else {
                 continue;
@@ -50,26 +51,26 @@ impl Sunk {
                 .map(|(lower, force)| (at_rest[*lower], 2.0 * radius - force / springs.stiffness))
                 .collect();
             if let [first, second, third] = on[..] {
-                at_rest[sphere] = resting_on(at_rest[sphere], [first, second, third]);
+                at_rest[sphere] = supported_by(at_rest[sphere], [first, second, third]);
             } else if let [first, second] = on[..] {
-                // A disc stays in its plane: as if something far along y held it there.
+                // A third support along y keeps a disc in its plane.
                 let aside = add(at_rest[sphere], [0.0, radius, 0.0]);
-                at_rest[sphere] = resting_on(at_rest[sphere], [first, second, (aside, radius)]);
+                at_rest[sphere] = supported_by(at_rest[sphere], [first, second, (aside, radius)]);
             }
         }
         Ok(Self { rigid, at_rest })
     }
 }
 
-/// The point at these distances from three others, by Newton's method from a point nearby.
-fn resting_on(start: [f64; 3], supports: [([f64; 3], f64); 3]) -> [f64; 3] {
+/// Returns the point at these distances from three others, by Newton's method from a nearby start.
+fn supported_by(start: [f64; 3], supports: [([f64; 3], f64); 3]) -> [f64; 3] {
     let mut at = start;
     for _ in 0..8 {
         let apart = supports.map(|(centre, _)| add(at, centre.map(|x| -x)));
         let lengths = apart.map(|v| dot(v, v).sqrt());
         let missing = [0, 1, 2].map(|n| supports[n].1 - lengths[n]);
         let [a, b, c] = [0, 1, 2].map(|n| apart[n].map(|x| x / lengths[n]));
-        // a·step, b·step and c·step are what is missing.
+        // Along a, b and c the step has the missing lengths as components.
         let [bc, ca, ab] = [cross(b, c), cross(c, a), cross(a, b)];
         let volume = dot(a, bc);
         let step = [0, 1, 2]
@@ -100,13 +101,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_point_has_its_distances() {
+    fn returns_a_point_with_the_given_distances() {
         let supports = [
             ([1.0, 0.0, 0.0], 1.5),
             ([-0.5, 0.9, 0.0], 1.4),
             ([-0.5, -0.8, 0.1], 1.6),
         ];
-        let at = resting_on([0.0, 0.0, 1.2], supports);
+        let at = supported_by([0.0, 0.0, 1.2], supports);
         for (centre, distance) in supports {
             let apart = add(at, centre.map(|x| -x));
             assert!(

@@ -1,8 +1,8 @@
-//! Texts with places to fill in.
+//! Texts with placeholders.
 
 use std::collections::BTreeMap;
 
-/// The template with each `{name}` replaced by its text. A text is not filled in again.
+/// Replaces each `{name}` in the template by its text. Placeholders within a text are not replaced.
 #[must_use]
 pub fn fill(template: &str, texts: &[(&str, String)]) -> String {
     filled(template, |name| {
@@ -12,7 +12,8 @@ pub fn fill(template: &str, texts: &[(&str, String)]) -> String {
     })
 }
 
-/// The lines of a template of which each name has a text, filled in. Of empty lines that follow each other one is left.
+/// Fills in the lines of a template whose names all have texts, and omits the other lines. Of consecutive empty lines
+/// only one remains.
 pub(crate) fn fill_lines(template: &str, texts: &BTreeMap<String, String>) -> String {
     let names = |line: &str| {
         let mut parts = line.split('{').skip(1);
@@ -32,7 +33,7 @@ pub(crate) fn fill_lines(template: &str, texts: &BTreeMap<String, String>) -> St
 
 fn filled<'t>(template: &str, text: impl Fn(&str) -> Option<&'t String>) -> String {
     let mut parts = template.split('{');
-    // Not a default: what is split has a first part.
+    // A split always has a first part, so this default never applies.
     let mut whole = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let name = part.split_once('}');
@@ -49,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_place_is_filled() {
+    fn fills_every_placeholder() {
         let texts = [("a", "1".to_owned()), ("b", "x{a}".to_owned())];
         assert_eq!(
             fill("{a}, {b} and {a}; {} {{a}}", &texts),
@@ -58,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_without_their_texts_are_left_out() {
+    fn omits_lines_without_texts() {
         let texts = [("a", "1"), ("flag", "")].map(|(name, text)| (name.into(), text.into()));
         let template = "{a}\n\n{b}\n\n{flag}x {a}\n{flag}{none}\n";
         assert_eq!(fill_lines(template, &texts.into()), "1\n\nx 1\n");

@@ -8,7 +8,7 @@ use super::weights::{PerSphere, nearest_rational};
 use crate::table::WriteError;
 use cannonpile::lattice::{Axis, ContactKind, Direction};
 
-/// A point and a vertex for each sphere.
+/// Writes one point and one vertex for each sphere.
 pub(super) fn write_spheres(
     pile: &NumberedPile<'_>,
     out: &mut dyn Write,
@@ -42,7 +42,7 @@ pub(super) fn write_spheres(
     (1..=n).try_for_each(|id| data.integer(id))?;
     data.array()?;
     for site in pile.sites()? {
-        // Not more layers than spheres, which are numbered.
+        // There are at most as many layers as spheres, and sphere numbers fit in a `u64`.
         let layer = u64::try_from(site.k).map_err(std::io::Error::other)?;
         data.integer(layer)?;
     }
@@ -70,27 +70,27 @@ pub(super) fn write_spheres(
     Ok(data.end()?)
 }
 
-/// The force of the floor on each sphere: none off it.
+/// Writes the force from the floor on each sphere: zero for spheres above the floor.
 fn write_reactions(pile: &NumberedPile<'_>, data: &mut PolyData<'_>) -> Result<(), WriteError> {
     for _ in 1..pile.numbering().first_on_floor() {
         data.vector([0.0; 3])?;
     }
     for force in pile.on_floor()? {
         let (_, force) = force?;
-        // Not −0.
+        // The subtraction yields 0, never −0.
         data.vector([0.0 - force.shear_x, 0.0 - force.shear_y, force.normal])?;
     }
     Ok(())
 }
 
-/// A line for each contact, with two points of its own, so that the force can be at both ends: tubes are as wide as
-/// what their points say.
+/// Writes one line for each contact, with two points of its own. Both points store the force, because the width of
+/// tubes is a value of points.
 pub(super) fn write_contacts(
     pile: &NumberedPile<'_>,
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    // Not more than the most rows.
+    // The number of contacts does not exceed the maximal number of rows.
     let n = u64::try_from(pile.contact_count()).map_err(std::io::Error::other)?;
     let sections = [
         Section {
@@ -160,9 +160,9 @@ pub(super) fn write_contacts(
     Ok(data.end()?)
 }
 
-/// All forces in turn: magnitude, and vector on the upper sphere.
+/// Calls `write` with each force: its magnitude, and its vector on the upper sphere.
 ///
-/// Once for each array, because an array is written to its end before the next, and none has room in memory.
+/// Each array iterates again, because an array is complete before the next begins, and the forces do not fit in memory.
 fn each_force(
     pile: &NumberedPile<'_>,
     mut write: impl FnMut([f64; 4]) -> std::io::Result<()>,
@@ -175,7 +175,7 @@ fn each_force(
     Ok(())
 }
 
-/// The points of cells, and where those of each end.
+/// Returns the arrays of cells: the points, and the offset of each cell's end.
 fn cells(points: u64, cells: u64) -> Vec<Array> {
     vec![
         Array::new("connectivity", Kind::Int64, 1, points),

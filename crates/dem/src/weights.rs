@@ -1,4 +1,4 @@
-//! What spheres weigh and bear, as a simulation needs it.
+//! Masses, weights and loads of spheres for simulation codes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,20 +10,20 @@ use crate::Error;
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
 
-/// The nearest float to a rational.
+/// Returns a rational, correctly rounded.
 ///
 /// # Errors
-/// [`Error::Overflow`](cannonpile::Error::Overflow) beyond the floats.
+/// [`Error::Overflow`](cannonpile::Error::Overflow) if the number exceeds the floats.
 pub fn nearest_rational(number: &BigRational, quantity: &'static str) -> Result<f64, Error> {
     nearest(&number.clone().into(), quantity)
 }
 
-/// The nearest float, if it is positive and has all its digits.
+/// Returns a rational, correctly rounded, if it is a positive normal float.
 pub(super) fn normal(number: &BigRational, quantity: &'static str) -> Result<f64, Error> {
     checked(nearest(&number.clone().into(), quantity)?, quantity)
 }
 
-/// A float, if it is positive and has all its digits.
+/// Returns the number if it is a positive normal float.
 pub(super) fn checked(number: f64, quantity: &'static str) -> Result<f64, Error> {
     let scalar = "f64";
     let fits = number.is_normal() && number.is_sign_positive();
@@ -31,7 +31,7 @@ pub(super) fn checked(number: f64, quantity: &'static str) -> Result<f64, Error>
         .ok_or_else(|| Error::overflow(quantity, scalar))
 }
 
-/// What most spheres weigh, in mg.
+/// Returns the weight of ordinary spheres, in mg.
 #[must_use]
 pub fn ordinary_weight(pile: &Pile) -> BigRational {
     if pile.is_weightless() {
@@ -41,13 +41,13 @@ pub fn ordinary_weight(pile: &Pile) -> BigRational {
     }
 }
 
-/// The spheres that were given a load or a weight of their own.
+/// Returns the spheres with a load or a weight of their own.
 fn special_sites(pile: &Pile) -> BTreeSet<Site> {
     let loads = pile.loads().map(|(site, _)| site);
     loads.chain(pile.weights().map(|(site, _)| site)).collect()
 }
 
-/// The greatest difference of weight and load together from the ordinary weight, in mg.
+/// Returns the greatest deviation of weight plus load from the ordinary weight, in mg.
 pub(super) fn greatest_extra(pile: &Pile) -> Result<BigRational, Error> {
     let ordinary = ordinary_weight(pile);
     let mut greatest = BigRational::zero();
@@ -58,24 +58,24 @@ pub(super) fn greatest_extra(pile: &Pile) -> Result<BigRational, Error> {
     Ok(greatest)
 }
 
-/// A quantity that is the same for all spheres but a few, rounded.
+/// A rounded quantity that is the same for all but a few spheres.
 pub(super) struct PerSphere {
     ordinary: f64,
     special: BTreeMap<Site, f64>,
 }
 
 impl PerSphere {
-    /// The masses, in kg.
+    /// Returns the masses, in kg.
     pub(super) fn masses(pile: &NumberedPile<'_>) -> Result<Self, Error> {
         Self::of_weights(pile, "mass", pile.packing().mass())
     }
 
-    /// The weights, in N.
+    /// Returns the weights, in N.
     pub(super) fn weights(pile: &NumberedPile<'_>) -> Result<Self, Error> {
         Self::of_weights(pile, "weight", &pile.packing().sphere_weight())
     }
 
-    /// The loads, in N: what acts downwards besides the weight.
+    /// Returns the loads, in N: the downward forces in addition to the weights.
     pub(super) fn loads(pile: &NumberedPile<'_>) -> Result<Self, Error> {
         let (quantity, unit) = ("load", pile.packing().sphere_weight());
         let special = |site| Ok(pile.pile().load(site)?);
@@ -112,7 +112,7 @@ impl PerSphere {
     }
 }
 
-/// The mass that a sphere has in a code in which nothing may have none: its own, or m if it weighs nothing.
+/// Returns the mass of a sphere in a code that needs positive masses: its own, or m if it is weightless.
 fn inertia(pile: &NumberedPile<'_>, site: Site) -> Result<BigRational, Error> {
     let mass = pile.packing().mass_of(site)?;
     Ok(if mass.is_positive() {
@@ -122,15 +122,15 @@ fn inertia(pile: &NumberedPile<'_>, site: Site) -> Result<BigRational, Error> {
     })
 }
 
-/// That mass of the spheres that have a weight of their own.
+/// Returns these masses for the spheres with a weight of their own.
 pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<BTreeMap<Site, f64>, Error> {
     let sites = pile.pile().weights().map(|(site, _)| site);
     let masses = sites.map(|site| Ok((site, normal(&inertia(pile, site)?, "mass")?)));
     masses.collect()
 }
 
-/// The spheres off the floor on which another force acts than the weight of their mass: their numbers, and how much more,
-/// downwards, in N.
+/// Returns the spheres above the floor whose force differs from the weight of their mass in a code, by their numbers.
+/// Each has the additional downward force, in N.
 pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<(u64, f64)>, Error> {
     let (packing, ordinary) = (pile.packing(), ordinary_weight(pile.pile()));
     let floor = pile.pile().layers() - 1;

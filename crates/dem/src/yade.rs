@@ -10,7 +10,7 @@ use crate::Error;
 use crate::table::WriteError;
 use cannonpile::lattice::Dimension;
 
-/// Writes what `ymport.text` reads: `x y z r`, a sphere a line.
+/// Writes the spheres in the format of `ymport.text`: one line `x y z r` per sphere.
 pub(super) fn write_spheres(
     pile: &NumberedPile<'_>,
     out: &mut dyn Write,
@@ -25,13 +25,13 @@ pub(super) fn write_spheres(
     Ok(())
 }
 
-/// Writes a script that lets the pile relax, and writes the forces of the last state.
+/// Writes a script that relaxes the pile, and writes the forces of the final state.
 pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
     let script = fill(include_str!("pile.py"), &texts(pile)?);
     Ok(out.write_all(script.as_bytes())?)
 }
 
-/// What a script needs to know of a pile.
+/// Returns the texts of a pile for the scripts.
 pub(super) fn texts(pile: &NumberedPile<'_>) -> Result<Vec<(&'static str, String)>, Error> {
     let springs = Springs::of(pile)?;
     let masses = inertias(pile)?.into_iter();
@@ -52,7 +52,7 @@ pub(super) fn texts(pile: &NumberedPile<'_>) -> Result<Vec<(&'static str, String
     ])
 }
 
-/// The ways in which no sphere moves; rotations do nothing without friction.
+/// Returns the fixed degrees of freedom. Rotations have no effect without friction.
 fn blocked(pile: &NumberedPile<'_>) -> &'static str {
     match pile.pile().dimension() {
         Dimension::Two => "yXYZ",
@@ -60,7 +60,7 @@ fn blocked(pile: &NumberedPile<'_>) -> &'static str {
     }
 }
 
-/// A dictionary of Python.
+/// Returns a Python dictionary.
 fn by_id(numbers: Vec<(u64, f64)>) -> String {
     let entries = numbers
         .into_iter()

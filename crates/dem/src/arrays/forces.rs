@@ -1,4 +1,4 @@
-//! The forces of all contacts, and those on the floor.
+//! The forces of all contacts, and the forces on the floor.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -14,10 +14,11 @@ use cannonpile::shape::Selection;
 use cannonpile::{NearestLayers, Packing, Quantity};
 
 impl<'p> PileArrays<'p> {
-    /// Writes the forces of all contacts: in N, or of a pile in f₀. Positive is push.
+    /// Writes the forces of all contacts, in N for a packing and in f₀ for a pile. A positive force is a push.
     ///
     /// # Errors
-    /// [`Error::Length`](cannonpile::Error::Length); [`Error::Overflow`](cannonpile::Error::Overflow) for a force beyond the floats; those of
+    /// [`Error::Length`](cannonpile::Error::Length) for a slice of another length;
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a force that exceeds the floats; the errors of
     /// [`Forces::layers`](cannonpile::Forces::layers).
     ///
     /// # Examples
@@ -56,10 +57,12 @@ impl<'p> PileArrays<'p> {
         Ok(())
     }
 
-    /// Writes the numerators of the forces of all contacts, and returns their denominator; in f₀, exact.
+    /// Writes the exact numerators of all contact forces in f₀, and returns their common denominator.
     ///
     /// # Errors
-    /// [`Error::Length`](cannonpile::Error::Length); [`Error::Overflow`](cannonpile::Error::Overflow) for a numerator beyond `V`; those of [`Forces::layers`](cannonpile::Forces::layers).
+    /// [`Error::Length`](cannonpile::Error::Length) for a slice of another length;
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a numerator that does not fit in `V`; the errors of
+    /// [`Forces::layers`](cannonpile::Forces::layers).
     ///
     /// # Examples
     /// ```
@@ -109,10 +112,10 @@ impl<'p> PileArrays<'p> {
         Ok(denominator)
     }
 
-    /// Writes the force on the first sphere of all contacts, in N, z up.
+    /// Writes the force on the first sphere of each contact, in N, z up.
     ///
     /// # Errors
-    /// [`Error::NeedsUnits`] of a pile that is no packing; else as for [`fill_forces`](Self::fill_forces).
+    /// [`Error::NeedsUnits`] for the arrays of a pile; otherwise as for [`fill_forces`](Self::fill_forces).
     ///
     /// # Examples
     /// ```
@@ -137,7 +140,7 @@ impl<'p> PileArrays<'p> {
         for piece in pieces(self.pile.rows(Selection::All)?.off_the_floor()) {
             let mut found = [columns(&piece)?, columns(&piece)?, columns(&piece)?];
             layers.fill_row_of_vectors(&piece, found.each_mut().map(slices))?;
-            // By direction and then by axis, where they were by axis and then by direction.
+            // The first index becomes the direction, and the second the axis.
             let [x, y, z] = found;
             let by_line = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
             put_vectors(&by_line.take(lines).collect::<Vec<_>>(), &mut left);
@@ -145,11 +148,12 @@ impl<'p> PileArrays<'p> {
         self.put_horizontal(left, |contact| rounded(&contact.vector, "a contact force"))
     }
 
-    /// Writes the forces of all bottom spheres on the floor, normal, shear along x and along y: in N, or of a pile in mg,
-    /// mg·tanθ and 2cosφ·mg·tanθ.
+    /// Writes the forces of all bottom spheres on the floor: normal, shear along x, shear along y. The unit is N for a
+    /// packing. For a pile the units are mg, mg·tanθ and 2cosφ·mg·tanθ.
     ///
     /// # Errors
-    /// [`Error::Length`](cannonpile::Error::Length) unless there is a place for each bottom sphere; else as for [`fill_forces`](Self::fill_forces).
+    /// [`Error::Length`](cannonpile::Error::Length) unless the slice has one entry per bottom sphere; otherwise as for
+    /// [`fill_forces`](Self::fill_forces).
     ///
     /// # Examples
     /// ```
@@ -181,7 +185,7 @@ impl<'p> PileArrays<'p> {
     }
 }
 
-/// So many zeros, where there is room for them.
+/// Returns `count` zeros, or an error if memory is short.
 fn zeros<V: Clone + Default>(count: usize) -> Result<Vec<V>, Error> {
     Ok(copies(
         V::default(),

@@ -1,4 +1,4 @@
-//! The greatest and the least contact force, exactly, and how many contacts bear one.
+//! The greatest and the least contact force, exactly, and the number of contacts with a force.
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -13,31 +13,31 @@ use cannonpile::shape::Selection;
 /// A contact, and its force in f₀.
 #[derive(Clone)]
 pub(super) struct Extreme {
-    /// The upper sphere; of two neighbours the one that names their contact.
+    /// The upper sphere; for two neighbours, the sphere that names the contact.
     pub(super) site: Site,
     pub(super) link: ContactKind,
     pub(super) force: BigRational,
 }
 
-/// What there is to say of all contact forces of a pile.
+/// Exact statistics of all contact forces of a pile.
 #[derive(Default)]
 pub(super) struct Extremes {
-    /// The first of the greatest; none of a single layer.
+    /// The first contact with the greatest force; `None` for a single layer.
     pub(super) greatest: Option<Extreme>,
-    /// The first of the least.
+    /// The first contact with the least force; `None` for a single layer.
     pub(super) least: Option<Extreme>,
-    /// The least magnitude of a force that is not 0.
+    /// The least magnitude among the forces other than 0.
     pub(super) weakest: Option<BigRational>,
-    /// Contacts with a force, a push or a pull.
+    /// The number of contacts with a force, compressive or tensile.
     pub(super) bearing: BigUint,
-    /// Contacts between layers without a force.
+    /// The number of contacts between layers without a force.
     pub(super) idle: BigUint,
-    /// Contacts that would have to pull.
+    /// The number of contacts that need a tensile force.
     pub(super) pulling: BigUint,
 }
 
 impl Extremes {
-    /// Looks at every contact, layer by layer, in integers.
+    /// Examines every contact, layer by layer, in integer arithmetic.
     pub(super) fn of(pile: &Pile) -> Result<Self, Error> {
         let mut extremes = Self::default();
         let directions = pile.dimension().directions();
@@ -50,7 +50,7 @@ impl Extremes {
             let mut slices = [(); 3].map(|()| vec![BigInt::ZERO; layer.sphere_count()]);
             let [alpha, beta, gamma] = &mut slices;
             layer.fill([alpha, beta, gamma])?;
-            // In the order of tables: sphere after sphere.
+            // Sphere by sphere, as in the tables.
             let spheres = 0..layer.sphere_count();
             let all = spheres.flat_map(|n| directions.iter().map(move |line| (n, *line)));
             let force =

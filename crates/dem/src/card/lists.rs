@@ -1,4 +1,4 @@
-//! Records of a card: numbers, contacts, spheres, forces on the floor.
+//! Records of a card: numbers, contacts, spheres and forces on the floor.
 
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
@@ -13,9 +13,9 @@ use cannonpile::shape::Selection;
 
 pub(super) const FORCE: &str = "a contact force";
 
-/// An exact number, and the float nearest to it.
+/// Returns an exact number with its correctly rounded float.
 pub(super) fn value(number: &Surd, quantity: &'static str) -> Result<Json, Error> {
-    // Not −0.
+    // Adding 0 turns −0 into 0.
     let float = nearest(number, quantity)? + 0.0;
     Ok(json!({"exact": number.to_string(), "float": float}))
 }
@@ -24,7 +24,7 @@ pub(super) fn rational(number: BigRational, quantity: &'static str) -> Result<Js
     value(&number.into(), quantity)
 }
 
-/// An integer within 2^53 as a number, a greater one as a string: many readers keep a number as a float.
+/// Returns an integer within 2^53 as a number, and a larger one as a string. Many JSON readers store numbers as floats.
 pub(super) fn integer(number: &impl ToString) -> Json {
     let text = number.to_string();
     match text.parse::<i64>() {
@@ -33,7 +33,7 @@ pub(super) fn integer(number: &impl ToString) -> Json {
     }
 }
 
-/// A record with a site in its midst: `k, i, j`, of a disc `k, i`. Sites of piles that are exported are small.
+/// Returns a record with a site in the middle: `k, i, j`, or `k, i` for a disc. Sites of exported piles are small.
 pub(super) fn placed(pile: &Pile, before: Json, Site { i, j, k }: Site, after: Json) -> Json {
     let place = match pile.dimension() {
         Dimension::Two => json!({"k": k, "i": i}),
@@ -69,7 +69,7 @@ pub(super) fn contact(numbered: &NumberedPile<'_>, found: &Extreme) -> Result<Js
     Ok(placed(pile, ids, site, force))
 }
 
-/// All contacts, in the order of `contacts.csv`.
+/// Returns all contacts, in the order of `contacts.csv`.
 pub(super) fn contacts(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
     let pile = numbered.pile();
     let sloping = pile.forces::<BigRational>().contacts(Selection::All)?;

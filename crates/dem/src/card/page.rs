@@ -1,4 +1,4 @@
-//! The card for people.
+//! The card in Markdown.
 
 use serde_json::Value as Json;
 
@@ -9,7 +9,7 @@ use crate::scene::State;
 use crate::template::fill_lines;
 use cannonpile::lattice::Dimension;
 
-/// The page of a card, with the names of what it says.
+/// Fills in the page of a card.
 pub(super) fn page(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
@@ -69,7 +69,7 @@ pub(super) fn page(
     fill_lines(include_str!("page.md"), &names)
 }
 
-/// What only the page says of a pile.
+/// Returns the facts about a pile that only the page shows.
 fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
     let pile = numbered.pile();
     let (regular, weighs) = (pile.is_regular(), !pile.is_weightless());
@@ -131,12 +131,19 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
     ])
 }
 
+/// Keeps the entries that have a text.
+pub(super) fn given<const N: usize>(texts: [(&str, Option<String>); N]) -> Names {
+    let texts = texts.into_iter();
+    let given = texts.filter_map(|(name, text)| Some((name.to_owned(), text?)));
+    given.collect()
+}
+
 const SPHERE: &str = "| {id} | {site} | `{x.exact}` | `{y.exact}` | `{z.exact}` |";
 const CONTACT: &str =
     "| {id1} | {id2} | {direction} | `{multiple}` | `{force.exact}` | `{force.float}` |";
 const ON_FLOOR: &str = "| {id} | {site} | `{normal.exact}` | `{normal.float}` | `{shear_x.exact}` | `{shear_y.exact}` |";
 
-/// A row for each record of a list.
+/// Returns one table row for each record of a list.
 fn rows(list: &Json, row: &str, flat: bool) -> Vec<String> {
     let site = if flat {
         "({k}, {i})"
@@ -152,7 +159,7 @@ fn rows(list: &Json, row: &str, flat: bool) -> Vec<String> {
     rows.collect()
 }
 
-/// The first of the loads.
+/// Returns the first loads as text, and the number of the others.
 fn shortened(loads: &[String]) -> String {
     match loads.split_at_checked(10) {
         Some((shown, more)) if !more.is_empty() => {
@@ -167,7 +174,7 @@ fn shortened(loads: &[String]) -> String {
     }
 }
 
-/// The state of which the forces are.
+/// Returns a description of the state of the forces.
 fn state(title: &CardTitle) -> String {
     if title.state == State::Isostatic {
         return "isostatic: contacts between layers only".to_owned();

@@ -1,4 +1,4 @@
-//! What a card says, as JSON: the one list of facts, from which the page for people is filled in too.
+//! The contents of a card as JSON. The Markdown page is filled in from the same facts.
 
 use std::collections::BTreeMap;
 
@@ -19,14 +19,14 @@ use crate::template::{fill, fill_lines};
 use cannonpile::scalar::{Ring, Surd};
 use cannonpile::{BaseExtremes, Verdict};
 
-/// Texts by their names, for a template. A fact that is true has a text, an empty one; one that is not has none.
+/// The texts for a template, by name. A true fact has an empty text; a false fact has no entry.
 pub(super) type Names = BTreeMap<String, String>;
 
-/// The name of the layout, and its version, which grows when a key gets another meaning or goes.
+/// The name of the layout. The version increases when a key is removed or changes its meaning.
 const SCHEMA: &str = "cannonpile-card";
 const SCHEMA_VERSION: u32 = 1;
 
-/// The card, with no list longer than `most`, and the names of what it says.
+/// Returns the card, with lists of at most `most` entries, and the texts for its templates.
 pub(super) fn record(
     numbered: &NumberedPile<'_>,
     title: &CardTitle,
@@ -60,7 +60,7 @@ pub(super) fn record(
     let compliance = springs.map(|(_, compliance)| format!("{compliance:.1e}"));
     let pull = extremes.least.as_ref().map(|least| -least.force.clone());
     let pull = pull.map(|pull| packing.unit_force().scaled(&pull).to_string());
-    // Not a default: what springs are asked for where floats have none.
+    // This is not a default. It is the requirement where floats cannot express the springs.
     let most_compliance = compliance.clone().unwrap_or_else(|| "1e-7".into());
     names.extend(given([
         (kind(&stands, attained), flag(true)),
@@ -117,7 +117,7 @@ pub(super) fn record(
     Ok((card, names))
 }
 
-/// What the pile is.
+/// Returns the facts about the pile.
 fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle, most: u32) -> Result<Json, Error> {
     let (pile, packing) = (numbered.pile(), numbered.packing());
     let inclination = packing.inclination();
@@ -149,7 +149,7 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle, most: u32) -> Result<
     }))
 }
 
-/// The exact answers.
+/// Returns the exact answers.
 fn answers(
     numbered: &NumberedPile<'_>,
     extremes: &Extremes,
@@ -189,14 +189,7 @@ fn answers(
     }))
 }
 
-/// Collects the texts that are present, by their names.
-pub(super) fn given<const N: usize>(texts: [(&str, Option<String>); N]) -> Names {
-    let texts = texts.into_iter();
-    let given = texts.filter_map(|(name, text)| Some((name.to_owned(), text?)));
-    given.collect()
-}
-
-/// Names the texts and the numbers of a record: each by the keys that lead to it.
+/// Collects the texts and numbers of a record, each named by the path of keys to it.
 pub(super) fn name(path: &str, value: &Json, names: &mut Names) {
     let text = match value {
         Json::Object(entries) => {
@@ -217,14 +210,14 @@ pub(super) fn name(path: &str, value: &Json, names: &mut Names) {
     names.insert(path.to_owned(), text);
 }
 
-/// a/R, from sin²θ = (a/R)²(d−1)/(2d).
+/// Returns a/R, from sin²θ = (a/R)²(d−1)/(2d).
 fn spacing(numbered: &NumberedPile<'_>) -> Result<Surd, Error> {
     let d = BigRational::from_i128(numbered.pile().dimension().number().into());
     let square = numbered.packing().inclination().sin2() * (&d + &d) / (d - BigRational::one());
     Ok(Surd::sqrt(square).map_err(cannonpile::Error::from)?)
 }
 
-/// Whether the pile stands; of spheres without weight it is not asked. Or why it would take too long to find out.
+/// The verdict on stability (`None` for weightless spheres), or why the decision would take too long.
 type Stands = Result<Option<Verdict>, String>;
 
 fn stands(numbered: &NumberedPile<'_>) -> Result<Stands, Error> {
@@ -237,7 +230,7 @@ fn stands(numbered: &NumberedPile<'_>) -> Result<Stands, Error> {
     }
 }
 
-/// What comes out, in one word; `attained`: whether no contact would have to pull.
+/// Returns the outcome as one word. `attained` says that no contact needs a tensile force.
 fn kind(stands: &Stands, attained: bool) -> &'static str {
     match (stands, attained) {
         (Ok(Some(Verdict::Yes)), true) => "stands",
@@ -250,8 +243,8 @@ fn kind(stands: &Stands, attained: bool) -> &'static str {
     }
 }
 
-/// The stiffness k of the springs in the scripts for LAMMPS and YADE, in N/m, and F/(kR) with the greatest contact force F;
-/// none where floats have no such springs.
+/// Returns the stiffness k of the springs in the scripts for LAMMPS and YADE, in N/m, and F/(kR) with the greatest
+/// contact force F. Returns `None` where floats cannot express these springs.
 fn springs(numbered: &NumberedPile<'_>, greatest: Option<f64>) -> Option<(f64, f64)> {
     let springs = Springs::of(numbered).ok()?;
     let compliance = greatest? / (springs.stiffness * springs.radius);
@@ -259,8 +252,8 @@ fn springs(numbered: &NumberedPile<'_>, greatest: Option<f64>) -> Option<(f64, f
     finite.then_some((springs.stiffness, compliance))
 }
 
-/// The relative error that a code is allowed on such springs, a power of ten: ten times F/(kR), over what the weakest contact
-/// has of the greatest force; 10⁻⁵ at least, 10⁻¹ at most.
+/// Returns the accepted relative error on these springs, a power of ten from 10⁻⁵ to 10⁻¹. It is ten times F/(kR),
+/// divided by the ratio of the weakest to the greatest contact force.
 fn accept(springs: Option<(f64, f64)>, greatest: Option<f64>, weakest: Option<f64>) -> String {
     let error = match (springs, greatest, weakest) {
         (Some((_, compliance)), Some(greatest), Some(weakest)) => {
@@ -268,12 +261,12 @@ fn accept(springs: Option<(f64, f64)>, greatest: Option<f64>, weakest: Option<f6
         }
         _ => 1e-5,
     };
-    // Not a default: the steps of a scale, and no answer of the pile.
+    // The bounds are the ends of the scale. They replace no answer of the pile.
     let power = error.log10().ceil().clamp(-5.0, -1.0);
     format!("1e{power}")
 }
 
-/// The least and the greatest normal force, in N, and the greatest ratio of shear to normal force.
+/// Returns the least and the greatest normal force, in N, and the greatest ratio of shear to normal force.
 fn on_floor(numbered: &NumberedPile<'_>, extremes: &BaseExtremes) -> Result<[Json; 3], Error> {
     let packing = numbered.packing();
     let normal = |multiple: &BigRational| {

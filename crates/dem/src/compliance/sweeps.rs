@@ -1,4 +1,4 @@
-//! Up through a pile for the displacements of its spheres, and down for what they change.
+//! The sweep up through a pile for displacements, and the sweep down for the changes of forces.
 
 use super::{NoCompliance, SoftContact};
 use crate::Error;
@@ -10,37 +10,37 @@ use cannonpile::lattice::{Direction, Sign, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 
-/// x, y and z, up.
+/// The components x, y and z (up).
 type Arrow = [f64; 3];
 
 /// A pile on springs. Forces are in f₀, displacements in f₀/κ, changes of forces in f₀²/(κR).
 pub(super) struct Sweeps {
     directions: &'static [Direction],
-    /// The spheres above the floor, from the top.
+    /// The rows of spheres above the floor, from the top.
     strips: Vec<Strip>,
-    /// How many spheres there are.
+    /// The number of spheres.
     spheres: usize,
-    /// F₀ of the contacts along each direction, by the number of the upper sphere, from 0.
+    /// F₀ of the contacts along each direction, by the number of the upper sphere, counted from 0.
     forces: [Vec<f64>; 3],
 }
 
-/// Spheres of a row; their numbers follow each other, and so do those of the spheres below them.
+/// The spheres of a row. Their numbers are consecutive, and so are those of the spheres below along each direction.
 struct Strip {
     first: Site,
-    /// The number of the first, from 0.
+    /// The number of the first sphere, from 0.
     upper: usize,
-    /// Those of the spheres below it.
+    /// The numbers of the spheres below the first sphere.
     below: [usize; 3],
     length: usize,
     frame: Frame,
 }
 
-/// The contacts of a sphere with those below it.
+/// The contact directions from a sphere to the spheres below.
 #[derive(Clone, Copy)]
 struct Frame {
-    /// ê, from the lower sphere to the upper one. Discs have a third, to their side, on which nothing presses.
+    /// ê, from the lower sphere to the upper one. Discs have a third vector, normal to their plane, without a force.
     rays: [Arrow; 3],
-    /// What is 1 along one ray and 0 along the others: ê_m·d_n = δ_mn.
+    /// The dual basis of the rays: ê_m·d_n = δ_mn.
     duals: [Arrow; 3],
 }
 
@@ -77,14 +77,15 @@ impl Sweeps {
                 *below = number(lower.ok_or_else(|| Error::on_floor(first))?)?;
             }
             let length = usize::try_from(row.i.end - row.i.start);
-            let length = length.map_err(|_| bug("a row is no longer than all of them"))?;
+            let length =
+                length.map_err(|_| bug("a row has at most as many spheres as the pile"))?;
             let sign = shape.sign_below(k);
             let frame = match sign.ok_or_else(|| Error::on_floor(first))? {
                 Sign::Plus => plus,
                 Sign::Minus => minus,
             };
             for (forces, direction) in forces.iter().zip(directions) {
-                // The forces are of all these spheres.
+                // The columns of forces include the spheres of this row.
                 let slack = forces[upper..upper + length].iter().zip(row.i.clone());
                 if let Some((_, i)) = slack.into_iter().find(|(force, _)| **force <= 0.0) {
                     let (site, direction) = (Site { i, j, k }, *direction);
@@ -107,7 +108,7 @@ impl Sweeps {
         })
     }
 
-    /// u of all spheres, from the floor upwards: ê·u_upper = ê·u_lower − F₀.
+    /// Returns u of all spheres, from the floor upwards: ê·u_upper = ê·u_lower − F₀.
     fn displacements(&self) -> Result<Vec<Arrow>, Error> {
         let mut moved = zeros(self.spheres)?;
         for strip in self.strips.iter().rev() {
@@ -125,10 +126,11 @@ impl Sweeps {
         Ok(moved)
     }
 
-    /// Shows all contacts with their coefficients in f₀, from the top: the sum of F₁ê + F₀τ below a sphere is that above.
+    /// Calls `look` with all contacts from the top, with coefficients in f₀. Below and above a sphere the sums of F₁ê +
+    /// F₀τ are equal.
     pub(super) fn down(&self, look: &mut impl FnMut(SoftContact)) -> Result<(), Error> {
         let moved = self.displacements()?;
-        // The sum above each sphere.
+        // The sum of F₁ê + F₀τ above each sphere.
         let mut above: Vec<Arrow> = zeros(self.spheres)?;
         for strip in &self.strips {
             let Frame { rays, duals } = strip.frame;
@@ -142,7 +144,7 @@ impl Sweeps {
                     add(&mut apart, -1.0, &moved[strip.below[line] + n]);
                     let along = dot(&rays[line], &apart);
                     add(&mut apart, -along, &rays[line]);
-                    // F₀τ, with 2R from centre to centre.
+                    // F₀τ; the distance of the centres is 2R.
                     add(&mut turns[line], self.forces[line][upper] / 2.0, &apart);
                     add(&mut rest, -1.0, &turns[line]);
                 }
@@ -171,7 +173,7 @@ impl Sweeps {
 }
 
 impl Frame {
-    /// That of a + step.
+    /// Returns the frame of a + step.
     fn new(packing: &Packing<'_>) -> Result<Self, Error> {
         let (pile, inclination) = (packing.pile(), packing.inclination());
         let root = |surd: &Surd| nearest(surd, "an angle of a contact");
@@ -200,13 +202,13 @@ impl Frame {
         }
     }
 
-    /// That of a − step, turned by half a turn about the vertical.
+    /// Returns the frame of a − step, rotated by half a turn about the vertical.
     fn turned(self) -> Self {
         Self::of(self.rays.map(|[x, y, z]| [-x, -y, z]))
     }
 }
 
-/// So many zeros, where there is room for them.
+/// Returns `count` zeros, or an error if memory is short.
 fn zeros<T: Clone + Default>(count: usize) -> Result<Vec<T>, Error> {
     Ok(copies(
         T::default(),
