@@ -1,4 +1,4 @@
-//! A scene: the options that describe a pile and its spheres, the parsers of their values, and files of them.
+//! Scenes: the options that describe a pile and its spheres, the parsers of their values, and scene files.
 
 mod cases;
 pub mod parse;
@@ -24,7 +24,7 @@ pub use cannonpile::shape::Anchor;
 pub use cases::{Case, cases};
 pub use toml::SceneFile;
 
-/// Which forces of a pile are meant, where horizontal contacts leave a choice.
+/// The state of the contact forces, where horizontal contacts allow more than one.
 ///
 /// # Examples
 /// ```
@@ -37,10 +37,10 @@ pub use toml::SceneFile;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum State {
-    /// Those without horizontal contacts: the paper's.
+    /// The forces without horizontal contacts, as in the paper.
     #[default]
     Isostatic,
-    /// Those of springs that only push, at a = R.
+    /// The forces of springs without tension, at a = R.
     Elastic,
 }
 
@@ -92,7 +92,8 @@ impl FromStr for State {
 
 cannonpile::data::as_text!(State);
 
-/// A pile and its spheres, as a user describes them; unchecked until a [`Pile`] or a [`Packing`] is asked for.
+/// The user's description of a pile and its spheres. A scene is unchecked until it is converted to a [`Pile`] or a
+/// [`Packing`].
 ///
 /// # Examples
 /// ```
@@ -113,38 +114,40 @@ cannonpile::data::as_text!(State);
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
 pub struct Scene {
-    /// The number of layers: by default 10, those of a stacking that is spelled out, or as many as a base carries.
+    /// The number of layers. The default is the length of a stacking given by its signs, the maximum on a base, or else
+    /// 10.
     #[serde(with = "cannonpile::data::number")]
     pub layers: Option<i128>,
-    /// Discs or spheres (spheres).
+    /// Discs or spheres (default: spheres).
     pub dimension: Dimension,
-    /// sin φ (½); none for discs and for piles of a stacking, top or base of one's own.
+    /// sin φ (default: ½); not allowed for discs, or with a stacking, a top or a base.
     #[serde(with = "cannonpile::data::number")]
     pub sin_phi: Option<BigRational>,
-    /// How layers follow one another (all +): from the top, or from the base up if the pile is grown from its base.
+    /// The stacking (default: all +): from the base up if the pile grows from its base, otherwise from the top.
     pub stacking: Option<Pattern>,
-    /// The layer that the pile is grown from (one sphere on top).
+    /// The layer that the pile grows from (default: one sphere on top).
     pub anchor: Option<Anchor>,
-    /// Vertical loads on spheres, in mg.
+    /// The vertical loads on spheres, in mg.
     #[serde(with = "loads")]
     pub loads: Vec<(At, BigRational)>,
-    /// Whether the spheres weigh nothing, so that only the loads act.
+    /// Whether the spheres are weightless, so that only the loads act.
     pub weightless: bool,
-    /// a/R. One that is given is always checked, the default only where geometry is used: 6/5, and 1 for the elastic state.
+    /// a/R (default: 6/5, or 1 for the elastic state). A given spacing is always checked, the default only where
+    /// geometry is used.
     #[serde(with = "cannonpile::data::number")]
     pub spacing: Option<BigRational>,
-    /// The radius R (1).
+    /// The radius R (default: 1).
     #[serde(with = "cannonpile::data::number")]
     pub radius: BigRational,
-    /// The mass m of a sphere (1).
+    /// The mass m of a sphere (default: 1).
     #[serde(with = "cannonpile::data::number")]
     pub mass: BigRational,
-    /// The gravity g (1).
+    /// The gravity g (default: 1).
     #[serde(with = "cannonpile::data::number")]
     pub gravity: BigRational,
-    /// Which forces are meant (isostatic).
+    /// The state of the forces (default: isostatic).
     pub state: State,
-    /// κ′/κ, the stiffness of horizontal contacts over that of sloping ones, of the elastic state (1).
+    /// κ′/κ for the elastic state, the stiffness of horizontal contacts over that of sloping contacts (default: 1).
     #[serde(with = "cannonpile::data::number")]
     pub stiffness_ratio: BigRational,
 }
@@ -178,14 +181,15 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// The layers of a pile whose number nothing else says.
+    /// The default number of layers.
     pub const LAYERS: i128 = 10;
 
-    /// Returns the pile, checked, also with the spacing if one is given.
+    /// Returns the pile, checked. A given spacing is checked too.
     ///
     /// # Errors
-    /// Those of [`Pile`]'s constructors, loads and [`Clearance::check`](cannonpile::geometry::Clearance::check);
-    /// [`Error::SinPhiOfDiscs`] and [`Error::Excluded`] for options that exclude each other.
+    /// The errors of the constructors and loads of [`Pile`], and of
+    /// [`Clearance::check`](cannonpile::geometry::Clearance::check); [`Error::SinPhiOfDiscs`] and [`Error::Excluded`]
+    /// for options that exclude each other.
     ///
     /// # Examples
     /// ```
@@ -239,7 +243,7 @@ impl Scene {
         }
     }
 
-    /// The pile of any stacking, top or base.
+    /// Returns the pile of any stacking, top or base.
     fn stacked(&self) -> Result<Pile, cannonpile::Error> {
         let pattern = self.stacking.as_ref().unwrap_or(&Pattern::Fcc);
         let spelled = self.layers.or(pattern.layers());
@@ -257,7 +261,7 @@ impl Scene {
         }
     }
 
-    /// Checks that radius, mass and gravity are positive, whether they will be used or not.
+    /// Checks that radius, mass, gravity and stiffness ratio are positive, even if they are not used.
     ///
     /// # Errors
     /// [`Error::NotPositive`](cannonpile::Error::NotPositive).
@@ -286,7 +290,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Returns the spacing that is given, or 6/5. Whether it fits the pile is not checked here.
+    /// Returns the given spacing, or the default. This function does not check that the spacing fits the pile.
     ///
     /// # Errors
     /// [`Error::NotPositive`](cannonpile::Error::NotPositive).
@@ -306,7 +310,7 @@ impl Scene {
         Ok(Spacing::new(self.spacing.clone().unwrap_or_else(default))?)
     }
 
-    /// Checks that the neighbours of a layer touch, a = R, unless no spacing is given.
+    /// Checks that the neighbours of a layer touch, a = R, if a spacing is given.
     ///
     /// # Errors
     /// [`Error::NotTouching`](cannonpile::Error::NotTouching).
@@ -333,11 +337,11 @@ impl Scene {
         }
     }
 
-    /// Returns a pile of this scene with the horizontal forces of the state that is meant: none, or those of the
+    /// Returns a pile of this scene with the horizontal forces of the requested state. They are zero, or those of the
     /// [elastic state](cannonpile_horizontal::elastic).
     ///
     /// # Errors
-    /// Those of [`check_touching`](Self::check_touching) and [`elastic`](cannonpile_horizontal::elastic).
+    /// The errors of [`check_touching`](Self::check_touching) and [`elastic`](cannonpile_horizontal::elastic).
     ///
     /// # Examples
     /// ```
@@ -377,7 +381,7 @@ impl Scene {
     /// Returns the pile with the sizes and weights of the scene.
     ///
     /// # Errors
-    /// Those of [`Packing::new`], and [`Error::NotPositive`](cannonpile::Error::NotPositive).
+    /// The errors of [`Packing::new`], and [`Error::NotPositive`](cannonpile::Error::NotPositive).
     ///
     /// # Examples
     /// ```
@@ -398,7 +402,7 @@ impl Scene {
     }
 }
 
-/// Loads as records `{"at": …, "weight": …}`.
+/// Conversion of loads to records `{"at": …, "weight": …}`.
 mod loads {
     use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -1,4 +1,4 @@
-//! Benchmark cases with names that others can quote.
+//! Named benchmark cases, for citation.
 
 use std::sync::LazyLock;
 
@@ -8,10 +8,10 @@ use crate::Error;
 use crate::error::quoted;
 use cannonpile::Verdict;
 
-/// A benchmark case: a scene with a name that others can quote.
+/// A benchmark case: a scene with a permanent name.
 ///
-/// A case that was published is never altered, and none is taken away: new ones are added under new names. So a number
-/// quoted with the name of a case stays what it is.
+/// Published cases are never altered or removed, and new cases have new names. So a number quoted for a case remains
+/// valid.
 ///
 /// # Examples
 /// ```
@@ -31,7 +31,7 @@ pub struct Case {
     toml: &'static str,
 }
 
-/// A line a case: name, whether it stands, title, purpose. The names are in order: a new case comes last.
+/// One case per line: name, stability, title, purpose. New cases are appended.
 const CASES: &str = include_str!("cases/cases.txt");
 
 /// The scenes, in the same order.
@@ -84,10 +84,10 @@ pub fn cases() -> &'static [Case] {
 }
 
 impl Case {
-    /// Returns the case with this name; small letters will do.
+    /// Returns the case with this name, in upper or lower case.
     ///
     /// # Errors
-    /// [`Error::UnknownCase`], with the name that may have been meant.
+    /// [`Error::UnknownCase`], with the most similar name, if any.
     ///
     /// # Examples
     /// ```
@@ -122,7 +122,7 @@ impl Case {
         self.name
     }
 
-    /// Returns what the pile is, in a few words.
+    /// Returns a short description of the pile.
     ///
     /// # Examples
     /// ```
@@ -136,7 +136,7 @@ impl Case {
         self.title
     }
 
-    /// Returns what the case tests in a code of contact forces.
+    /// Returns the purpose of the case as a test of a code.
     ///
     /// # Examples
     /// ```
@@ -150,8 +150,7 @@ impl Case {
         self.purpose
     }
 
-    /// Returns whether the pile stands, in the state that is meant; `None` where the spheres weigh nothing, and it is not
-    /// asked.
+    /// Returns whether the pile is stable in the state of the scene; `None` for weightless spheres.
     ///
     /// # Examples
     /// ```
@@ -182,10 +181,10 @@ impl Case {
         self.toml
     }
 
-    /// Returns the scene, of which the pile is made.
+    /// Returns the scene of the pile.
     ///
     /// # Errors
-    /// None for a case of [`cases`]; those of [`Scene::from_toml`] are passed on.
+    /// Never for a case of [`cases`]; otherwise the errors of [`Scene::from_toml`].
     ///
     /// # Examples
     /// ```
@@ -198,7 +197,7 @@ impl Case {
         Scene::from_toml(self.toml)
     }
 
-    /// Returns the scene as a file that was read.
+    /// Returns the scene as a scene file.
     ///
     /// # Errors
     /// As for [`scene`](Self::scene).

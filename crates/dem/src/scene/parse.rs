@@ -1,6 +1,6 @@
-//! What a scene is described by and that has no type of its own: numbers, and places and loads in a pile of either
-//! dimension. What has a type is read by `str::parse`: [`Region`](cannonpile::lattice::Region),
-//! [`Pattern`](cannonpile::stacking::Pattern), [`Spacing`](cannonpile::geometry::Spacing), [`Dimension`], [`Surd`](cannonpile::scalar::Surd).
+//! Parsers of scene values without a type of their own: numbers, positions of spheres and loads. `str::parse` reads the
+//! other values: [`Region`](cannonpile::lattice::Region), [`Pattern`](cannonpile::stacking::Pattern),
+//! [`Spacing`](cannonpile::geometry::Spacing), [`Dimension`], [`Surd`](cannonpile::scalar::Surd).
 
 use num_rational::BigRational;
 
@@ -43,7 +43,8 @@ pub fn integer(text: &str) -> Result<i128, Error> {
 /// Reads a number of layers: `10`, `1e36`.
 ///
 /// # Errors
-/// [`Error::Layers`](cannonpile::Error::Layers) for an integer that cannot be one, [`Error::Syntax`](cannonpile::Error::Syntax) for anything else.
+/// [`Error::Layers`](cannonpile::Error::Layers) for an integer out of range,
+/// [`Error::Syntax`](cannonpile::Error::Syntax) for any other text.
 ///
 /// # Examples
 /// ```
@@ -65,9 +66,9 @@ pub fn layers(text: &str) -> Result<i128, Error> {
     }
 }
 
-/// The place of one sphere in a pile of any height: in its base, or in a layer counted from the top.
+/// The position of one sphere in a pile of any height: in its base, or in a layer counted from the top.
 ///
-/// [`at`] reads it.
+/// The parser is [`at`].
 ///
 /// # Examples
 /// ```
@@ -82,10 +83,10 @@ pub fn layers(text: &str) -> Result<i128, Error> {
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct At {
-    /// The layer; the base if there is none.
+    /// The layer; `None` for the base.
     #[serde(with = "cannonpile::data::number", default)]
     pub layer: Option<i128>,
-    /// The place within the row.
+    /// The position within the row.
     #[serde(with = "cannonpile::data::number")]
     pub i: i128,
     /// The row.
@@ -94,7 +95,7 @@ pub struct At {
 }
 
 impl At {
-    /// Returns the site, for a pile of this many layers. Whether the pile has it is not checked here.
+    /// Returns the site in a pile of this many layers. This function does not check that the pile contains the site.
     ///
     /// # Examples
     /// ```
@@ -116,7 +117,7 @@ impl At {
     }
 }
 
-/// Reads the place of one sphere: `K,I,J`, or `I,J` on the base; in two dimensions `K,I`, or `I`.
+/// Reads the position of one sphere: `K,I,J`, or `I,J` on the base; in two dimensions `K,I`, or `I`.
 ///
 /// # Errors
 /// [`Error::Syntax`](cannonpile::Error::Syntax).
@@ -137,7 +138,7 @@ pub fn at(text: &str, dimension: Dimension) -> Result<At, Error> {
         Dimension::Three => "a sphere: K,I,J, or I,J on the base",
     };
     let syntax = || Error::syntax(text, expected);
-    // One more than there can be is as wrong as many more.
+    // Four parts are enough to detect a list that is too long.
     let numbers = text.split(',').take(4).map(|part| integer(part.trim()));
     let numbers: Vec<i128> = numbers.collect::<Result<_, _>>().map_err(|_| syntax())?;
     let (layer, i, j) = match (dimension, numbers.as_slice()) {

@@ -1,4 +1,4 @@
-//! Scenes as TOML files: the scene options of the command line, as keys of the same names.
+//! Scenes as TOML files. The keys have the names of the scene options of the command line.
 
 mod nearest;
 mod value;
@@ -20,7 +20,7 @@ use cannonpile::lattice::Dimension;
 pub(super) use nearest::nearest;
 use value::{Value, line_of};
 
-/// The keys of a scene file, in the order in which they are written.
+/// The keys of a scene file, in the order of a written file.
 const KEYS: [&str; Key::ALL.len()] = {
     let mut names = [""; Key::ALL.len()];
     let mut n = 0;
@@ -31,14 +31,14 @@ const KEYS: [&str; Key::ALL.len()] = {
     names
 };
 
-/// The keys of one load.
+/// The keys of a load.
 const LOAD_KEYS: [&str; 2] = ["at", "weight"];
 
-/// The longest file read, in bytes; a stacking of a million runs has its place.
+/// The maximal size of a file, in bytes; a stacking of a million runs fits.
 const LONGEST: usize = 16 << 20;
 
-/// A scene that was read from a TOML file, and where each of its options stands there: the scene options of the command
-/// line, as keys of the same names.
+/// A scene read from a TOML file, with the line of each option. The keys have the names of the scene options of the
+/// command line.
 ///
 /// ```toml
 /// layers = 4
@@ -60,17 +60,17 @@ const LONGEST: usize = 16 << 20;
 /// | `state` | `"isostatic"` or `"elastic"` | `"isostatic"` |
 /// | `stiffness-ratio` | a number | 1 |
 ///
-/// A number is a TOML number, read exactly as it stands there, or a string: `6`, `1.2`, `1e-3`, `"6/5"`. Keys that are
-/// not in the table are refused. A load may also be written as
+/// A number is a TOML number or a string, and is read exactly: `6`, `1.2`, `1e-3`, `"6/5"`. Keys outside the table are
+/// rejected. A load may also be written as
 /// ```toml
 /// [[load]]
 /// at = [0, 0, 0]                # or "0,0,0"; with one number less, on the base
 /// weight = "5/2"
 /// ```
 ///
-/// On the command line an option takes the place of the same one in the file: a base that of a top too, the loads of the
-/// line together that of all loads of the file. Options that then exclude each other are refused, with the line of the
-/// file where one is from there. Sites of loads are read in the dimension of the file.
+/// An option of the command line replaces the same option of the file. A base also replaces a top, and the loads of the
+/// command line replace all loads of the file. Options that exclude each other are rejected, with the line of the file
+/// if one is from the file. The dimension of the file determines the format of load sites.
 ///
 /// # Examples
 /// ```
@@ -105,7 +105,7 @@ impl SceneFile {
         &self.scene
     }
 
-    /// Returns the line of a key, counted from 1, if the file has it.
+    /// Returns the line of a key, counted from 1; `None` if the file does not contain the key.
     ///
     /// # Examples
     /// ```
@@ -139,13 +139,13 @@ impl FromStr for SceneFile {
 }
 
 impl Scene {
-    /// Returns the scene that a TOML file describes; its keys are those of [`SceneFile`].
+    /// Returns the scene that a TOML file describes. The keys are those of [`SceneFile`].
     ///
-    /// Each value is checked for itself; whether they go together shows when a [`Pile`](cannonpile::Pile) is asked for.
+    /// Each value is checked on its own. The conversion to a [`Pile`](cannonpile::Pile) checks combinations of values.
     ///
     /// # Errors
-    /// [`Error::NotToml`]; [`Error::UnknownKey`] for a key that is no option; [`Error::InFile`] for a value that is refused.
-    /// Each with its line.
+    /// [`Error::NotToml`]; [`Error::UnknownKey`] for an unknown key; [`Error::InFile`] for an invalid value. Each error
+    /// contains its line.
     ///
     /// # Examples
     /// ```
@@ -167,7 +167,7 @@ impl Scene {
     }
 }
 
-/// The values of a table in the order of the file, all under known keys.
+/// Returns the values of a table in the order of the file. All keys are known.
 fn values<'a>(
     text: &'a str,
     table: &'a DeTable<'a>,
@@ -192,7 +192,7 @@ fn values<'a>(
 
 fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
     let mut scene = Scene::default();
-    // The sites of loads are read by it, wherever it stands.
+    // The dimension is read first, because the format of load sites depends on it.
     if let Some(dimension) = values.iter().find(|value| value.key == "dimension") {
         scene.dimension = dimension.read(str::parse)?;
     }
@@ -225,7 +225,7 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
             "gravity" => scene.gravity = value.read(parse::rational)?,
             "state" => scene.state = value.read(str::parse)?,
             "stiffness-ratio" => scene.stiffness_ratio = value.read(parse::rational)?,
-            // The dimension is read.
+            // The dimension has been read already.
             _ => {}
         }
     }
@@ -241,7 +241,7 @@ fn loads(value: &Value<'_>, dimension: Dimension) -> Result<Vec<(At, BigRational
     value.items(expected)?.map(load).collect()
 }
 
-/// A load as a table.
+/// Reads a load from a table.
 fn load_of(
     load: &Value<'_>,
     table: &DeTable<'_>,

@@ -1,11 +1,11 @@
-//! Which key may have been meant.
+//! Suggestions for misspelt keys.
 
-/// The longest word that is compared, in characters; no key has half as many.
+/// The maximal length of a compared word, in characters. No key is half as long.
 const LONGEST: usize = 32;
 
-/// The key that takes the fewest changes to reach, if they are few: one, or at most a third of the word.
+/// Returns the key with the fewest edits from `given`, if they are few: one edit, or at most a third of the word.
 ///
-/// A change is a character more, less or replaced, or two neighbours swapped; capitals, `_` and spaces cost nothing.
+/// An edit inserts, deletes or replaces a character, or swaps two adjacent ones. Capitals, `_` and spaces cost nothing.
 pub(in crate::scene) fn nearest(given: &str, known: &[&'static str]) -> Option<&'static str> {
     if given.chars().nth(LONGEST).is_some() {
         return None;
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slips_are_recognised_and_other_words_are_not() {
+    fn suggests_keys_for_misspelt_words_only() {
         let known = ["layers", "stacking", "sin-phi", "load", "mass", "at"];
         for (given, meant) in [
             ("layer", Some("layers")),

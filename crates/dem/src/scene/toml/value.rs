@@ -1,4 +1,4 @@
-//! One value of a file, and what is said when it is refused.
+//! One value of a file, and the error if it is rejected.
 
 use std::borrow::Cow;
 
@@ -10,11 +10,11 @@ use crate::Error;
 use crate::error::quoted;
 use cannonpile::scalar::parse::MAX_DIGITS;
 
-/// A value under a key.
+/// A value with its key.
 pub(super) struct Value<'a> {
-    /// The whole text.
+    /// The text of the whole file.
     pub(super) file: &'a str,
-    /// The byte at which the key begins, or the value, if it is one of an array.
+    /// The byte offset of the key, or of the value in an array.
     start: usize,
     pub(super) key: &'static str,
     content: &'a DeValue<'a>,
@@ -35,12 +35,12 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// Counted from 1.
+    /// Returns the line of the value, counted from 1.
     pub(super) fn line(&self) -> usize {
         line_of(self.file, self.start)
     }
 
-    /// The value, refused.
+    /// Adds the line and the key of the value to an error.
     pub(super) fn refused(&self, error: Error) -> Error {
         Error::InFile {
             line: self.line(),
@@ -49,12 +49,12 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// What was expected in its place.
+    /// Returns the error for a value of another kind than `expected`.
     pub(super) fn is_not(&self, expected: &'static str) -> Error {
         self.refused(Error::syntax(&self.text(), expected))
     }
 
-    /// What the parser makes of the text.
+    /// Parses the text of the value.
     pub(super) fn read<T, E: Into<Error>>(
         &self,
         parser: impl FnOnce(&str) -> Result<T, E>,
@@ -76,7 +76,7 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// The values of an array.
+    /// Returns the values of an array.
     pub(super) fn items(
         &self,
         expected: &'static str,
@@ -90,7 +90,7 @@ impl<'a> Value<'a> {
             .map(move |item| Value::new(file, item.span().start, key, item)))
     }
 
-    /// The integers of an array with commas between, if it is one.
+    /// Returns the integers of an array, separated by commas; `None` for any other value.
     pub(super) fn integers(&self) -> Option<String> {
         let DeValue::Array(array) = self.content else {
             return None;
@@ -100,9 +100,9 @@ impl<'a> Value<'a> {
         integers.map(|integers| integers.join(","))
     }
 
-    /// What the parsers read: a string, or a number as it was written.
+    /// Returns the text for the parsers: the string, or the number as written.
     ///
-    /// What else there is has a text that no parser accepts.
+    /// Values of other kinds have texts that no parser accepts.
     fn text(&self) -> Cow<'a, str> {
         match self.content {
             DeValue::String(text) => Cow::Borrowed(text.as_ref()),
@@ -116,7 +116,7 @@ impl<'a> Value<'a> {
     }
 }
 
-/// The integer in decimal digits.
+/// Returns the integer in decimal digits.
 fn digits<'a>(integer: &'a DeInteger<'_>) -> Cow<'a, str> {
     let digits = integer.as_str();
     if integer.radix() == 10 || digits.len() > MAX_DIGITS {
@@ -126,15 +126,15 @@ fn digits<'a>(integer: &'a DeInteger<'_>) -> Cow<'a, str> {
     value.map_or(Cow::Borrowed(digits), |value| Cow::Owned(value.to_string()))
 }
 
-/// The line of a byte, counted from 1.
+/// Returns the line of a byte offset, counted from 1.
 pub(super) fn line_of(file: &str, start: usize) -> usize {
     let before = file.bytes().take(start);
     1 + before.filter(|byte| *byte == b'\n').count()
 }
 
-/// A text that is no TOML, in the words of its parser, and what it stumbled on.
+/// Returns the error for a text that is not TOML, with the message of its parser and the text at the error.
 pub(super) fn not_toml(file: &str, error: &::toml::de::Error) -> Error {
-    // What has no place is shown without one, as if it were the first line's.
+    // An error without an offset is shown without a text, in the first line.
     let span = error.span().unwrap_or_default();
     let line = line_of(file, span.start);
     let printable = |c: char| {

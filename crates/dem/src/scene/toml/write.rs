@@ -1,4 +1,4 @@
-//! A scene, written down.
+//! Scenes written as TOML.
 
 use core::fmt;
 
@@ -11,12 +11,12 @@ use crate::scene::{Anchor, Scene, State};
 use cannonpile::lattice::Dimension;
 
 impl Scene {
-    /// Returns the scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads it back as it
-    /// was.
+    /// Returns the scene as a TOML file with a comment for each key. [`from_toml`](Self::from_toml) reads back the same
+    /// scene.
     ///
-    /// What is left to its default is left out; sizes and weights are always there. Every scene is read back that
-    /// was itself read, by the parsers of texts or of files; of others, those whose numbers have a length that
-    /// [`parse`](crate::scene::parse) accepts.
+    /// Options with default values are omitted; sizes and weights are always written. Every scene that was read from
+    /// texts or files reads back. Other scenes read back if [`parse`](crate::scene::parse) accepts the lengths of their
+    /// numbers.
     ///
     /// # Examples
     /// ```
@@ -106,7 +106,7 @@ impl Scene {
     }
 }
 
-/// The lines so far.
+/// The lines of the file.
 struct File(String);
 
 impl File {
@@ -116,12 +116,12 @@ impl File {
     }
 }
 
-/// A TOML string; none of these texts has a character to escape.
+/// Returns a TOML string. These texts contain no characters that need an escape.
 fn quoted(text: impl fmt::Display) -> String {
     format!("\"{text}\"")
 }
 
-/// A TOML integer where every reader of TOML can hold it, or a string.
+/// Returns a TOML integer if every TOML reader can represent it, otherwise a string.
 fn integer(n: &BigInt) -> String {
     match n.to_i64() {
         Some(n) => n.to_string(),
@@ -137,7 +137,7 @@ fn number(r: &BigRational) -> String {
     }
 }
 
-/// What [`at`](crate::scene::parse::at) reads.
+/// Returns a position in the format of [`at`](crate::scene::parse::at).
 fn place(At { layer, i, j }: &At, dimension: Dimension) -> String {
     let layer = layer.map_or_else(String::new, |k| format!("{k},"));
     match dimension {
