@@ -1,11 +1,12 @@
-//! Tables of a pile's forces and spheres, as csv, json and aligned text.
+//! Tables of the forces and spheres of a pile, as csv, json and aligned text.
 //!
-//! A [`Table`] is columns, and rows made as they are asked for: what is written never needs more memory
-//! than one page of rows. Its cells are exact; a [`NumberFormat`] says how they are shown, and is checked
-//! against a bound of all numbers before the first byte is written.
+//! A [`Table`] has columns, and rows generated on request. Writing needs memory for one page of rows. Cells are exact,
+//! and a [`NumberFormat`] determines how they are shown. A bound of all numbers is checked against the format before
+//! the first byte is written.
 //!
 //! # Units
-//! csv and json have no place for units: [`Column::unit`] has them, and the text table shows them. In pile units
+//!
+//! csv and json contain no units: [`Column::unit`] states them, and the text table shows them. In pile units
 //! ([`Units::of_pile`])
 //!
 //! | column | unit |
@@ -15,7 +16,7 @@
 //! | `shear_x` | mg·tanθ |
 //! | `shear_y` | √3·mg·tanθ; 2cosφ·mg·tanθ in general |
 //!
-//! so that all are rational. In SI ([`Units::of_packing`]) forces are in N, lengths in m, masses in kg.
+//! so that all values are rational. In SI units ([`Units::of_packing`]) forces are in N, lengths in m, masses in kg.
 //!
 //! # Examples
 //! ```

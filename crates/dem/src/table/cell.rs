@@ -1,4 +1,4 @@
-//! One entry of a table, and how it is shown.
+//! One entry of a table, and its formats.
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -15,21 +15,21 @@ use cannonpile::scalar::{CorrectlyRounded, Surd};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cell {
-    /// A count, in all number formats alike.
+    /// A count, the same in all number formats.
     Integer(BigInt),
-    /// An index, in all number formats alike.
+    /// An index, the same in all number formats.
     Index(i128),
-    /// An exact quantity, shown in the number format asked for.
+    /// An exact quantity, shown in the requested number format.
     Number(Box<Surd>),
-    /// A quantity that was rounded to the number format asked for.
+    /// A quantity already rounded to `f64`.
     F64(f64),
-    /// A quantity that was rounded to the number format asked for.
+    /// A quantity already rounded to `f32`.
     F32(f32),
     /// A word.
     Word(Cow<'static, str>),
-    /// Yes or no: 1 and 0, in json `true` and `false`.
+    /// A boolean: 1 and 0, in json `true` and `false`.
     Flag(bool),
-    /// Nothing to say: empty, in json `null`.
+    /// No value: empty, in json `null`.
     Missing,
 }
 
@@ -70,7 +70,7 @@ impl From<&'static str> for Cell {
 }
 
 impl Cell {
-    /// Whether it is a number below zero.
+    /// Returns whether the cell is a number below zero.
     ///
     /// # Examples
     /// ```
@@ -91,8 +91,8 @@ impl Cell {
         }
     }
 
-    /// Adds the text of the cell to a line, so often as its column has heads, or both ends of a number if it is shown
-    /// as an interval; `column` is named if the number does not fit.
+    /// Adds the text of the cell to a line: once per header of its column, or both bounds of an interval. The error of
+    /// an overflow contains `column`.
     pub(super) fn show(
         &self,
         numbers: NumberFormat,
@@ -108,7 +108,7 @@ impl Cell {
             match self {
                 Self::Integer(n) => line.push(n),
                 Self::Index(n) => match i64::try_from(*n) {
-                    // Written faster.
+                    // This is faster than formatting.
                     Ok(n) => line.push(n),
                     Err(_) => line.push(n),
                 },
@@ -124,25 +124,25 @@ impl Cell {
     }
 }
 
-/// How exact quantities are shown.
+/// The format of exact quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum NumberFormat {
     /// `4`, `7/3`, `7/3*sqrt(2)`.
     Exact,
-    /// The nearest `f64`, with the fewest digits that read back the same (at most 17).
+    /// The correctly rounded `f64`, with the fewest digits that read back the same (at most 17).
     F64,
-    /// The nearest `f32`, with the fewest digits that read back the same (at most 9).
+    /// The correctly rounded `f32`, with the fewest digits that read back the same (at most 9).
     F32,
-    /// The greatest `f64` that is not greater and the least that is not less: two columns, `…_lo` and `…_hi`.
+    /// The tightest enclosure by two `f64` in two columns, `…_lo` and `…_hi`.
     Interval,
 }
 
 impl NumberFormat {
-    /// A number as text; `quantity` is named if it does not fit.
+    /// Returns a number as text. The error of an overflow contains `quantity`.
     ///
     /// # Errors
-    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a number beyond the floats.
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) if the number exceeds the floats.
     ///
     /// # Examples
     /// ```
@@ -169,7 +169,8 @@ impl NumberFormat {
     }
 }
 
-/// The `f64` on both sides of a number, or it twice where it is one, as the shortest texts that read back the same.
+/// Returns the `f64` below and above a number, as the shortest texts that read back the same. Both are equal if the
+/// number is a float.
 fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
     let overflow = || Error::overflow(quantity, "f64");
     let float = number.nearest::<f64>().ok_or_else(overflow)?;
@@ -185,7 +186,7 @@ fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
     }
 }
 
-/// The nearest float, as the shortest text that reads back the same: what `Debug` prints.
+/// Returns the correctly rounded float as the shortest text that reads back the same, as `Debug` prints it.
 fn shortest<F: CorrectlyRounded + core::fmt::Debug>(
     number: &Surd,
     quantity: &'static str,
@@ -202,7 +203,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_below_zero_is_negative() {
+    fn detects_negative_numbers() {
         let exact = |n: i32| Cell::from(BigRational::from_integer(n.into()));
         for negative in [
             exact(-1),
@@ -218,7 +219,7 @@ mod tests {
             exact(1),
             Cell::Integer(0.into()),
             Cell::Index(0),
-            // Of a force that vanishes the float may have a sign.
+            // A zero force may be −0 as a float.
             Cell::F64(-0.0),
             Cell::F32(-0.0),
             Cell::F64(1.0),

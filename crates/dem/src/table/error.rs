@@ -1,23 +1,23 @@
-//! Why a table or a file was not written.
+//! The errors of writing tables and files.
 
 use std::io;
 use std::path::PathBuf;
 
 use crate::Error;
 
-/// Why a table was not written, or not to its end.
+/// The reason why a table or a file was not written, or not completely.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// An answer was refused: see [`Error`].
+    /// A value could not be computed or formatted: see [`Error`].
     Answer(Error),
-    /// The output was.
+    /// Writing to the output failed.
     Io(io::Error),
-    /// One of several files was.
+    /// Writing one of several files failed.
     File {
-        /// Where it was to be written.
+        /// The path of the file.
         path: PathBuf,
-        /// Why it was not.
+        /// The error of the file system.
         error: io::Error,
     },
 }

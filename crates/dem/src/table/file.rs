@@ -1,4 +1,4 @@
-//! Files that are whole or not there.
+//! Files that are complete or absent.
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -10,15 +10,17 @@ use super::error::WriteError;
 use super::unfinished::{FRESH, PREFIX, Pending, lock, remove_leftovers};
 use crate::error::bug;
 
-/// Writes a file aside, and renames it into place when it is complete: a failure leaves what was there.
+/// Writes a file under a temporary name, and renames it when it is complete. A failure leaves an existing file
+/// unchanged.
 ///
-/// What is not a regular file, such as a pipe or a device, is written directly. A link is followed, one to
-/// nowhere and a read-only file refused; a file that is replaced hands on its permissions. A process that is
-/// interrupted can [remove](super::remove_unfinished) what it has written aside. One that is killed leaves a hidden file
-/// `.cannonpile-…` in the folder, which the next call for that folder removes.
+/// Pipes, devices and other special files are written directly. Symbolic links are followed. A dangling link and a
+/// read-only file are errors. The new file inherits the permissions of the file that it replaces.
+///
+/// An interrupted process can [remove](super::remove_unfinished) its temporary files. A killed process leaves a hidden
+/// file `.cannonpile-…` in the folder, which the next call for that folder removes.
 ///
 /// # Errors
-/// Those of `write`, and [`WriteError::Io`].
+/// The errors of `write`, and [`WriteError::Io`].
 ///
 /// # Examples
 /// ```
@@ -39,24 +41,24 @@ pub fn write_aside(
     Ok(())
 }
 
-/// What has been written for a path, and is not there yet.
+/// A temporary file that has not been renamed to its path.
 #[derive(Debug)]
 pub(crate) struct Aside {
-    /// None if it had to be written directly.
+    /// `None` for a target that must be written directly.
     file: Option<(NamedTempFile, Pending)>,
     target: PathBuf,
     bytes: u64,
 }
 
 impl Aside {
-    /// Writes into the folder of the target; dropped, it leaves nothing.
+    /// Writes a temporary file into the folder of the target. Dropping it removes the file.
     pub(crate) fn write(
         path: &Path,
         write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
     ) -> Result<Self, WriteError> {
         let target = match fs::canonicalize(path) {
             Ok(target) => target,
-            // A link to nowhere would be replaced, not followed.
+            // A rename would replace a dangling link, but links must be followed.
             Err(error) if path.is_symlink() => return Err(error.into()),
             Err(_) => path.to_owned(),
         };
@@ -84,7 +86,7 @@ impl Aside {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // As any new file, not private as temporary files are; the umask still applies.
+            // Temporary files are private, but the result has the permissions of any new file; the umask still applies.
             aside.permissions(fs::Permissions::from_mode(0o666));
         }
         let fresh = aside.prefix(FRESH).tempfile_in(folder)?;
@@ -102,7 +104,7 @@ impl Aside {
         })
     }
 
-    /// Renames it into place; returns how many bytes it has.
+    /// Renames the temporary file to its path, and returns its size in bytes.
     pub(crate) fn keep(self) -> io::Result<u64> {
         if let Some((file, pending)) = self.file {
             let kept =
@@ -112,13 +114,13 @@ impl Aside {
         Ok(self.bytes)
     }
 
-    /// Where it goes, links followed.
+    /// Returns the target, with links resolved.
     pub(crate) fn target(&self) -> &Path {
         &self.target
     }
 }
 
-/// Gives a file that is locked the name of one that is.
+/// Renames a locked file to a name for locked files.
 fn named_as_locked(
     fresh: NamedTempFile,
     pending: Pending,
@@ -147,7 +149,7 @@ fn write_to(
     Ok(out.bytes)
 }
 
-/// A writer that counts.
+/// A writer that counts bytes.
 struct Counted<W> {
     out: W,
     bytes: u64,

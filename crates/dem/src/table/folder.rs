@@ -1,4 +1,4 @@
-//! Several files that are all there, or none.
+//! Sets of files that are written completely or not at all.
 
 use std::fs;
 use std::io::{self, Write};
@@ -6,13 +6,15 @@ use std::path::{Path, PathBuf};
 
 use super::{Aside, Pending, WriteError, remove_leftovers};
 
-/// Writes files into a folder, which is made if it is not there: all, or none; returns how many bytes each has.
+/// Writes files into a folder, which is created if necessary, and returns their sizes in bytes. Either all files are
+/// written, or none.
 ///
-/// Each file comes with what `write` writes into it. All are written aside, as by [`write_aside`](super::write_aside), and
-/// renamed when the last one is complete; where that fails, files and folders that were not there before are removed again.
+/// `write` writes the contents of each file. All files are written under temporary names as by
+/// [`write_aside`](super::write_aside), and renamed when the last one is complete. If a rename fails, new files and
+/// folders are removed.
 ///
 /// # Errors
-/// Those of `write`, and [`WriteError::File`] with the path.
+/// The errors of `write`, and [`WriteError::File`] with the path.
 ///
 /// # Examples
 /// ```
@@ -42,7 +44,7 @@ pub fn write_all<T>(
         })?;
         written.push((path, aside));
     }
-    // Not one of them is there yet; a folder of the same name, or the like, is found out here.
+    // Nothing has been renamed yet. This loop detects obstacles such as a folder of the same name.
     let mut all = Vec::new();
     for (path, aside) in written {
         let kept = new.announce(aside.target()).and_then(|()| aside.keep());
@@ -58,15 +60,14 @@ fn of(path: &Path, error: io::Error) -> WriteError {
     WriteError::File { path, error }
 }
 
-/// Folders and files that were not there before, in the order in which they are made, removed again unless all are
-/// kept.
+/// New folders and files in the order of their creation. They are removed unless all are kept.
 #[derive(Default)]
 struct New(Vec<Pending>);
 
 impl New {
-    /// Makes a folder, and those that it is in.
+    /// Creates a folder and its parents.
     fn folder(&mut self, folder: &Path) -> io::Result<()> {
-        // What is there and is no folder would be said to exist already.
+        // The error for an existing file would say that the folder exists.
         if folder.exists() && !folder.is_dir() {
             return Err(io::ErrorKind::NotADirectory.into());
         }
@@ -80,7 +81,7 @@ impl New {
         fs::create_dir_all(folder)
     }
 
-    /// Takes note of a path that is made next.
+    /// Records a path that is created next.
     fn announce(&mut self, path: &Path) -> io::Result<()> {
         if fs::symlink_metadata(path).is_err() {
             self.0.push(Pending::new(path)?);

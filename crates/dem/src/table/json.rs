@@ -7,7 +7,7 @@ use super::error::WriteError;
 use super::line::Line;
 use super::rows::{Column, RowIter, show};
 
-/// Writes `[`, an object a line, `]`.
+/// Writes `[`, one object per line, and `]`.
 pub(super) fn write(
     columns: &[Column],
     rows: RowIter<'_>,
@@ -37,8 +37,8 @@ pub(super) fn write(
     Ok(out.write_all(end.as_bytes())?)
 }
 
-/// Writes floats and integers within 2^53 as numbers, greater integers and exact quantities as strings: many readers keep a
-/// number as a float.
+/// Writes floats and integers within 2^53 as numbers, and larger integers and exact quantities as strings. Many JSON
+/// readers store numbers as floats.
 fn write_value(
     cell: &Cell,
     numbers: NumberFormat,

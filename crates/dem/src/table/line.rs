@@ -2,11 +2,11 @@
 
 use core::fmt::{Display, Write};
 
-/// The texts of a row, one after the other in one buffer, which the next row uses again.
+/// The texts of a row in one buffer, which the next row reuses.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Line {
     text: String,
-    /// Where each of them ends.
+    /// The end of each text in the buffer.
     ends: Vec<usize>,
 }
 
@@ -22,7 +22,7 @@ impl Line {
         self.ends.push(self.text.len());
     }
 
-    /// As `push`, without the machinery of formats.
+    /// Adds a text without formatting, which is faster than `push`.
     pub(super) fn push_str(&mut self, text: &str) {
         self.text.push_str(text);
         self.ends.push(self.text.len());
@@ -31,7 +31,7 @@ impl Line {
     pub(super) fn fields(&self) -> impl Iterator<Item = &str> {
         let begins = core::iter::once(0).chain(self.ends.iter().copied());
         let ranges = begins.zip(self.ends.iter().copied());
-        // Each lies within the text, between characters.
+        // Each range is within the text, and its ends are character boundaries.
         ranges.filter_map(|(begin, end)| self.text.get(begin..end))
     }
 }

@@ -1,13 +1,13 @@
-//! Numbers of many spheres, a piece of a row at a time, in columns.
+//! Numbers of many spheres in columns, generated for one piece of a row at a time.
 
 use crate::Error;
 use cannonpile::Interrupt;
 use cannonpile::lattice::Row;
 
-/// The most spheres whose numbers are made at once.
+/// The maximal number of spheres computed at once.
 const PIECE: i128 = 1024;
 
-/// All that `make` makes of pieces of rows of spheres.
+/// Returns the concatenated results of `make` for all pieces of the rows.
 pub(crate) fn in_pieces<T>(
     rows: impl Iterator<Item = Row>,
     mut make: impl FnMut(&Row) -> Result<Vec<T>, Error>,
@@ -24,16 +24,16 @@ pub(crate) fn in_pieces<T>(
     })
 }
 
-/// Returns three columns with a place for each sphere of a piece.
+/// Returns three columns with one entry per sphere of a piece.
 ///
 /// # Errors
-/// [`Error::TooLarge`](cannonpile::Error::TooLarge) for what is longer than any piece.
+/// [`Error::TooLarge`](cannonpile::Error::TooLarge) for a row that is longer than any piece.
 pub(crate) fn columns<F: Clone + Default>(piece: &Row) -> Result<[Vec<F>; 3], Error> {
     let spheres = piece.length()?;
     Ok([(); 3].map(|()| vec![F::default(); spheres]))
 }
 
-/// The slices of three columns.
+/// Returns the slices of three columns.
 pub(crate) fn slices<F>(columns: &mut [Vec<F>; 3]) -> [&mut [F]; 3] {
     columns.each_mut().map(Vec::as_mut_slice)
 }

@@ -1,9 +1,9 @@
-//! Reports of how far a table or a file has come.
+//! Progress reports for tables and files.
 
-/// How many rows are done before the next report.
+/// The number of rows between reports.
 const ROWS: u64 = 4096;
 
-/// Counts rows, and reports them from time to time; the last ones when it is dropped.
+/// A counter of rows that reports from time to time. The last report is made on drop.
 pub(crate) struct Progress<O: FnMut(u64)> {
     observer: O,
     pending: u64,

@@ -1,4 +1,4 @@
-//! Columns, and rows made as they are asked for.
+//! Columns, and rows generated on request.
 
 use num_bigint::BigUint;
 
@@ -11,18 +11,18 @@ use cannonpile::scalar::Surd;
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its header in csv, and key in json.
+    /// The header in csv, and the key in json.
     pub name: &'static str,
-    /// Its unit, empty for none.
+    /// The unit; empty for a column without a unit.
     pub unit: &'static str,
-    /// Whether the text table shows its sum.
+    /// Whether the text table shows the sum of the column.
     pub summed: bool,
-    /// Whether it holds quantities, shown in the number format asked for.
+    /// Whether the column contains quantities in the requested number format.
     pub quantity: bool,
 }
 
 impl Column {
-    /// A column without a unit or a sum.
+    /// Returns a column without a unit or a sum.
     #[doc(hidden)]
     #[must_use]
     pub fn plain(name: &'static str) -> Self {
@@ -34,7 +34,7 @@ impl Column {
         }
     }
 
-    /// A quantity in a unit.
+    /// Returns a column of quantities with a unit.
     #[doc(hidden)]
     #[must_use]
     pub fn measured(name: &'static str, unit: &'static str) -> Self {
@@ -45,7 +45,7 @@ impl Column {
         }
     }
 
-    /// A quantity in a unit whose sum means something.
+    /// Returns a column of quantities with a unit and a sum.
     #[doc(hidden)]
     #[must_use]
     pub fn summed(name: &'static str, unit: &'static str) -> Self {
@@ -55,12 +55,12 @@ impl Column {
         }
     }
 
-    /// How many headers it has: two for the ends of intervals.
+    /// Returns the number of headers: two for intervals, otherwise one.
     pub(super) fn places(&self, numbers: NumberFormat) -> usize {
         1 + usize::from(self.quantity && numbers == NumberFormat::Interval)
     }
 
-    /// Its headers.
+    /// Returns the headers.
     pub(super) fn heads(&self, numbers: NumberFormat) -> Vec<String> {
         let name = self.name;
         match self.places(numbers) {
@@ -70,10 +70,10 @@ impl Column {
     }
 }
 
-/// A row, or why it could not be made.
+/// A row, or the error that prevented it.
 pub type Row = Result<Vec<Cell>, Error>;
 
-/// Writes the texts of a row over a line.
+/// Replaces the texts of a line by those of a row.
 pub(super) fn show(
     columns: &[Column],
     row: &[Cell],
@@ -87,42 +87,42 @@ pub(super) fn show(
     Ok(())
 }
 
-/// Rows, one after the other.
+/// An iterator over rows.
 pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 
-/// Where the sums of the columns that are summed up come from, in their order.
+/// The source of the sums of columns, in the order of the columns.
 pub(super) enum Sums<'a> {
-    /// Without the rows, of which there may be many.
+    /// A function that computes the sums without the rows, for tables that may be long.
     LayerGap(Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>),
-    /// From the exact cells of the rows, which are few, and as long to make as their sums.
+    /// The exact cells of the rows, for tables of few rows.
     OfRows,
 }
 
-/// How a text table is laid out.
+/// The layout of a text table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// A line a row; the plural noun says what the rows are.
+    /// One line per row. The plural noun names the rows.
     Rows(&'static str),
-    /// A line a column, for a table of one row.
+    /// One line per column, for a table of one row.
     Record,
 }
 
-/// A table: columns, and rows made as they are asked for. [`base`](super::base), [`contacts`](super::contacts) and
-/// others make them.
+/// A table: columns, and rows generated on request. [`base`](super::base), [`contacts`](super::contacts) and other
+/// functions return tables.
 pub struct Table<'a> {
     pub(super) columns: Vec<Column>,
     pub(super) layout: Layout,
-    /// A row that no row exceeds, as far as quantities may leave the floats.
+    /// A row that no other row exceeds, for quantities that may overflow.
     pub(super) bounds: Vec<Cell>,
-    /// How many rows there are, if that is known.
+    /// The number of rows, if it is known.
     count: Option<BigUint>,
-    /// The rows, made for one number format.
+    /// The generator of the rows for a number format.
     pub(super) rows: Box<dyn FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + 'a>,
     pub(super) sums: Option<Sums<'a>>,
 }
 
 impl Table<'static> {
-    /// A table of one row, shown a line a column.
+    /// Returns a table of one row, shown with one line per column.
     #[doc(hidden)]
     #[must_use]
     pub fn record(entries: Vec<(Column, Cell)>) -> Self {
@@ -136,7 +136,7 @@ impl Table<'static> {
 }
 
 impl<'a> Table<'a> {
-    /// Returns the table, whose rows are shown to `look` before they are written.
+    /// Returns the table with a function `look` that is called with each row before the row is written.
     ///
     /// # Examples
     /// ```
@@ -174,7 +174,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A table of these rows, a line a row; `noun` says in the plural what they are.
+    /// Returns a table of these rows, shown with one line per row. The plural `noun` names the rows.
     #[doc(hidden)]
     pub fn of_rows(
         columns: Vec<Column>,
@@ -184,7 +184,7 @@ impl<'a> Table<'a> {
         Self::made_for(columns, noun, |_| Ok(Box::new(rows)))
     }
 
-    /// A table whose rows are made for the number format in which they are shown.
+    /// Returns a table whose rows are generated for the requested number format.
     pub(super) fn made_for(
         columns: Vec<Column>,
         noun: &'static str,
@@ -200,7 +200,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the table with what makes the sums of its columns.
+    /// Returns the table with a function that computes the sums of its columns.
     pub(super) fn summed(self, sums: impl FnOnce() -> Result<Vec<Surd>, Error> + 'a) -> Self {
         Self {
             sums: Some(Sums::LayerGap(Box::new(sums))),
@@ -208,7 +208,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the table, whose columns are summed up from its rows.
+    /// Returns the table with sums computed from its rows.
     #[doc(hidden)]
     #[must_use]
     pub fn summed_by_rows(self) -> Self {
@@ -218,7 +218,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// With so many rows, none of which exceeds `bounds`.
+    /// Returns the table with the number of its rows, and a row of bounds that no row exceeds.
     #[doc(hidden)]
     #[must_use]
     pub fn bounded(self, count: BigUint, bounds: Vec<Cell>) -> Self {
@@ -229,7 +229,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The columns, in order.
+    /// Returns the columns, in order.
     ///
     /// # Examples
     /// ```
@@ -249,7 +249,7 @@ impl<'a> Table<'a> {
         &self.columns
     }
 
-    /// How many rows the table has; `None` where that is known only when all are made, as in a census.
+    /// Returns the number of rows; `None` if the number is unknown before all rows are generated, as in a census.
     ///
     /// # Examples
     /// ```
@@ -268,8 +268,8 @@ impl<'a> Table<'a> {
         self.count.clone()
     }
 
-    /// The table with an observer, which is called from time to time with how many more rows have been made, the last
-    /// of them included.
+    /// Returns the table with an observer. The observer is called from time to time with the number of further rows,
+    /// including the last ones.
     ///
     /// # Examples
     /// ```

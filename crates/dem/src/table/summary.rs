@@ -1,4 +1,4 @@
-//! A pile in one row.
+//! The summary of a pile in one row.
 
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -14,7 +14,7 @@ use cannonpile::stacking::Stacking;
 use cannonpile::{BaseExtremes, Method, Pile, Standing, Verdict};
 use cannonpile_horizontal::certificate::{Certificate, Claim};
 
-/// What there is to say of a pile in one row, and whether it stands.
+/// The quantities of a pile in one row, and its stability.
 ///
 /// # Examples
 /// ```
@@ -35,21 +35,21 @@ pub struct Summary<'p> {
     units: Units<'p>,
     touching: Option<Vec<LayerGap>>,
     standing: Standing,
-    /// Whether horizontal contacts hold what pulls without them, where they are all that touches besides; or why that is
-    /// not known.
+    /// Whether horizontal contacts stabilise a pile with tensile contacts, or the error that prevented an answer.
+    /// `None` if the question does not arise.
     held: Option<Result<Certificate, cannonpile_horizontal::Error>>,
-    /// Or why there are none.
+    /// The extremes on the base, or the error that prevented them.
     base: Result<BaseExtremes, cannonpile::Error>,
-    /// How the base is answered, or why it cannot be as a whole.
+    /// The method for the base, or the error that prevents an answer for the whole base.
     method: Result<Method, cannonpile::Error>,
 }
 
 impl<'p> Summary<'p> {
-    /// Sums up the pile of `units`; `touching` is what touches besides the contacts at the spacing in question,
-    /// if there is one, and nothing if there is none.
+    /// Computes the summary of the pile of `units`. `touching` lists the further contacts at the given spacing; `None`
+    /// without a spacing.
     ///
     /// # Errors
-    /// Those of [`Pile::standing`].
+    /// The errors of [`Pile::standing`].
     ///
     /// # Examples
     /// ```
@@ -61,7 +61,7 @@ impl<'p> Summary<'p> {
     /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
     /// let units = Units::of_pile(&pile);
     /// assert_eq!(Summary::new(&units, Some(Vec::new()))?.verdict(), Some(Verdict::No));
-    /// // Where spheres two layers apart touch, they may take the part of a pull.
+    /// // Touching spheres two layers apart may make a tensile force unnecessary.
     /// let touching = vec![LayerGap { layers: 2 }];
     /// assert_eq!(Summary::new(&units, Some(touching))?.verdict(), Some(Verdict::Undetermined));
     /// # Ok::<(), cannonpile_dem::Error>(())
@@ -85,8 +85,8 @@ impl<'p> Summary<'p> {
         })
     }
 
-    /// Returns the columns that are empty, each with the reason and what can be done; `touching` is left to the caller, who
-    /// knows why it was not given.
+    /// Returns the empty columns, each with the reason and a remedy. The caller explains an empty `touching`, because
+    /// only the caller knows the reason.
     ///
     /// # Examples
     /// ```
@@ -136,7 +136,7 @@ impl<'p> Summary<'p> {
         left_out.collect()
     }
 
-    /// Whether the pile stands; `None` for spheres without weight, of which it is not asked.
+    /// Returns whether the pile is stable; `None` for weightless spheres.
     ///
     /// # Examples
     /// ```
@@ -158,7 +158,7 @@ impl<'p> Summary<'p> {
         })
     }
 
-    /// Returns the certificate of the verdict, where horizontal contacts decide it.
+    /// Returns the certificate of the verdict, if horizontal contacts decide it.
     ///
     /// # Examples
     /// ```
@@ -166,7 +166,7 @@ impl<'p> Summary<'p> {
     /// use cannonpile_dem::table::{Summary, Units};
     ///
     /// let pile = Pile::triangular(10)?;
-    /// // The paper's forces do.
+    /// // The forces without horizontal contacts are compressive.
     /// assert!(Summary::new(&Units::of_pile(&pile), None)?.certificate().is_none());
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
@@ -175,10 +175,10 @@ impl<'p> Summary<'p> {
         self.held.as_ref()?.as_ref().ok()
     }
 
-    /// One row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres, normal_min,
-    /// normal_max, max_shear_ratio, touching, plan`.
+    /// Returns a table of one row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres,
+    /// normal_min, normal_max, max_shear_ratio, touching, plan`.
     ///
-    /// The weight is that of all spheres with their loads. Why a column is empty is told by [`left_out`](Self::left_out).
+    /// The weight includes all loads. [`left_out`](Self::left_out) explains empty columns.
     ///
     /// # Examples
     /// ```
@@ -190,7 +190,7 @@ impl<'p> Summary<'p> {
     /// let mut csv = Vec::new();
     /// let table = Summary::new(&Units::of_pile(&pile), None)?.table();
     /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
-    /// // It does not stand: a contact would have to pull.
+    /// // The pile is unstable: some contact needs a tensile force.
     /// assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().contains(",no,-22/81,"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -263,7 +263,7 @@ impl<'p> Summary<'p> {
     }
 }
 
-/// Keeps the error of what is too large apart from others.
+/// Separates the errors of queries that are too large from others.
 fn unless_too_large<T>(
     answer: Result<T, cannonpile::Error>,
 ) -> Result<Result<T, cannonpile::Error>, cannonpile::Error> {
@@ -273,7 +273,7 @@ fn unless_too_large<T>(
     }
 }
 
-/// The name of a pile's stacking, or its steps.
+/// Returns the name of a pile's stacking, or its Hägg signs.
 #[must_use]
 pub fn stacking(pile: &Pile) -> String {
     if pile.dimension() == Dimension::Two {
@@ -283,13 +283,13 @@ pub fn stacking(pile: &Pile) -> String {
     read.name().map_or_else(|| read.to_string(), Into::into)
 }
 
-/// The steps of a pile.
+/// Returns the Hägg signs of a pile.
 #[must_use]
 pub fn steps(pile: &Pile) -> String {
     as_read(pile).to_string()
 }
 
-/// The stacking in the order in which it is written: from the base up, if the pile was grown so.
+/// Returns the stacking in reading order: from the base up if the pile grows from its base.
 fn as_read(pile: &Pile) -> Stacking {
     let stacking = pile.shape().stacking();
     if pile.shape().is_grown_from_base() {
@@ -299,7 +299,7 @@ fn as_read(pile: &Pile) -> Stacking {
     }
 }
 
-/// `none`, `in one layer and 3 layers apart`.
+/// Describes gaps as text: `none`, or `in one layer and 3 layers apart`.
 fn describe(touching: &[LayerGap]) -> Cell {
     let words: Vec<String> = touching.iter().map(ToString::to_string).collect();
     if words.is_empty() {

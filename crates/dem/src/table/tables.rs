@@ -20,10 +20,11 @@ use cannonpile::scalar::CorrectlyRounded;
 use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
 
-/// The most rows that are written.
+/// The maximal number of rows of a table.
 pub const MAX_ROWS: u64 = 100_000_000_000;
 
-/// The floats that many rows are rounded to at once. One sphere is answered exactly, and rounded as it is shown.
+/// The float type for the joint rounding of many rows. A single sphere is evaluated exactly, and rounded when it is
+/// shown.
 enum Rounding {
     F64,
     F32,
@@ -37,13 +38,13 @@ fn rounding(numbers: NumberFormat, selection: Selection) -> Option<Rounding> {
     }
 }
 
-/// A float that a cell holds.
+/// A float type that a cell can store.
 trait Float: CorrectlyRounded + Default + Into<Cell> + 'static {}
 
 impl Float for f64 {}
 impl Float for f32 {}
 
-/// The question that has fewer answers, unless it is the narrowest.
+/// Returns a remedy: a selection with fewer rows, unless there is none.
 pub(crate) fn narrower(selection: Selection) -> &'static str {
     match selection {
         Selection::Layer(_) | Selection::Base => "ask for one sphere",
@@ -51,9 +52,9 @@ pub(crate) fn narrower(selection: Selection) -> &'static str {
     }
 }
 
-/// A row that no row of the table exceeds, for the columns that hold forces and places.
+/// Returns a row that no row of the table exceeds, for the columns of forces and positions.
 fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Result<Vec<Cell>, Error> {
-    // The rows of one sphere are few enough to be looked at themselves.
+    // One sphere has few rows, so they are checked themselves.
     if let Selection::One(_) = selection {
         return Ok(Vec::new());
     }
@@ -66,8 +67,8 @@ fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Result
     Ok(columns.iter().map(bound).collect())
 }
 
-/// A length that no coordinate of a centre exceeds: from the origin on it takes as many steps of 2R as layers, and as
-/// i and j of the base count.
+/// Returns a length that no coordinate of a centre exceeds. From the origin, a centre is reached in steps of 2R: one
+/// per layer, plus as many as i and j of the base.
 fn greatest_place(packing: &Packing<'_>) -> BigRational {
     let shape = packing.pile().shape();
     let corners = shape.base().corners();
@@ -77,7 +78,7 @@ fn greatest_place(packing: &Packing<'_>) -> BigRational {
     packing.radius() * BigRational::from(BigInt::from(steps * 2_u32))
 }
 
-/// The columns that say where a sphere is: those named first, then i, and j in space.
+/// Returns the columns of a site: the given ones, then i, and j in three dimensions.
 #[must_use]
 pub fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
     let places: &[_] = if pile.dimension() == Dimension::Two {
@@ -93,16 +94,16 @@ pub fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
         .collect()
 }
 
-/// i, and j in space.
+/// Returns the cells i, and j in three dimensions.
 pub fn places(pile: &Pile, site: Site) -> impl Iterator<Item = Cell> + use<> {
     let j = (pile.dimension() == Dimension::Three).then_some(site.j);
     core::iter::once(site.i).chain(j).map(Cell::from)
 }
 
-/// Refuses more than [`MAX_ROWS`] rows.
+/// Returns an error for more than [`MAX_ROWS`] rows.
 ///
 /// # Errors
-/// [`Error::TooManyRows`](cannonpile::Error::TooManyRows), with `remedy` as the last words.
+/// [`Error::TooManyRows`](cannonpile::Error::TooManyRows), which ends with `remedy`.
 pub fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> {
     if *rows <= BigUint::from(MAX_ROWS) {
         return Ok(());

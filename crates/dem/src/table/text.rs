@@ -1,4 +1,4 @@
-//! A table for people: aligned, units in the head, sums below.
+//! Tables as aligned text, with units in the head and sums at the foot.
 
 use std::io::Write;
 
@@ -13,13 +13,13 @@ use crate::Error;
 use crate::error::bug;
 use cannonpile::scalar::Surd;
 
-/// How many rows are aligned together: a page is all that is held in memory.
+/// The number of rows that are aligned together. Only one page is in memory.
 pub(super) const PAGE: usize = 4096;
 
-/// How many rows are aligned together where nothing is known of them before they are made.
+/// The number of rows that are aligned together if the number of rows is unknown.
 pub(super) const SHORT_PAGE: usize = 256;
 
-/// Writes a line a column: name, value, unit.
+/// Writes one line per column: name, value, unit.
 pub(super) fn write_record(
     columns: &[Column],
     rows: RowIter<'_>,
@@ -44,7 +44,7 @@ pub(super) fn write_record(
     Ok(())
 }
 
-/// Writes a line a row, in columns as wide as their widest entry so far.
+/// Writes one line per row. Each column is as wide as its widest entry so far.
 pub(super) fn write_rows(
     columns: &[Column],
     (mut rows, page_length): (RowIter<'_>, usize),
@@ -64,7 +64,7 @@ pub(super) fn write_rows(
     let mut page = vec![heads];
     page.extend(Some(bracketed).filter(|_| units.fields().any(|unit| !unit.is_empty())));
     let mut widths = vec![0; units.fields().count()];
-    // The word stands below on the last page only.
+    // Only the last page contains the word in its totals.
     if let (Some(first), true) = (widths.first_mut(), sums.is_some()) {
         *first = "total".len();
     }
@@ -115,7 +115,7 @@ pub(super) fn write_rows(
     }
 }
 
-/// Adds the exact cells of a row to the sums of their columns.
+/// Adds the exact cells of a row to the sums of the columns.
 fn add_row(sums: &mut [Surd], columns: &[Column], row: &[Cell]) -> Result<(), Error> {
     let summed = columns.iter().zip(row).filter(|(column, _)| column.summed);
     for (sum, (_, cell)) in sums.iter_mut().zip(summed) {
@@ -128,7 +128,7 @@ fn add_row(sums: &mut [Surd], columns: &[Column], row: &[Cell]) -> Result<(), Er
     Ok(())
 }
 
-/// The headers, and their units.
+/// Returns the headers and the units.
 fn heads(columns: &[Column], numbers: NumberFormat) -> [Line; 2] {
     let mut lines = [Line::default(), Line::default()];
     let [heads, units] = &mut lines;
@@ -141,7 +141,7 @@ fn heads(columns: &[Column], numbers: NumberFormat) -> [Line; 2] {
     lines
 }
 
-/// The sums below, after the word `total`.
+/// Returns the sums, after the word `total`.
 fn totals(columns: &[Column], sums: Vec<Surd>, numbers: NumberFormat) -> Line {
     let mut sums = sums.into_iter();
     let mut line = Line::default();
@@ -150,12 +150,12 @@ fn totals(columns: &[Column], sums: Vec<Surd>, numbers: NumberFormat) -> Line {
         let word = if n == 0 { "total" } else { "" };
         let sum = if column.summed { sums.next() } else { None };
         let cell = match sum {
-            // A sum beyond the floats is shown exactly: its rows are out already, and right.
+            // The rows are already written, so a sum that exceeds the floats is shown exactly.
             Some(sum) if !fits(&sum, numbers) => Cell::Word(sum.to_string().into()),
             Some(sum) => sum.into(),
             None => word.into(),
         };
-        // Whether it fits has been found out.
+        // The condition above ensures that the sum fits.
         let _ = cell.show(numbers, column.name, places, &mut line);
     }
     line

@@ -1,5 +1,5 @@
-//! What is being written aside: a program that is interrupted can remove it, and one that was killed has it removed by
-//! the next that writes into the same folder.
+//! The temporary files of this process. An interrupted process can remove its files. Files of a killed process are
+//! removed by the next process that writes into the same folder.
 
 use std::fs;
 use std::io;
@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// What the names of files begin with that are not complete yet, and locked by who writes them; six letters or digits follow.
+/// The prefix of locked temporary files, followed by six letters or digits.
 pub(super) const PREFIX: &str = ".cannonpile-";
 
-/// What they begin with until they are locked.
+/// The prefix of temporary files that are not locked yet.
 pub(super) const FRESH: &str = ".cannonpile-new-";
 
-/// Who has made a file has locked it within this time, if it lives.
+/// The time after which a file without a lock is considered abandoned.
 const NEW: Duration = Duration::from_secs(60);
 
-/// Files and folders of this process that are not complete.
+/// The incomplete files and folders of this process.
 struct Unfinished {
     paths: Vec<PathBuf>,
-    /// Nothing more is begun.
+    /// Whether new files are rejected.
     closed: bool,
 }
 
@@ -32,8 +32,8 @@ fn unfinished() -> MutexGuard<'static, Unfinished> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes all files that this process is writing aside, and the folders made for them, and lets none be begun or
-/// completed any more: for a thread that has received SIGINT or SIGTERM, and exits next.
+/// Removes all temporary files of this process, and the folders created for them. Afterwards no file can be begun or
+/// completed. This function is for a thread that handles SIGINT or SIGTERM and then exits.
 ///
 /// # Examples
 /// ```standalone_crate
@@ -52,18 +52,18 @@ fn unfinished() -> MutexGuard<'static, Unfinished> {
 pub fn remove_unfinished() {
     let mut unfinished = unfinished();
     unfinished.closed = true;
-    // Files stand after the folders that were made for them.
+    // Files come after the folders created for them.
     for path in unfinished.paths.drain(..).rev() {
         remove(&path);
     }
 }
 
 fn remove(path: &Path) {
-    // What cannot be removed stays, as a folder with something in it: there is nobody to report it to.
+    // Errors, such as that of a folder that is not empty, are ignored: no caller could handle them.
     let _ = fs::remove_file(path).or_else(|_| fs::remove_dir(path));
 }
 
-/// A path that is unfinished until this is dropped.
+/// A path that is unfinished until this value is dropped.
 #[derive(Debug)]
 pub(crate) struct Pending(PathBuf);
 
@@ -79,14 +79,14 @@ impl Pending {
         Ok(Self(path.to_owned()))
     }
 
-    /// Removes what is there.
+    /// Removes the file or folder.
     pub(crate) fn remove(&self) {
         remove(&self.0);
     }
 
-    /// Does what completes the path, unless it has been removed.
+    /// Completes the path by `complete`, unless it has been removed.
     pub(super) fn complete<T>(self, complete: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
-        // Held meanwhile: either it is there in the end, or removed.
+        // The lock is held meanwhile, so that the path is either completed or removed.
         let mut unfinished = unfinished();
         if unfinished.closed {
             return Err(io::ErrorKind::Interrupted.into());
@@ -104,7 +104,7 @@ impl Drop for Pending {
     }
 }
 
-/// Marks a file as that of a living process: a lock, which ends with it however it ends.
+/// Locks a file of this process. The lock ends with the process in every case.
 pub(super) fn lock(file: &fs::File) -> bool {
     #[cfg(unix)]
     {
@@ -118,8 +118,8 @@ pub(super) fn lock(file: &fs::File) -> bool {
     }
 }
 
-/// Removes what a process that was killed has left in a folder: files with our names that no process holds a lock on, those
-/// that were never locked if they are a minute old. Where there are no locks, none is removed.
+/// Removes the files of killed processes from a folder: files with our prefixes and without a lock. Files that were
+/// never locked are removed after a minute. On platforms without locks no file is removed.
 pub(crate) fn remove_leftovers(folder: &Path) {
     let folder = if folder == Path::new("") {
         Path::new(".")
@@ -135,7 +135,7 @@ pub(crate) fn remove_leftovers(folder: &Path) {
             .into_iter()
             .find(|(prefix, _)| name.to_str().is_some_and(|name| is_ours(name, prefix)));
         if let Some((_, age)) = age {
-            // What cannot be removed stays.
+            // Files that cannot be removed remain.
             let _ = remove_leftover(&entry, age);
         }
     }
@@ -149,7 +149,7 @@ fn is_ours(name: &str, prefix: &str) -> bool {
 }
 
 fn remove_leftover(entry: &fs::DirEntry, least: Duration) -> io::Result<()> {
-    // Of the entry itself: a link is not followed.
+    // The metadata of the entry itself; links are not followed.
     let metadata = entry.metadata()?;
     let age = metadata.modified()?.elapsed().unwrap_or(Duration::ZERO);
     if metadata.is_file() && age >= least && lock(&fs::File::open(entry.path())?) {
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_killed_process_left_is_removed_and_nothing_else() {
+    fn removes_only_files_of_killed_processes() {
         let folder = tempfile::tempdir().unwrap();
         let hour = Duration::from_secs(3600);
         let make = |name: &str, age| {
@@ -195,7 +195,7 @@ mod tests {
                 "left01"
             ]
         );
-        // Its process has ended.
+        // Dropping the file releases its lock, like the end of the process.
         drop(locked);
         remove_leftovers(folder.path());
         assert_eq!(folder.path().read_dir().unwrap().count(), 4);

@@ -1,4 +1,4 @@
-//! What numbers are in: multiples of mg, or newtons and metres.
+//! The units of a table: multiples of mg and f₀, or newtons and metres.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -13,7 +13,7 @@ use cannonpile::{FloorForce, Forces, Method, NearestLayers, Packing, Pile, Place
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Units<'p> {
-    /// Multiples of f₀, mg and mg·tanθ: rational, whatever the spacing.
+    /// Multiples of f₀, mg and mg·tanθ, which are rational for every spacing.
     Pile(Box<Forces<'p, BigRational>>),
     /// Newtons and metres, for radius, mass and gravity in SI units.
     Si(Box<Packing<'p>>),
@@ -61,14 +61,14 @@ impl<'p> Units<'p> {
         Self::Si(Box::new(packing))
     }
 
-    /// The pile.
+    /// Returns the pile.
     #[doc(hidden)]
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.forces().pile()
     }
 
-    /// Returns the forces in pile units, from which those in SI are made.
+    /// Returns the forces in pile units, the source of those in SI units.
     pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
         match self {
             Self::Pile(forces) => forces,
@@ -76,7 +76,7 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// Returns the layers of a part, in nearest floats.
+    /// Returns the layers of a selection, with correctly rounded floats.
     pub(super) fn layers<F: CorrectlyRounded>(
         &self,
         part: Selection,
@@ -87,7 +87,7 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// Returns where spheres are and touch; nothing in pile units.
+    /// Returns the positions of centres and contacts; `None` in pile units.
     pub(super) fn places<F: CorrectlyRounded>(&self) -> Option<Places<'p, F>> {
         match self {
             Self::Pile(_) => None,
@@ -95,7 +95,7 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// Returns the magnitude of a force of contact, from its multiple of f₀.
+    /// Returns the magnitude of a contact force, from its multiple of f₀.
     pub(super) fn contact(&self, multiple: BigRational) -> Surd {
         match self {
             Self::Pile(_) => multiple.into(),
@@ -103,7 +103,7 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// Returns the force of a bottom sphere on the floor, from multiples.
+    /// Returns the force of a bottom sphere on the floor, from its multiples.
     pub(super) fn on_floor(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
         match self {
             Self::Pile(_) => force.map(Surd::from),
@@ -111,8 +111,9 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// A number that no force of a part exceeds. In mg or f₀: over a layer the squares of the forces add up to no more
-    /// than that of √3 times the sum of all weights down to it, and 2√2 times that of all horizontal forces.
+    /// Returns an upper bound of the forces of a selection. In mg or f₀, the root of the sum of the squared forces of a
+    /// layer is bounded. The bound is √3 times the sum of all weights down to the layer, plus 2√2 times the sum of all
+    /// horizontal forces.
     pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
         let horizontal = self.pile().horizontal_forces();
         let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();
@@ -120,11 +121,11 @@ impl<'p> Units<'p> {
         let bound = sources * BigRational::from_i128(3);
         Ok(match self {
             Self::Pile(_) => bound.into(),
-            // f₀ is greater than mg only by 1/cosθ, and shear by tanθ.
+            // f₀ is mg times at most 1/cosθ, and shear has the factor tanθ.
             Self::Si(packing) => {
                 let unit = packing.sphere_weight() * bound;
                 let cos2 = packing.inclination().cos2();
-                // 1/cosθ and tanθ are both at most this; a rational bound is enough.
+                // 1/cosθ and tanθ are at most 1/cos²θ, which is rational.
                 (unit / cos2).into()
             }
         })
@@ -169,7 +170,7 @@ impl<'p> Units<'p> {
 }
 
 impl Units<'_> {
-    /// Returns these units, for answers that are found by one method.
+    /// Returns these units with a fixed method for all answers.
     ///
     /// # Errors
     /// As for [`Forces::with_method`](cannonpile::Forces::with_method).
@@ -191,14 +192,14 @@ impl Units<'_> {
     }
 
     #[doc(hidden)]
-    /// The method that finds all answers, if one was chosen.
+    /// Returns the method of all answers, if one was chosen.
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.forces().method()
     }
 }
 
-/// Returns what the spheres of the layers of a part and of those above weigh, with their loads, in mg; not less.
+/// Returns an upper bound of the weights and loads of the layers of a selection and above, in mg.
 fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
     let Selection::Layer(k) = part else {
         return Ok(pile.weight());
@@ -233,7 +234,7 @@ mod tests {
         BigRational::new(n.into(), d.into())
     }
 
-    /// Straight ones, changes of sign, discs, and spheres that are heavy or carry much.
+    /// Straight piles, piles with sign changes, discs, and piles with heavy or loaded spheres.
     fn piles() -> [Pile; 6] {
         let swept = || Pile::under(Region::SITE, "+-+-".parse().unwrap()).unwrap();
         let site = Site { i: 0, j: 0, k: 2 };
@@ -248,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn no_force_of_a_part_exceeds_its_bound() {
+    fn bounds_exceed_all_forces_of_a_selection() {
         for pile in piles() {
             let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
             let [in_pile, in_si] = [Units::of_pile(&pile), Units::of_packing(packing.clone())];

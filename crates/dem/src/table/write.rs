@@ -8,27 +8,28 @@ use super::line::Line;
 use super::rows::{Layout, RowIter, Table, show};
 use super::{json, text};
 
-/// How a table is written.
+/// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FileFormat {
-    /// Aligned text with units and totals, for people.
+    /// Aligned text with units and totals, for readers.
     Text,
     /// Comma-separated values with one line of headers.
     Csv,
-    /// An array of objects, one a row.
+    /// An array of objects, one per row.
     Json,
 }
 
-/// How many rows are looked at before the heads are written: the contacts of one sphere.
+/// The number of rows that are checked before the header is written: the contacts of one sphere.
 const FIRST: usize = 3;
 
 impl Table<'_> {
     /// Writes the table. Memory does not grow with the number of rows.
     ///
     /// # Errors
-    /// [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number might not fit the format: found before anything is
-    /// written, from a bound that no number of the table exceeds. [`WriteError::Io`] if the output refuses.
+    /// [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number might not fit the
+    /// format. This error precedes all output, because a bound of all numbers is checked first. [`WriteError::Io`] if
+    /// writing to the output fails.
     ///
     /// # Examples
     /// ```
@@ -55,7 +56,7 @@ impl Table<'_> {
         show(&self.columns, &self.bounds, numbers, &mut line)?;
         let is_counted = self.row_count().is_some();
         let mut rows = (self.rows)(numbers)?;
-        // What the first rows cannot be is refused before anything is written; one sphere has no more.
+        // Errors of the first rows precede all output. One sphere has no further rows.
         let mut first = Vec::new();
         for row in rows.by_ref().take(FIRST) {
             let row = row?;
@@ -68,7 +69,7 @@ impl Table<'_> {
             (FileFormat::Json, _) => json::write(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Record) => text::write_record(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Rows(noun)) => {
-                // Where the number of rows is not known, each of them may take long.
+                // If the number of rows is unknown, each row may take long.
                 let page = if is_counted {
                     text::PAGE
                 } else {

@@ -10,12 +10,13 @@ use cannonpile::lattice::{Dimension, Site};
 use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Pile};
 
-/// The force of each bottom sphere on the floor: `i, j, normal, shear_x, shear_y`; for discs
-/// `i, normal, shear_x`.
+/// Returns the table of the forces of bottom spheres on the floor: `i, j, normal, shear_x, shear_y`; for discs `i,
+/// normal, shear_x`.
 ///
 /// # Errors
-/// [`Error::SiteOutside`](cannonpile::Error::SiteOutside), [`Error::LayerOutside`](cannonpile::Error::LayerOutside), [`Error::NotOnFloor`](cannonpile::Error::NotOnFloor) for a selection that is not
-/// of the base; [`Error::TooManyRows`](cannonpile::Error::TooManyRows).
+/// [`Error::SiteOutside`](cannonpile::Error::SiteOutside), [`Error::LayerOutside`](cannonpile::Error::LayerOutside) and
+/// [`Error::NotOnFloor`](cannonpile::Error::NotOnFloor) for a selection outside the base;
+/// [`Error::TooManyRows`](cannonpile::Error::TooManyRows).
 ///
 /// # Examples
 /// ```
@@ -77,7 +78,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     })
 }
 
-/// The cells of a bottom sphere.
+/// Returns the cells of a bottom sphere.
 fn floor_cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
     let mut cells = Vec::with_capacity(5);
     cells.extend(places(pile, force.site));

@@ -14,11 +14,11 @@ use cannonpile::lattice::{ContactKind, HorizontalContact, Site};
 use cannonpile::shape::{Rows, Selection};
 use cannonpile::{Contacts, PackedContact, Pile};
 
-/// The contacts between spheres: `k, i, j, direction, force`, and in SI the force on the upper sphere
-/// `fx, fy, fz` and the point of contact `x, y, z`; for discs without `j`.
+/// Returns the table of the contacts between spheres: `k, i, j, direction, force`. In SI units the force on the upper
+/// sphere `fx, fy, fz` and the contact point `x, y, z` follow. Discs have no `j`.
 ///
-/// Horizontal contacts that were [given a force](Pile::with_horizontal_force) stand after the sloping ones of the sphere that
-/// they are named by, with their axis for direction; what is said of the upper sphere is then said of that one.
+/// Horizontal contacts with a [given force](Pile::with_horizontal_force) follow the sloping contacts of the sphere that
+/// names them. Their direction is their axis. The columns of the upper sphere then refer to the naming sphere.
 ///
 /// # Errors
 /// [`Error::SiteOutside`](cannonpile::Error::SiteOutside), [`Error::LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyRows`](cannonpile::Error::TooManyRows).
@@ -44,7 +44,7 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
     table(units, selection, Horizontal::Pushing)
 }
 
-/// The [`contacts`], and all horizontal ones off the floor, also those without a force.
+/// Returns the table of [`contacts`] with all horizontal contacts off the floor, including those without a force.
 ///
 /// # Errors
 /// As for [`contacts`].
@@ -67,7 +67,7 @@ pub fn touching_contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<
     table(units, selection, Horizontal::Touching)
 }
 
-/// Which horizontal contacts are listed.
+/// The horizontal contacts in a table.
 #[derive(Clone, Copy, PartialEq)]
 enum Horizontal {
     Pushing,
@@ -122,7 +122,7 @@ fn table<'p>(
     })
 }
 
-/// Where a contact is, and the first cells of its row.
+/// Returns the first cells of a contact's row: site and direction.
 fn contact_cells(pile: &Pile, site: Site, direction: ContactKind) -> Vec<Cell> {
     let mut cells = Vec::with_capacity(11);
     cells.push(site.k.into());
@@ -132,14 +132,14 @@ fn contact_cells(pile: &Pile, site: Site, direction: ContactKind) -> Vec<Cell> {
 }
 
 impl Horizontal {
-    /// The horizontal contacts of a sphere that are listed, with their forces.
+    /// Returns the listed horizontal contacts of a sphere, with their forces.
     fn of(self, pile: &Pile, site: Site) -> impl Iterator<Item = (HorizontalContact, BigRational)> {
         let contacts = pile.shape().horizontal_contacts(site);
         let forces = contacts.map(|contact| (contact, pile.horizontal_force(contact)));
         forces.filter(move |(_, force)| self == Self::Touching || !force.is_zero())
     }
 
-    /// How many of them the spheres of some rows have.
+    /// Returns the number of listed horizontal contacts of the spheres of some rows.
     fn count(self, pile: &Pile, rows: &Rows<'_>) -> BigUint {
         match (self, rows.one()) {
             (Self::Pushing, _) => pushing(pile, rows).count().into(),
@@ -151,7 +151,7 @@ impl Horizontal {
         }
     }
 
-    /// The rows of sloping contacts, with those of the horizontal ones after each sphere.
+    /// Returns the rows of sloping contacts, with the rows of horizontal contacts after each sphere.
     fn after<'p>(
         self,
         sloping: RowIter<'p>,
@@ -171,7 +171,7 @@ impl Horizontal {
     }
 }
 
-/// The horizontal contacts with a force that are named by spheres of some rows.
+/// Returns the horizontal contacts with a force whose naming spheres are in some rows.
 fn pushing<'p>(
     pile: &'p Pile,
     rows: &Rows<'_>,
@@ -184,7 +184,7 @@ fn pushing<'p>(
         })
 }
 
-/// The row of a horizontal contact, in exact numbers whatever they are shown as: there are few.
+/// Returns the exact row of a horizontal contact. Such contacts are few, so they are never rounded early.
 fn row(
     units: &Units<'_>,
     contact: HorizontalContact,
@@ -202,7 +202,7 @@ fn row(
     Ok(cells)
 }
 
-/// The cells of a contact in SI.
+/// Returns the cells of a contact in SI units.
 fn packed_cells(contact: PackedContact) -> impl Iterator<Item = Cell> {
     let PackedContact {
         force,

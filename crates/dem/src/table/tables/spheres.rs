@@ -1,4 +1,4 @@
-//! The spheres.
+//! The table of spheres.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -13,9 +13,9 @@ use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
 
-/// The spheres, in SI: `id, k, i, j, x, y, z, radius, mass, fixed`; for discs without `j`.
+/// Returns the table of spheres, in SI units: `id, k, i, j, x, y, z, radius, mass, fixed`; for discs without `j`.
 ///
-/// Numbered from 1 in row order from the top; the bottom layer is fixed.
+/// Numbers start from 1, row by row from the top. The bottom layer is fixed.
 ///
 /// # Errors
 /// [`Error::SiteOutside`](cannonpile::Error::SiteOutside), [`Error::LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyRows`](cannonpile::Error::TooManyRows).
@@ -56,7 +56,7 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
         _ => Cell::Missing,
     };
     let bounds = columns.iter().map(bound).collect();
-    // Rows follow each other, and so do numbers.
+    // Rows are consecutive, and so are sphere numbers.
     let first = match rows.clone().flatten().next() {
         Some(site) => BigInt::from(pile.shape().before(site)?) + 1,
         None => BigInt::one(),
@@ -92,7 +92,7 @@ fn rounded_spheres<'p, F: Float>(
         let mut places = columns::<F>(row)?;
         centres.fill_row(row, slices(&mut places))?;
         let [x, y, z] = places;
-        // Sites first: no number is drawn for one past the end.
+        // Sites come first in the zip, so that the end of a row consumes no number.
         let spheres = row.clone().into_iter().zip(ids.by_ref());
         let rows = spheres.zip(x.into_iter().zip(y).zip(z));
         let rows = rows.map(|((site, id), ((x, y), z))| {
@@ -103,7 +103,7 @@ fn rounded_spheres<'p, F: Float>(
     Ok(Box::new(rows))
 }
 
-/// The cells of a sphere.
+/// Returns the cells of a sphere.
 fn sphere_cells(packing: &Packing<'_>, (id, site): (BigInt, Site), centre: [Cell; 3]) -> Row {
     let pile = packing.pile();
     let mut cells = vec![Cell::Integer(id), site.k.into()];
@@ -115,14 +115,14 @@ fn sphere_cells(packing: &Packing<'_>, (id, site): (BigInt, Site), centre: [Cell
     Ok(cells)
 }
 
-/// The mass of the heaviest sphere, or more.
+/// Returns an upper bound of the masses of all spheres.
 fn greatest_mass(packing: &Packing<'_>) -> BigRational {
     let special = packing.pile().weights().map(|(_, weight)| weight);
     let greatest = special.fold(BigRational::one(), |most, weight| most.max(weight.clone()));
     greatest * packing.mass()
 }
 
-/// The weight of the spheres of a part without their loads, in mg.
+/// Returns the weight of the spheres of a selection without their loads, in mg.
 fn weight_of(pile: &Pile, selection: Selection) -> Result<BigRational, Error> {
     let ordinary = if pile.is_weightless() {
         BigRational::zero()
