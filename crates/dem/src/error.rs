@@ -24,13 +24,13 @@ use crate::Key;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The core refused a pile, a site, a geometry or a number.
+    /// The core rejected a pile, a site, a geometry or a number.
     Core(cannonpile::Error),
-    /// The forces of horizontal contacts were not found.
+    /// The forces of horizontal contacts are unknown.
     ///
     /// An error of the core that passed through that crate is [`Core`](Self::Core).
     Horizontal(cannonpile_horizontal::Error),
-    /// sin φ was given for a pile of discs, which has none.
+    /// sin φ was given for a pile of discs.
     SinPhiOfDiscs,
     /// Two options of a scene exclude each other.
     #[non_exhaustive]
@@ -48,14 +48,14 @@ pub enum Error {
         /// The message of the TOML parser.
         reason: String,
     },
-    /// A scene file has a key that is no option of a scene.
+    /// A scene file has an unknown key.
     #[non_exhaustive]
     UnknownKey {
         /// The line of the key, counted from 1.
         line: usize,
         /// The key, shortened if it is long.
         key: String,
-        /// The most similar known key, if one is similar.
+        /// The most similar known key, if any.
         nearest: Option<&'static str>,
         /// All known keys.
         known: &'static [&'static str],
@@ -65,7 +65,7 @@ pub enum Error {
     UnknownCase {
         /// The name, shortened if it is long.
         name: String,
-        /// The most similar name of a case, if one is similar.
+        /// The most similar name of a case, if any.
         nearest: Option<&'static str>,
     },
     /// A value in a scene file was refused.
@@ -84,15 +84,15 @@ pub enum Error {
         /// The quantity.
         quantity: Quantity,
     },
-    /// A test of a state at rest was requested for a pile with a contact that would have to pull.
+    /// A suite test of a state at rest was requested for a pile with a contact that needs a tensile force.
     #[non_exhaustive]
     MustPull {
-        /// What is available instead.
+        /// The remedy.
         remedy: &'static str,
     },
 }
 
-/// An error with its numbers at full length.
+/// An error that displays its numbers in full.
 struct Whole<'a>(&'a Error);
 
 impl fmt::Display for Whole<'_> {
@@ -104,7 +104,7 @@ impl fmt::Display for Whole<'_> {
                 f.write_str("a pile of discs has no sin phi: leave it out, or use dimension 3")
             }
             Error::Excluded { given, beside } => {
-                // Of dimensions only this one excludes anything.
+                // Only the dimension 2 excludes other options.
                 let two = if *beside == Key::Dimension { " 2" } else { "" };
                 write!(
                     f,
@@ -138,7 +138,7 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::MustPull { remedy } => write!(
                 f,
-                "a test is of a state at rest, and some contacts of this pile would have to pull: {remedy}"
+                "this test needs a pile that comes to rest, but some contacts need a tensile force: {remedy}"
             ),
         }
     }
@@ -177,14 +177,14 @@ impl From<cannonpile_horizontal::Error> for Error {
     }
 }
 
-/// The error for a case that an invariant rules out.
+/// Returns the error for a violated invariant.
 #[cold]
 #[track_caller]
 pub(crate) fn bug(invariant: &'static str) -> Error {
     cannonpile::engine::bug(invariant).into()
 }
 
-/// Returns the text on one line, with its length in place of its middle if it is long.
+/// Returns the text on one line. The middle of a long text is replaced by its length.
 pub(crate) fn quoted(text: &str) -> String {
     cannonpile::engine::quoted(text)
 }
@@ -203,7 +203,7 @@ impl Error {
         cannonpile::Error::on_floor(site).into()
     }
 
-    /// More numbers than can be addressed.
+    /// Returns the error for a count that exceeds the address space.
     pub(crate) fn beyond_addresses(quantity: &'static str, needed: BigUint) -> Self {
         cannonpile::Error::too_large(
             quantity,

@@ -1,4 +1,4 @@
-//! Every error can happen, and says in one line what was given and what would do.
+//! Every error occurs, and states the given value and a remedy in one line.
 
 use cannonpile::lattice::Dimension;
 use cannonpile::stacking::Pattern;
@@ -80,15 +80,15 @@ fn tests_of_suites() {
     };
     let error = refused(&falls, PileFile::LammpsTest);
     assert!(matches!(error, Error::MustPull { .. }));
-    says(&error, &["would have to pull", "--to yade-check"]);
-    // Without weight it is no pile that falls, and no state of rest either.
+    says(&error, &["need a tensile force", "--to yade-check"]);
+    // Without weights the pile is not unstable, but the tests need a state at rest.
     let response = Scene {
         loads: vec![parse::load("0,0,0=1", Dimension::Three).expect("a load")],
         weightless: true,
         ..falls
     };
     let error = refused(&response, PileFile::YadeCheck);
-    says(&error, &["would have to pull", "--to yade"]);
+    says(&error, &["need a tensile force", "--to yade"]);
     let large = Scene {
         layers: Some(22),
         ..Scene::default()
@@ -104,7 +104,7 @@ fn tests_of_suites() {
 }
 
 #[test]
-fn what_excludes_each_other() {
+fn options_that_exclude_each_other() {
     let message = |scene: Scene| {
         let error = scene.pile().unwrap_err();
         assert!(matches!(error, Error::Excluded { .. }), "{error:?}");
@@ -135,7 +135,7 @@ fn what_excludes_each_other() {
 }
 
 #[test]
-fn what_does_not_go_together_names_both() {
+fn contradicting_lengths_are_both_named() {
     let scene = Scene {
         layers: Some(4),
         stacking: Some("++-+-".parse().unwrap()),

@@ -132,7 +132,7 @@ fn case_excludes_scene_options() {
         ),
         (
             "export pile --case C8 --to lammps-test",
-            ["would have to pull", "yade-check"],
+            ["need a tensile force", "yade-check"],
         ),
         (
             "export pile --layers 3 --state elastic --stiffness-ratio 2 --to yade-check",
