@@ -1,7 +1,7 @@
-//! The claims about scenes and tables on random input: deterministic, from the generators that fuzzing shares.
+//! Properties of scenes and tables on random input. The generators are deterministic, and fuzzing shares them.
 //!
-//! Each claim is a function of bytes; its planted faults stand beside it in `cannonpile_testkit`. A failure prints the
-//! shortest bytes that proptest could find, and the claim's own witness.
+//! Each property is a function of bytes. `cannonpile_testkit` defines it together with its planted faults. A failure
+//! prints the shortest bytes that proptest found, and the witness of the property.
 
 use cannonpile::lattice::Dimension;
 use cannonpile_dem::Error;
@@ -39,7 +39,7 @@ fn texts_are_accepted_and_refused() {
         let site = parse::at(&text, Dimension::Three).is_ok();
         Ok(format!("number={number} site={site}"))
     });
-    // A site has commas, a number none.
+    // Sites contain commas, numbers do not.
     assert_eq!(kinds.len(), 3, "{kinds:?}");
     assert!(kinds.values().all(|count| *count >= 10), "{kinds:?}");
 }

@@ -1,4 +1,4 @@
-//! Piles as files: against the tables, against mechanics, and what is left behind when a file cannot be written.
+//! Exported files: compared with the tables and with mechanics, and the folder after a failure.
 
 mod arrays;
 mod cards;

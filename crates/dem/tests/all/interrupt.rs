@@ -1,4 +1,4 @@
-//! What takes long ends when it is asked to, in all its rooms, and nothing else does.
+//! Long computations end after a request, in every crate, and without a request they complete.
 
 use std::thread;
 use std::time::Duration;
@@ -31,7 +31,7 @@ fn hcp(layers: i128) -> Pile {
     Pile::under(Region::SITE, stacking).expect("a pile")
 }
 
-/// The error of the core that random stackings pass through.
+/// Extracts the error of the core from an error of random stackings.
 fn of_core(error: cannonpile_disorder::Error) -> Error {
     match error {
         cannonpile_disorder::Error::Core(error) => error.into(),
@@ -39,7 +39,7 @@ fn of_core(error: cannonpile_disorder::Error) -> Error {
     }
 }
 
-/// All that takes long, of a small pile.
+/// Runs each long computation on a small pile.
 fn work(pile: &Pile, name: &str) -> Result<(), Error> {
     let part = Selection::All;
     let packing = Packing::new(pile, &Spacing::new(one())?)?;
@@ -121,7 +121,7 @@ const NAMES: [&str; 18] = [
 ];
 
 #[test]
-fn all_that_takes_long_ends_after_a_request_and_nothing_without() {
+fn long_computations_end_only_after_a_request() {
     let pile = hcp(6);
     for name in NAMES {
         assert_eq!(work(&pile, name), Ok(()), "{name}");
@@ -130,13 +130,13 @@ fn all_that_takes_long_ends_after_a_request_and_nothing_without() {
         interrupt.request();
         let ended = interrupt.during(|| work(&pile, name));
         assert_eq!(ended, Err(INTERRUPTED), "{name}");
-        // The thread is as it was.
+        // The thread has no request any more.
         assert_eq!(work(&pile, name), Ok(()), "{name}");
     }
 }
 
 #[test]
-fn straight_piles_end_too() {
+fn computations_on_straight_piles_end() {
     let pile = Pile::triangular(6).expect("a pile");
     for name in ["floats", "forces", "vectors", "multiples"] {
         let interrupt = Interrupt::new();
@@ -147,8 +147,8 @@ fn straight_piles_end_too() {
 }
 
 #[test]
-fn long_work_in_several_threads_ends() {
-    // Each of these takes seconds in release, and longer here: a hundred times what is waited for.
+fn long_computations_in_several_threads_end() {
+    // Each of these takes seconds in release and longer in debug, a hundred times the accepted delay.
     let wide = Region::hexagon(40, 40).expect("a region");
     let tall = Pile::under(wide, Stacking::hcp(1000).expect("a stacking")).expect("a pile");
     let straight = Pile::triangular(16).expect("a pile");
@@ -175,10 +175,10 @@ fn long_work_in_several_threads_ends() {
 }
 
 #[test]
-fn one_thread_is_not_ended_for_another() {
+fn a_request_ends_only_its_own_thread() {
     let (one, other) = (Interrupt::new(), Interrupt::new());
     one.request();
-    // The inner one alone ends what is done during it.
+    // Only the inner request ends the computation within it.
     let answer = one.during(|| other.during(|| work(&hcp(6), "forces")));
     assert_eq!(answer, Ok(()));
     let answer = thread::scope(|scope| {
@@ -190,7 +190,7 @@ fn one_thread_is_not_ended_for_another() {
 }
 
 #[test]
-fn without_a_request_an_error_is_what_it_was() {
+fn without_a_request_errors_are_unchanged() {
     let interrupt = Interrupt::new();
     assert!(!interrupt.is_requested());
     let refused = interrupt.during(|| Pile::triangular(0)).err();
@@ -202,9 +202,9 @@ fn without_a_request_an_error_is_what_it_was() {
     assert_eq!(Interrupt::check(), Ok(()));
 }
 
-/// So many spheres that threads take parts of them: each knows what it is ended by.
+/// With so many spheres several threads share the work, and each detects the request.
 #[test]
-fn a_fill_that_threads_share_ends() {
+fn a_fill_shared_by_threads_ends() {
     let pile = Pile::triangular(80).unwrap();
     let layers = pile.forces::<f64>().layers(Selection::All).unwrap();
     let n = layers.slice_len().unwrap();

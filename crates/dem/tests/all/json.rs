@@ -1,4 +1,4 @@
-//! Scenes through serde: written and read back the same; what is wrong is refused on the way in.
+//! Scenes through serde: a written scene reads back the same, and invalid values are refused.
 
 use cannonpile::lattice::{MAX_LAYERS, Region};
 use cannonpile::stacking::Pattern;

@@ -1,4 +1,4 @@
-//! The fixed and the exhaustive tests of scenes, tables, exports and the comparison with measured forces.
+//! Fixed and exhaustive tests of scenes, tables, exports and the comparison with measured forces.
 //!
 //! Random tests are in `tests/properties.rs`. The oracles are those of `cannonpile_testkit`.
 

@@ -1,4 +1,4 @@
-//! Numbers in slices: those of the files and tables, bit by bit, in the same order.
+//! The numbers in slices equal those of the files and tables bit by bit, in the same order.
 
 use cannonpile::lattice::{ContactKind, HorizontalContact};
 use cannonpile::shape::Selection;
@@ -9,7 +9,7 @@ use cannonpile_testkit::scenes::{columns, for_each_pile, packing, text};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-/// Rows of columns of a csv.
+/// Returns the rows of some columns of a csv file.
 fn rows<const N: usize>(csv: &str, names: [&str; N]) -> Vec<[f64; N]> {
     let columns = columns(csv);
     let length = columns[names[0]].len();
@@ -18,7 +18,7 @@ fn rows<const N: usize>(csv: &str, names: [&str; N]) -> Vec<[f64; N]> {
 }
 
 #[test]
-fn arrays_are_the_files_in_their_order() {
+fn arrays_equal_the_files_in_their_order() {
     for_each_pile(|scene, export| {
         let arrays = PileArrays::of_packing(export.packing()).expect("arrays");
         let contacts = text(export, PileFile::ContactsCsv);
@@ -47,7 +47,7 @@ fn arrays_are_the_files_in_their_order() {
 }
 
 #[test]
-fn points_are_those_of_the_table_and_lie_between_the_centres() {
+fn points_equal_the_table_and_are_between_the_centres() {
     for_each_pile(|scene, export| {
         let arrays = PileArrays::of_packing(export.packing()).expect("arrays");
         let mut points = vec![[0.0; 3]; arrays.contacts()];
@@ -90,7 +90,7 @@ fn nearest(number: &BigRational) -> f64 {
     number.nearest().expect("a float")
 }
 
-/// The exact force of each contact, asked for one by one.
+/// Returns the exact force of each contact, evaluated one by one.
 fn one_by_one(pile: &Pile) -> Vec<BigRational> {
     let forces = pile.forces::<BigRational>();
     let sloping = forces.contacts(Selection::All).expect("contacts");
@@ -102,7 +102,7 @@ fn one_by_one(pile: &Pile) -> Vec<BigRational> {
 }
 
 #[test]
-fn multiples_and_sites_are_what_is_asked_for_one_by_one() {
+fn multiples_and_sites_equal_single_evaluations() {
     for_each_pile(|scene, export| {
         let pile = export.packing().pile();
         let arrays = PileArrays::of_pile(pile).expect("arrays");
@@ -128,7 +128,7 @@ fn multiples_and_sites_are_what_is_asked_for_one_by_one() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused() {
+fn slices_that_do_not_fit_are_refused() {
     let pile = Pile::triangular(4).expect("a pile");
     let arrays = PileArrays::of_pile(&pile).expect("arrays");
     let length = |needed, given| Err(Error::Core(cannonpile::Error::length(needed, given)));
@@ -136,7 +136,7 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(arrays.fill_ids(&mut [[0_u8; 2]; 31]), length(30, 31));
     assert_eq!(arrays.fill_sites(&mut [[0_i8; 3]; 19]), length(20, 19));
     assert_eq!(arrays.fill_base(&mut [[0.0; 3]; 9]), length(10, 9));
-    // The pile has no size.
+    // A pile without sizes has no positions.
     for refused in [
         arrays.fill_centres(&mut [[0.0; 3]; 20]),
         arrays.fill_points(&mut [[0.0; 3]; 30]),
@@ -153,7 +153,7 @@ fn what_does_not_fit_is_refused() {
         );
     }
     assert!(arrays.fill_vectors(&mut [[0.0; 3]; 30]).is_err());
-    // 166 spheres stand above the floor of ten layers, and 220 in all: one byte is enough for each number.
+    // The pile has 220 spheres above the floor and 286 in all, so one byte is too small for the numbers.
     let pile = Pile::triangular(11).expect("a pile");
     let arrays = PileArrays::of_packing(&packing(&pile)).expect("arrays");
     let mut ids = vec![[0_u8; 2]; arrays.contacts()];

@@ -1,4 +1,4 @@
-//! Benchmark cards: every number is found again by somebody else, and what is written is what readers can read.
+//! Benchmark cards: oracles confirm every number, and parsers can read the files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -19,7 +19,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use serde_json::Value;
 
-/// The card of a case for machines, and for people.
+/// Returns the JSON card and the Markdown card of a case.
 fn cards(case: &Case) -> (Value, String) {
     let scene = case.scene().expect("a scene");
     let pile = scene
@@ -58,7 +58,7 @@ fn integer(value: &Value) -> i128 {
     value.to_string().parse().expect("an integer")
 }
 
-/// All numbers that stand there twice, exact and rounded.
+/// Collects all numbers given both exactly and as floats.
 fn pairs<'v>(value: &'v Value, found: &mut Vec<&'v Value>) {
     match value {
         Value::Object(entries) if entries.contains_key("exact") => found.push(value),
@@ -68,7 +68,7 @@ fn pairs<'v>(value: &'v Value, found: &mut Vec<&'v Value>) {
     }
 }
 
-/// Whether each float is the one nearest to its exact number.
+/// Checks that each float is the correctly rounded exact number, and returns the number of floats.
 fn judge_floats(card: &Value) -> Result<usize, String> {
     let mut found = Vec::new();
     pairs(card, &mut found);
@@ -83,21 +83,21 @@ fn judge_floats(card: &Value) -> Result<usize, String> {
 }
 
 #[test]
-fn floats_are_the_nearest() {
+fn floats_are_correctly_rounded() {
     for case in cases() {
         let (card, _) = cards(case);
-        let count = judge_floats(&card).expect("the nearest floats");
+        let count = judge_floats(&card).expect("correctly rounded floats");
         assert!(count > 15, "{}: {count}", case.name());
     }
-    // One unit in the last place is seen.
+    // The check detects an error of one unit in the last place.
     let mut planted = card("C1");
     let float = &mut planted["answers"]["greatest"]["force"]["float"];
     *float = float.as_f64().expect("a float").next_up().into();
     assert!(judge_floats(&planted).is_err());
 }
 
-/// The forces of a pile by somebody else: below each sphere by direction, in f₀, and on the floor, in mg, mg·tanθ and
-/// √3·mg·tanθ (of discs mg·tanθ).
+/// The forces of a pile from an independent computation: in f₀ below each sphere by direction, and on the floor in mg,
+/// mg·tanθ and √3·mg·tanθ (for discs mg·tanθ).
 struct Oracle {
     below: BTreeMap<(Place, &'static str), BigRational>,
     floor: BTreeMap<Place, [BigRational; 3]>,
@@ -130,7 +130,7 @@ impl Oracle {
         let below = answers.contacts.iter().map(|((site, direction), contact)| {
             ((place(*site), name(*direction)), contact.force.clone())
         });
-        // Downwards there is up here.
+        // The oracle's downward forces are positive here.
         let floor = answers.floor.iter().map(|(site, force)| {
             let (normal, x) = (force.z.abs(), force.x.clone());
             (place(*site), [normal, x, BigRational::zero()])
@@ -143,7 +143,7 @@ impl Oracle {
     }
 }
 
-/// What the cases are, written down once more.
+/// Returns the oracle of a case, which defines the pile a second time.
 fn oracle(name: &str) -> Option<Oracle> {
     let straight = |layers: usize| Twice::under(&Bounds::SITE, &"+".repeat(layers - 1));
     let hexagon = Bounds::hexagon(3, 3);
@@ -158,19 +158,21 @@ fn oracle(name: &str) -> Option<Oracle> {
         "C7" => Twice::under(&hexagon, "+-+"),
         "C8" => Twice::under(&Bounds::SITE, "+-+-+-"),
         "C9" => Twice::under(&Bounds::SITE, "+-++++"),
-        "C12" => Twice::on(&Bounds::hexagon(5, 4), "+++").expect("a base that carries it"),
+        "C12" => {
+            Twice::on(&Bounds::hexagon(5, 4), "+++").expect("a base large enough for the stacking")
+        }
         "C13" => return Some(Oracle::of_discs(8)),
         _ => return None,
     }))
 }
 
-/// The place that a record names.
+/// Returns the position in a record.
 fn named(record: &Value) -> Place {
     let j = record.get("j").map_or(0, integer);
     (integer(&record["k"]), j, integer(&record["i"]))
 }
 
-/// Whether the answers of a card are those of an oracle.
+/// Checks that the answers of a card equal those of an oracle.
 fn judge(card: &Value, oracle: &Oracle) -> Result<(), String> {
     let pile = &card["pile"];
     let flat = integer(&pile["dimension"]) == 2;
@@ -267,7 +269,7 @@ fn judge(card: &Value, oracle: &Oracle) -> Result<(), String> {
             return wrong(name);
         }
     }
-    // The greatest ratio, over all that bear something.
+    // The greatest ratio over all spheres with a normal force.
     let ratios = oracle.floor.values().filter(|force| !force[0].is_zero());
     let ratios = ratios.map(|[n, x, y]| (x * x + y * y * ratio(3, 1)) / (n * n) * &tan2);
     if ratios.max() != Some(square(&answers["max_shear_ratio"])) {
@@ -276,21 +278,21 @@ fn judge(card: &Value, oracle: &Oracle) -> Result<(), String> {
     Ok(())
 }
 
-/// A fault in a card.
+/// A change that plants a fault in a card.
 type Plant = fn(&mut Value);
 
 #[test]
-fn answers_are_those_of_an_oracle() {
+fn answers_equal_those_of_an_oracle() {
     let mut judged = 0;
     for case in cases() {
         let Some(oracle) = oracle(case.name()) else {
             continue;
         };
-        judge(&cards(case).0, &oracle).expect("the same answers");
+        judge(&cards(case).0, &oracle).expect("answers of the oracle");
         judged += 1;
     }
     assert_eq!(judged, 12);
-    // The oracle of another pile is not agreed with, and neither is a card with one planted fault.
+    // The check detects the oracle of another pile, and each planted fault.
     let right = oracle("C2").expect("an oracle");
     assert!(judge(&card("C3"), &right).is_err());
     let planted: [(&str, Plant); 6] = [
@@ -322,7 +324,7 @@ fn answers_are_those_of_an_oracle() {
 }
 
 #[test]
-fn elastic_states_are_those_of_the_pile() {
+fn elastic_cards_equal_the_elastic_state() {
     let scene = Case::named("C11").and_then(Case::scene).expect("a scene");
     let pile = scene
         .in_state(scene.pile().expect("a pile"))
@@ -357,14 +359,14 @@ fn elastic_states_are_those_of_the_pile() {
 }
 
 #[test]
-fn a_large_case_points_to_its_tables() {
+fn a_large_case_refers_to_its_tables() {
     let (card, page) = cards(Case::named("C14").expect("a case"));
     let answers = &card["answers"];
     for list in ["contacts", "base"] {
         let file = answers[format!("{list}_file")].as_str();
         assert!(answers[list].is_null() == (list == "contacts") && file.is_some());
     }
-    // A straight pile: L−1 f₀ at most, 1 at least, (L+2)/3 mg under each sphere of the base.
+    // A straight pile: the greatest force is L−1 f₀, the least is 1 f₀, and each bottom sphere bears (L+2)/3 mg.
     assert_eq!(answers["greatest"]["multiple"], "39");
     assert_eq!(answers["least"]["multiple"], "1");
     assert_eq!(surd(&answers["normal_min"]), surd(&answers["normal_max"]));
@@ -379,7 +381,7 @@ fn a_large_case_points_to_its_tables() {
     assert!(page.len() < 10_000, "{}", page.len());
 }
 
-/// The tables of a page: each with its rows, as cells.
+/// Returns the tables of a page, each as rows of cells.
 fn tables(page: &str) -> Result<Vec<Vec<Vec<String>>>, String> {
     let mut tables: Vec<Vec<Vec<String>>> = Vec::new();
     let (mut code, mut before) = (false, "");
@@ -428,10 +430,10 @@ fn tables(page: &str) -> Result<Vec<Vec<Vec<String>>>, String> {
         .ok_or_else(|| "code without an end".into())
 }
 
-/// The numbers of a record that stand in its row.
+/// Selects the numbers of a record that its row contains.
 type Values = fn(&Value) -> Vec<&Value>;
 
-/// The card for people says what the one for machines does.
+/// The Markdown card contains the numbers of the JSON card.
 #[test]
 fn pages_have_whole_tables_with_the_same_numbers() {
     for case in cases() {
@@ -501,7 +503,7 @@ fn pages_have_whole_tables_with_the_same_numbers() {
     }
 }
 
-/// A card cites what README and CITATION.cff cite.
+/// A card has the same references as README and CITATION.cff.
 #[test]
 fn there_is_one_way_to_cite() {
     let cases = cases();
@@ -524,12 +526,12 @@ fn there_is_one_way_to_cite() {
     }
 }
 
-/// Any pile has a card, with words of its own.
+/// Every pile has a card, with a generated title.
 #[test]
 fn every_kind_of_pile_has_a_card() {
     for_each_pile(|scene, export| {
         let card: Value = serde_json::from_str(&text(export, PileFile::CardJson)).expect("JSON");
-        judge_floats(&card).expect("the nearest floats");
+        judge_floats(&card).expect("correctly rounded floats");
         assert_eq!(card["schema"], "cannonpile-card");
         assert_eq!(card["schema_version"], 1);
         assert_eq!(card["cannonpile"], env!("CARGO_PKG_VERSION"));
@@ -554,7 +556,7 @@ fn every_kind_of_pile_has_a_card() {
 }
 
 #[test]
-fn what_must_fall_has_other_criteria() {
+fn unstable_piles_have_other_criteria() {
     let names = |card: &Value| -> Vec<String> {
         let criteria = card["criteria"].as_array().expect("criteria");
         let names = criteria
@@ -576,7 +578,7 @@ fn what_must_fall_has_other_criteria() {
     assert_eq!(names(&card("C2")), ["contacts", "forces", "floor", "order"]);
     assert!(names(&card("C5")).contains(&"no force where there is none".to_owned()));
     assert!(card("C5")["answers"]["stands"].is_null());
-    // Without a contact only the floor can be right or wrong.
+    // Without contacts only the forces on the floor can be checked.
     let pile = Pile::triangular(1).expect("a pile");
     let packing = Scene::default().packing(&pile).expect("room");
     let export = PileExport::new(&packing).expect("files");

@@ -1,5 +1,5 @@
-//! The errors of springs against springs: piles relaxed by Newton's method from their geometry alone, the closed forms of
-//! straight piles, and what LAMMPS measured.
+//! The compliance compared with springs: with piles relaxed by Newton's method from their geometry alone, with the
+//! closed forms of straight piles, and with measurements in LAMMPS.
 
 use std::collections::BTreeSet;
 
@@ -26,7 +26,7 @@ fn soft(packing: &Packing<'_>) -> (Compliance, Vec<SoftContact>) {
     (compliance, contacts)
 }
 
-/// Spheres with R = 1, the weights of all of them, and which ones are free; those below are fixed.
+/// Spheres with R = 1, their weights, and the number of free spheres; the others are fixed.
 struct Springs {
     centres: Vec<Point>,
     weights: Vec<f64>,
@@ -34,9 +34,9 @@ struct Springs {
     free: usize,
 }
 
-/// The sites of the layers from the top, with the signs of the steps.
+/// Returns the sites of the layers from the top, for the signs of the steps.
 fn layers(top: &[[i32; 2]], signs: &str, discs: bool) -> Vec<BTreeSet<[i32; 2]>> {
-    // Sorted as spheres are numbered: by j, then by i.
+    // Sorted by j, then by i, as spheres are numbered.
     let mut layers = vec![top.iter().map(|[i, j]| [*j, *i]).collect::<BTreeSet<_>>()];
     for sign in signs.chars() {
         let step = if sign == '+' { 1 } else { -1 };
@@ -53,7 +53,7 @@ fn layers(top: &[[i32; 2]], signs: &str, discs: bool) -> Vec<BTreeSet<[i32; 2]>>
 }
 
 impl Springs {
-    /// A pile whose neighbours of a layer are 2a apart.
+    /// Returns a pile whose neighbours in a layer are at the distance 2a.
     fn new(top: &[[i32; 2]], signs: &str, a: f64, discs: bool) -> Self {
         let layers = layers(top, signs, discs);
         let drop = if discs {
@@ -73,7 +73,7 @@ impl Springs {
                 let x = origin[0] + 2.0 * a * (i + j / 2.0);
                 centres.push([x, origin[1] + a * 3.0_f64.sqrt() * j, z]);
             }
-            // A sphere lies over the middle of those below it.
+            // A sphere lies above the centroid of its supports.
             let side = if sign == '+' { -1.0 } else { 1.0 };
             origin = [0, 1].map(|axis| origin[axis] + side * hollow[axis]);
             z -= drop.sqrt();
@@ -101,7 +101,7 @@ impl Springs {
         }
     }
 
-    /// The force of each contact on its upper sphere, in equilibrium at this stiffness.
+    /// Returns the force of each contact on its upper sphere, in equilibrium at this stiffness.
     fn relaxed(&self, stiffness: f64) -> Vec<Point> {
         let mut centres = self.centres.clone();
         let mut forces = Vec::new();
@@ -110,7 +110,7 @@ impl Springs {
             let mut matrix = vec![vec![0.0; unknowns + 1]; unknowns];
             for (sphere, weight) in self.weights.iter().enumerate().take(self.free) {
                 matrix[3 * sphere + 2][unknowns] = -weight;
-                // Discs have no force to their sides.
+                // Discs have no force normal to their plane.
                 matrix[3 * sphere + 1][3 * sphere + 1] = 1e-9;
             }
             forces.clear();
@@ -129,7 +129,7 @@ impl Springs {
                     for column in 0..3 {
                         let same = f64::from(u8::from(row == column));
                         let across = same - ray[row] * ray[column];
-                        // Minus the derivative of the force by the place of the upper sphere.
+                        // The negative derivative of the force by the position of the upper sphere.
                         let stiff = stiffness * ray[row] * ray[column] - push / distance * across;
                         matrix[3 * upper + row][3 * upper + column] += stiff;
                         if *lower < self.free {
@@ -156,7 +156,7 @@ fn length(of: Point) -> f64 {
     of.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Gauss' elimination of a matrix with its right side.
+/// Solves a linear system by Gaussian elimination. The last column is the right-hand side.
 fn solved(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
     let size = matrix.len();
     for n in 0..size {
@@ -181,7 +181,8 @@ fn solved(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
     answer
 }
 
-/// Relaxes the springs at two stiffnesses and holds what is left of the errors at none against the compliance.
+/// Relaxes the springs at two stiffnesses, and compares the errors, extrapolated to infinite stiffness, with the
+/// compliance.
 fn check(packing: &Packing<'_>, springs: &Springs) {
     let (compliance, contacts) = soft(packing);
     assert_eq!(contacts.len(), springs.contacts.len());
@@ -198,7 +199,7 @@ fn check(packing: &Packing<'_>, springs: &Springs) {
             .position(|pair| *pair == ids)
             .unwrap();
         let exact = exact.iter().find(|exact| exact.ids == contact.ids).unwrap();
-        // The way out along which the sphere is pressed is that of its geometry, not of the library's vector.
+        // The rigid contact direction comes from this geometry, not from the library's vector.
         let [upper, lower] = ids.map(|id| springs.centres[id]);
         let ray = between(&lower, &upper).map(|x| x / 2.0);
         let changes = [0, 1].map(|of| {
@@ -207,7 +208,7 @@ fn check(packing: &Packing<'_>, springs: &Springs) {
             let vector = [0, 1, 2].map(|axis| (force[axis] - exact.force * ray[axis]) * times);
             ((length(force) - exact.force) * times, vector)
         });
-        // What is linear in 1/κ falls out.
+        // The extrapolation removes the term linear in 1/κ.
         let [(one, at_one), (two, at_two)] = changes;
         let change = 2.0 * two - one;
         let vector = length([0, 1, 2].map(|axis| 2.0 * at_two[axis] - at_one[axis]));
@@ -271,7 +272,7 @@ fn a_relaxed_pile_under_loads() {
         .unwrap();
     let mut springs = Springs::new(&[[0, 0]], "+++", 1.3, false);
     springs.weights[0] += 0.5;
-    // One sphere, three, and the first of the third layer before it.
+    // One sphere, three spheres, and the first of the third layer come before it.
     springs.weights[5] += 2.5;
     check(&packing(&pile, "13/10"), &springs);
 }
@@ -288,7 +289,7 @@ fn relaxed_discs() {
     }
 }
 
-/// Its places are the library's: they have tests of their own.
+/// The positions are the library's, because other tests cover them.
 #[test]
 fn a_relaxed_isosceles_pile() {
     let pile = Pile::isosceles(4, ratio(2, 5)).unwrap();
@@ -306,7 +307,7 @@ fn a_relaxed_isosceles_pile() {
     );
 }
 
-/// ε of the module's documentation, in f₀/(κR).
+/// Returns ε of the module's documentation, in f₀/(κR).
 fn closed_form(discs: bool, q: f64, layers: f64, n: f64, k: f64) -> f64 {
     let common = q * (2.0 * layers + q - 4.0);
     if discs {
@@ -339,7 +340,7 @@ fn straight_piles_have_a_closed_form() {
                     let error = (contact.coefficient - expected).abs();
                     assert!(error < 1e-11 * layers as f64, "{contact:?}: {expected}");
                 }
-                // The largest is at a corner.
+                // The largest error is at a corner.
                 let last = layers as f64 - 2.0;
                 let corners = [of(0.0, 0.0), of(0.0, last), of(last, last)].map(f64::abs);
                 let largest = if layers == 1 {
@@ -353,9 +354,9 @@ fn straight_piles_have_a_closed_form() {
     }
 }
 
-/// Four layers at a/R = 6/5 and k = 1e7 mg/R, with 1e-15 kR/mg of rounding in it: some 0.05 in these coefficients.
+/// Four layers at a/R = 6/5 and k = 1e7 mg/R. Rounding contributes 1e-15 kR/mg, about 0.05 in these coefficients.
 #[test]
-fn lammps_measured_it() {
+fn lammps_measured_the_compliance() {
     let reading = verify::read(&include_bytes!("../verify/lammps.dump")[..]).unwrap();
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, "6/5");
@@ -387,7 +388,7 @@ fn lammps_measured_it() {
     );
 }
 
-/// c·mg/(κR), in whatever units.
+/// The error is c·mg/(κR) in any units.
 #[test]
 fn errors_scale_with_weight_and_size() {
     let pile = Pile::triangular(5).unwrap();
@@ -412,7 +413,7 @@ fn errors_scale_with_weight_and_size() {
 }
 
 #[test]
-fn what_springs_do_not_cover_is_refused() {
+fn packings_without_a_compliance_are_refused() {
     let touching = |pile: Pile, spacing| {
         assert_eq!(
             Compliance::new(&packing(&pile, spacing)),
@@ -429,7 +430,7 @@ fn what_springs_do_not_cover_is_refused() {
         assert!(matches!(refused, NoCompliance::Slack { .. }));
         assert!(refused.to_string().contains(says), "{refused}");
     };
-    // Three lines bear the load, and nothing else does.
+    // Three lines bear the load, and all other contacts have no force.
     let idle = Pile::triangular(3).unwrap().weightless();
     let idle = idle.with_load(Site::APEX, ratio(1, 1)).unwrap();
     slack(idle, "sphere (k=1, i=1, j=0) along alpha");
@@ -437,7 +438,7 @@ fn what_springs_do_not_cover_is_refused() {
         Pile::under(Region::SITE, Stacking::hcp(6).unwrap()).unwrap(),
         "has no force, or pulls",
     );
-    // Without a contact there is no error.
+    // Without contacts the error is 0.
     let one = Pile::triangular(1).unwrap();
     let (compliance, contacts) = soft(&packing(&one, "6/5"));
     assert!(contacts.is_empty());

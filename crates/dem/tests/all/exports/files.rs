@@ -1,4 +1,4 @@
-//! What is in the files: the numbers of the tables, each rounded by itself there.
+//! The contents of the files: the numbers of the tables, each correctly rounded.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Axis, Dimension, Site};
@@ -12,7 +12,7 @@ fn ratio(n: i64) -> num_rational::BigRational {
     num_rational::BigRational::from_integer(n.into())
 }
 
-/// A csv without its last column.
+/// Returns a csv text without its last column.
 fn without_last(csv: &str) -> String {
     let lines = csv
         .lines()
@@ -29,7 +29,7 @@ fn csv_of(table: Table<'_>) -> String {
 }
 
 #[test]
-fn spheres_and_base_are_the_tables() {
+fn spheres_and_base_equal_the_tables() {
     for_each_pile(|scene, export| {
         let packing = export.packing();
         let spheres = table::spheres(packing, Selection::All).expect("a table");
@@ -47,7 +47,7 @@ fn spheres_and_base_are_the_tables() {
 }
 
 #[test]
-fn contacts_are_the_table_with_numbers_besides() {
+fn contacts_equal_the_table_with_sphere_numbers() {
     for_each_pile(|scene, export| {
         let units = Units::of_packing(export.packing().clone());
         let table = table::contacts(&units, Selection::All).expect("a table");
@@ -70,7 +70,7 @@ fn contacts_are_the_table_with_numbers_besides() {
             assert!(found.eq(wanted), "{scene:?}");
             return;
         }
-        // There horizontal contacts come last.
+        // In the file, horizontal contacts come last.
         let [mut found, mut wanted] = [found.collect::<Vec<_>>(), wanted.collect()];
         let is_horizontal = |line: &str| Axis::ALL.iter().any(|axis| line.ends_with(axis.name()));
         assert!(found.iter().any(|line| is_horizontal(line)));
@@ -123,7 +123,7 @@ fn every_column_is_described() {
     });
 }
 
-/// The arrays of a file of ParaView: name, components, numbers; bytes as numbers too.
+/// Returns the arrays of a ParaView file: name, components, numbers. Bytes become numbers too.
 fn arrays(file: &[u8]) -> Vec<(String, Vec<f64>)> {
     let start = file.windows(2).position(|two| two == b"\n_").expect("data") + 2;
     let head = std::str::from_utf8(&file[..start]).expect("a head");
@@ -135,7 +135,7 @@ fn arrays(file: &[u8]) -> Vec<(String, Vec<f64>)> {
     let mut end = start;
     for line in head.lines().filter(|line| line.starts_with("<DataArray")) {
         let offset: usize = attribute(line, "offset").parse().expect("an offset");
-        // One after the other, with nothing between.
+        // The arrays are contiguous.
         assert_eq!(start + offset, end);
         let data = &file[end..];
         let size = u64::from_le_bytes(data[..8].try_into().expect("eight bytes"));
@@ -168,7 +168,7 @@ fn array<'a>(arrays: &'a [(String, Vec<f64>)], name: &str) -> &'a [f64] {
 }
 
 #[test]
-fn paraview_gets_the_numbers_of_the_csv() {
+fn paraview_files_have_the_numbers_of_the_csv() {
     for_each_pile(|scene, export| {
         let spheres = columns(&text(export, PileFile::SpheresCsv));
         let points = arrays(&bytes(export, PileFile::SpheresVtp));
@@ -184,7 +184,7 @@ fn paraview_gets_the_numbers_of_the_csv() {
         };
         let centres: Vec<f64> = spheres["id"].iter().flat_map(|id| centre(*id)).collect();
         assert!(array(&points, "centres") == centres, "{scene:?}");
-        // The floor pushes with what it feels, turned round; it pushes nobody else.
+        // The floor exerts the opposite of the force on the floor, and only on bottom spheres.
         let base = columns(&text(export, PileFile::BaseCsv));
         let felt = |name: &str, row: usize| base.get(name).map_or(0.0, |shear| shear[row]);
         let pushed = (0..base["normal"].len()).flat_map(|row| {
@@ -209,7 +209,7 @@ fn paraview_gets_the_numbers_of_the_csv() {
             .flatten()
             .collect();
         assert!(array(&lines, "centres") == ends, "{scene:?}");
-        // At the ends of each line.
+        // Both ends of each line have its force.
         let (name, at_ends) = &lines[0];
         assert_eq!(name, "force");
         assert!(
@@ -226,7 +226,7 @@ fn paraview_gets_the_numbers_of_the_csv() {
     });
 }
 
-/// The atoms of `pile.data`: id, type, diameter, density, x, y, z.
+/// Returns the atoms of `pile.data`: id, type, diameter, density, x, y, z.
 fn atoms(export: &PileExport<'_>) -> Vec<Vec<f64>> {
     let data = text(export, PileFile::LammpsData);
     let (_, atoms) = data.split_once("Atoms # sphere\n\n").expect("atoms");
@@ -242,7 +242,7 @@ fn atoms(export: &PileExport<'_>) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn lammps_and_yade_get_the_same_spheres() {
+fn lammps_and_yade_files_have_the_same_spheres() {
     for_each_pile(|scene, export| {
         let spheres = columns(&text(export, PileFile::SpheresCsv));
         let atoms = atoms(export);
@@ -255,7 +255,7 @@ fn lammps_and_yade_get_the_same_spheres() {
             .zip(spheres["radius"].iter().zip(&spheres["fixed"]))
         {
             assert_eq!((atom[1], atom[2]), (1.0 + fixed, 2.0 * radius));
-            // Weightless spheres have their mass too: gravity is left out.
+            // Weightless spheres have their mass too, but the scripts omit gravity.
             let mass = std::f64::consts::PI / 6.0 * atom[2].powi(3) * atom[3];
             let wanted = export.packing().mass();
             let wanted: f64 = cannonpile::scalar::Surd::from(wanted.clone())
@@ -291,7 +291,7 @@ fn lammps_and_yade_get_the_same_spheres() {
 }
 
 #[test]
-fn scripts_carry_loads_weight_and_plane() {
+fn scripts_contain_loads_weight_and_plane() {
     let (mut loaded, mut weightless, mut flat) = (0, 0, 0);
     for_each_pile(|scene, export| {
         let input = text(export, PileFile::LammpsInput);
@@ -306,7 +306,7 @@ fn scripts_carry_loads_weight_and_plane() {
             let load: f64 = cannonpile::scalar::Surd::from(load)
                 .nearest()
                 .expect("a float");
-            // What stands on the floor is frozen, and pushes nobody.
+            // Bottom spheres are frozen, so their loads are omitted.
             assert_eq!(
                 input.contains(&format!("set             atom {id} d_load -{load:?}\n")),
                 !on_floor
@@ -336,7 +336,7 @@ fn scripts_carry_loads_weight_and_plane() {
 }
 
 #[test]
-fn weights_of_their_own_become_masses_or_loads() {
+fn individual_weights_become_masses_or_loads() {
     let weight = |n: i64, d: i64| num_rational::BigRational::new(n.into(), d.into());
     let at = |i, j, k| Site { i, j, k };
     let pile = Pile::triangular(4).expect("a pile");
@@ -346,7 +346,7 @@ fn weights_of_their_own_become_masses_or_loads() {
     let pile = pile
         .with_weight(at(1, 0, 1), weight(0, 1))
         .expect("a sphere");
-    // Together as heavy as any other.
+    // Weight and load together equal the ordinary weight.
     let pile = pile
         .with_weight(at(0, 1, 1), weight(1, 2))
         .expect("a sphere");
@@ -362,7 +362,7 @@ fn weights_of_their_own_become_masses_or_loads() {
         .lines()
         .filter(|line| line.starts_with("set "))
         .collect();
-    // Gravity pulls at a mass that is not there: as much pushes up.
+    // Gravity acts on the substitute mass, so an equal upward load compensates it.
     let [third, fourth] = [
         "set             atom 3 d_load 1.0",
         "set             atom 4 d_load -0.5",

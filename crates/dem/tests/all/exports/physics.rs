@@ -1,4 +1,4 @@
-//! Whether the files, read as anybody would read them, describe a pile at rest.
+//! The exported files describe a pile at rest.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use cannonpile_testkit::scenes::{columns, for_each_pile, text};
 
 type Columns = BTreeMap<String, Vec<f64>>;
 
-/// Whether every sphere is in equilibrium, touches what it presses on, and lies not below it.
+/// Checks that every sphere is in equilibrium, touches its contact partners, and is above its supports.
 fn judge(
     scene: &Scene,
     spheres: &Columns,
@@ -41,11 +41,15 @@ fn judge(
         let distance = apart.map(|x| x * x).iter().sum::<f64>().sqrt();
         let touching = spheres["radius"][upper] + spheres["radius"][lower];
         if (distance / touching - 1.0).abs() > 1e-13 || apart[2] < 0.0 {
-            return Err(format!("contact {contact} of spheres {distance} apart"));
+            return Err(format!(
+                "the spheres of contact {contact} have the distance {distance}"
+            ));
         }
         for axis in 0..3 {
             if (vector[axis] - force * apart[axis] / distance).abs() > 1e-13 * force.abs() {
-                return Err(format!("contact {contact} pushes elsewhere"));
+                return Err(format!(
+                    "the force of contact {contact} has another direction"
+                ));
             }
             forces[upper][axis] += vector[axis];
             forces[lower][axis] -= vector[axis];
@@ -90,7 +94,7 @@ fn judge(
         .flatten()
         .find(|force| force.abs() > 1e-12 * greatest)
     {
-        Some(force) => Err(format!("{force} N are left over")),
+        Some(force) => Err(format!("{force} N are not balanced")),
         None => Ok(()),
     }
 }
@@ -107,7 +111,7 @@ fn every_sphere_is_in_equilibrium() {
             Ok(()),
             "{scene:?}"
         );
-        // Whoever mixes up numbers, signs or rows is found out.
+        // The check detects exchanged numbers, signs and rows.
         if contacts["force"].len() < 2 {
             return;
         }

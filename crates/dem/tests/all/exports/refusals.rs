@@ -1,4 +1,4 @@
-//! Files that cannot be written, and what is left of them.
+//! Failures to write files, and the state of the folder afterwards.
 
 use std::fs;
 use std::io::{self, Write};
@@ -9,7 +9,7 @@ use cannonpile_dem::table::WriteError;
 use cannonpile_dem::{Error, PileExport, PileFile, PileFormat, Written};
 use cannonpile_testkit::scenes::{bytes, packing};
 
-/// A disk with room for so many bytes.
+/// A disk with a limited number of free bytes.
 struct Full(usize);
 
 impl Write for Full {
@@ -32,7 +32,7 @@ fn files() -> impl Iterator<Item = &'static PileFile> {
 }
 
 #[test]
-fn a_full_disk_is_told_wherever_it_is_full() {
+fn a_full_disk_is_reported_at_every_position() {
     let pile = Pile::triangular(4).expect("a pile");
     let export = PileExport::new(&packing(&pile)).expect("files");
     for file in files() {
@@ -57,7 +57,7 @@ fn all_files_or_none() {
     let formats = [PileFormat::Yade, PileFormat::Csv, PileFormat::Yade];
     let inside = folder.path().join("new/and newer");
     let written = export.write(&formats, &inside, &mut |_| {}).expect("files");
-    // Each format once, in order.
+    // Each format occurs once, in order.
     let names: Vec<&str> = written.iter().map(Written::name).collect();
     assert_eq!(
         names,
@@ -78,7 +78,7 @@ fn all_files_or_none() {
         assert_eq!(content.len() as u64, written.bytes);
         assert_eq!(export.rows(file), written.rows);
     }
-    // One of the names is taken by a folder: nothing new is left, and nothing that was there is touched.
+    // A folder has one of the names: no new file remains, and existing files are unchanged.
     let taken = folder.path().join("taken");
     fs::create_dir_all(taken.join("contacts.csv")).expect("a folder");
     fs::write(taken.join("notes"), "mine").expect("a file");
@@ -102,7 +102,8 @@ fn a_name_taken_at_the_last_moment() {
     fs::write(folder.path().join("spheres.txt"), "mine").expect("a file");
     let taken = folder.path().join("contacts.csv");
     let mut told = 0;
-    // While the last of the three is written, a folder takes the name of the second: the first is there by then.
+    // While the third file is written, a folder takes the name of the second one. The first file has been renamed by
+    // then.
     let mut take = |_| {
         told += 1;
         if told == 3 {
@@ -169,7 +170,7 @@ fn numbers_beyond_floats_are_refused() {
     for (radius, mass, formats) in [
         ("1e400", "1", &PileFormat::ALL[..]),
         ("1", "1e400", &PileFormat::ALL[..]),
-        // What csv can say of them is 0, as the tables do; springs need more.
+        // The csv files contain 0, as the tables do; springs need a positive number.
         ("1", "1e-400", &[PileFormat::Lammps, PileFormat::Yade]),
         ("1e-120", "1", &[PileFormat::Lammps, PileFormat::Yade]),
         ("1e120", "1", &[PileFormat::Lammps, PileFormat::Yade]),
@@ -193,7 +194,7 @@ fn numbers_beyond_floats_are_refused() {
 }
 
 #[test]
-fn more_than_anybody_can_keep_is_refused() {
+fn too_many_rows_are_refused() {
     let pile = Pile::triangular(10_000).expect("a pile");
     let refused = PileExport::new(&packing(&pile));
     assert!(matches!(

@@ -1,4 +1,4 @@
-//! The benchmark cases: what was published stays what it is, and comes out as it is said.
+//! The benchmark cases: published cases are unchanged, and have the published outcome.
 
 use cannonpile::Verdict;
 use cannonpile::shape::Selection;
@@ -7,16 +7,16 @@ use cannonpile_dem::scene::{Case, Scene, SceneFile, State, cases};
 use num_rational::BigRational;
 use num_traits::Signed;
 
-/// The hash of Fowler, Noll and Vo, of 64 bits.
+/// Returns the 64-bit hash of Fowler, Noll and Vo (FNV-1a).
 fn hash(text: &str) -> u64 {
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }
 
-/// Every case that was published: its name, the hash of its file, and whether it stands.
+/// The published cases: name, hash of the file, and stability.
 ///
-/// Where one of them differs, mend the case and not this list: numbers have been quoted with its name.
+/// If a case differs, correct the case and not this list: its numbers have been quoted.
 const PUBLISHED: &[(&str, u64, &str)] = &[
     ("C1", 0x24df_3656_8a52_6e45, "yes"),
     ("C2", 0xd4b1_374d_08e5_20ec, "yes"),
@@ -35,7 +35,7 @@ const PUBLISHED: &[(&str, u64, &str)] = &[
 ];
 
 #[test]
-fn what_was_published_is_not_altered() {
+fn published_cases_are_unchanged() {
     let found: Vec<_> = cases()
         .iter()
         .map(|case| (case.name(), hash(case.toml()), case.stands()))
@@ -54,7 +54,7 @@ fn what_was_published_is_not_altered() {
         .map(|(name, hash, _)| format!("(\"{name}\", {hash:#018x}, …)"))
         .collect();
     assert_eq!(found, published, "{}", listing.join("\n"));
-    // A change of one digit is seen.
+    // The hash detects a change of one digit.
     let case = Case::named("C2").expect("a case");
     assert_ne!(hash(&case.toml().replace("10", "11")), hash(case.toml()));
 }
@@ -80,13 +80,13 @@ fn every_case_is_read_and_written() {
 }
 
 #[test]
-fn every_case_stands_or_falls_as_it_says() {
+fn every_case_has_its_stated_stability() {
     for case in cases() {
         let scene = case.scene().expect("a scene");
         let pile = scene
             .in_state(scene.pile().expect("a pile"))
             .expect("a state");
-        // All of its forces, one by one: the verdict looks at few.
+        // All forces are examined one by one, while the verdict examines few.
         let sloping = pile.forces::<BigRational>().contacts(Selection::All);
         let mut pulls = sloping
             .expect("contacts")
@@ -100,7 +100,7 @@ fn every_case_stands_or_falls_as_it_says() {
             (false, false) => Some(Verdict::Yes),
         };
         assert_eq!(stands, case.stands(), "{}", case.name());
-        // Where it says that it falls, nothing else touches that could hold it.
+        // In unstable cases no further contact could support the pile.
         let packing = scene.packing(&pile).expect("room");
         assert_eq!(
             packing.touching().is_empty(),

@@ -1,4 +1,4 @@
-//! Scene files: each key, each way to write a number, and what is refused by line and key.
+//! Scene files: each key, each format of a number, and errors with line and key.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Dimension, Region};
@@ -7,7 +7,7 @@ use cannonpile_dem::Error;
 use cannonpile_dem::scene::{Anchor, Scene, SceneFile, State, parse};
 use cannonpile_testkit::answers::ratio;
 
-/// What is said of a file.
+/// Returns the error message for a file.
 fn refusal(text: &str) -> String {
     let message = Scene::from_toml(text).unwrap_err().to_string();
     assert!(!message.contains(char::is_control), "{message:?}");
@@ -68,7 +68,7 @@ fn arrays_of_tables_are_loads_too() {
     };
     let pile = loaded(pile, [0, 0, 0], ratio(1, 3));
     assert_eq!(scene.pile().unwrap(), loaded(pile, [1, 1, 2], ratio(2, 1)));
-    // Before the dimension is met, too.
+    // Loads may precede the dimension.
     let discs = Scene::from_toml("load = ['1=1', '0,0=2']\nlayers = 2\ndimension = 2").unwrap();
     let pile = Pile::discs(2).unwrap();
     let pile = loaded(pile, [1, 0, 1], ratio(1, 1));
@@ -76,12 +76,12 @@ fn arrays_of_tables_are_loads_too() {
 }
 
 #[test]
-fn numbers_are_what_is_written() {
+fn numbers_are_read_exactly() {
     for (written, n, d) in [
         ("6", 6, 1),
         ("+6", 6, 1),
         ("1.2", 6, 5),
-        // No float is a tenth.
+        // A tenth is not a float.
         ("0.1", 1, 10),
         ("0.1000000000000000000", 1, 10),
         ("1_0.2_5", 41, 4),
@@ -206,14 +206,14 @@ fn refusals_name_the_line_and_the_key() {
 }
 
 #[test]
-fn the_first_fault_of_a_file_is_told() {
-    // Not that of the key that comes first in the alphabet.
+fn the_first_error_of_a_file_is_reported() {
+    // The order of the file counts, not the alphabet.
     assert!(refusal("zebra = 1\nant = 1").contains("line 1"));
     assert!(refusal("spacing = 'x'\nmass = 'y'").contains("line 1, spacing"));
 }
 
 #[test]
-fn what_could_exhaust_the_parser_is_refused() {
+fn texts_that_could_exhaust_the_parser_are_refused() {
     refusal(&format!("mass = {}", "[".repeat(100_000)));
     refusal(&format!("mass = {}", "{a=".repeat(100_000)));
     refusal(&format!("{}mass = 1", "a.".repeat(100_000)));
@@ -231,7 +231,7 @@ fn what_could_exhaust_the_parser_is_refused() {
 }
 
 #[test]
-fn a_file_is_short_and_the_same_every_time() {
+fn a_file_is_short_and_canonical() {
     let text = Scene::default().to_toml();
     let keys: Vec<&str> = text
         .lines()
