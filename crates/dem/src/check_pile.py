@@ -2,8 +2,8 @@
 # cannonpile {version}: a check with a mathematical proof, in the style of scripts/checks-and-tests/checks of YADE.
 # {title}
 #
-# Frictionless spheres relax from their exact places on stiff springs, and the force of each contact is compared with the
-# exact one. A pile that cannot stand must lose contacts instead. Put this file beside the others for 'yade --check', or
+# Frictionless spheres relax from their exact positions on stiff springs, and the force of each contact is compared with the
+# exact one. An unstable pile must lose contacts instead. Put this file beside the others for 'yade --check', or
 # run it alone: yade -n -x checkPile.py
 import sys
 
@@ -16,20 +16,20 @@ except NameError:
 
 
 MUST_FALL = {falls}
-TOLERANCE = {tolerance}  # of the greatest force; springs give way by less
+TOLERANCE = {tolerance}  # relative to the greatest force; the springs cause less
 FIRST_ON_FLOOR = {first}  # ids count from 1, layer after layer from the top
 STIFFNESS = {stiffness}  # N/m; a contact of two spheres has E*R
 RADIUS = {radius}  # m
-REST = {rest}  # N, on a sphere: what the last digits of coordinates make of nothing
+REST = {rest}  # N, on a sphere: the effect of the rounding of coordinates
 MAX_STEPS = {most_steps}
-# Newtons downwards besides the weight, by id.
+# Downward forces in addition to the weight, in N, by id.
 LOADS = {loads}
 # Masses other than that of an ordinary sphere, by id.
 MASSES = {masses}
 # Centres of the spheres 1, 2, ..., in m.
 SPHERES = [
 {spheres}]
-# id1, id2, and the force between them in N, the float nearest to the exact one; positive is push.
+# id1, id2, and the force between them in N, correctly rounded; a positive force is a push.
 CONTACTS = [
 {contacts}]
 
@@ -66,14 +66,14 @@ def measuredForces(firstBody):
 	forces = {}
 	for contact in O.interactions:
 		pair = tuple(sorted((contact.id1 - firstBody + 1, contact.id2 - firstBody + 1)))
-		# Two spheres of the floor are held, and may press as they like.
+		# Contacts between two fixed bottom spheres are ignored.
 		if contact.isReal and pair[0] < FIRST_ON_FLOOR:
 			forces[pair] = contact.phys.normalForce.norm()
 	return forces
 
 
 def atRest():
-	# YADE gives the greatest force on a sphere in parts of the mean force of a contact.
+	# unbalancedForce(True) is the greatest force on a sphere, divided by the mean contact force.
 	forces = [contact.phys.normalForce.norm() for contact in O.interactions if contact.isReal]
 	return not forces or unbalancedForce(True) * sum(forces) / len(forces) < REST
 
@@ -89,11 +89,11 @@ def checkPile():
 		forces = measuredForces(firstBody)
 		lost = bearing.difference(forces)
 		if MUST_FALL and lost:
-			print('checkPile: %d of %d contacts were lost, as they must be' % (len(lost), len(bearing)))
+			print('checkPile: %d of %d contacts were lost, as expected' % (len(lost), len(bearing)))
 			return
 		rest = atRest()
 	if MUST_FALL:
-		raise YadeCheckError('checkPile: the pile stands after %d steps, but some of its contacts would have to pull' % O.iter)
+		raise YadeCheckError('checkPile: no contact was lost in %d steps, but some contacts need a tensile force' % O.iter)
 	if not rest:
 		raise YadeCheckError('checkPile: the pile is not at rest after %d steps' % O.iter)
 
@@ -103,7 +103,7 @@ def checkPile():
 	worst = max(set(forces) | set(exact), key=error, default=None)
 	if worst is not None and error(worst) > TOLERANCE:
 		raise YadeCheckError(
-		        'checkPile: spheres %d and %d press with %.17g N, not %.17g N: off by %.3g of the greatest force, more than %.3g' %
+		        'checkPile: the force between spheres %d and %d is %.17g N, not %.17g N: the error is %.3g of the greatest force, more than %.3g' %
 		        (worst + (forces.get(worst, 0.0), exact.get(worst, 0.0), error(worst), TOLERANCE))
 		)
 	print('checkPile: %d contacts agree, to %.3g of the greatest force' % (len(exact), error(worst) if worst else 0.0))

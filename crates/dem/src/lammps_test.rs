@@ -50,10 +50,10 @@ fn text(pile: &NumberedPile<'_>, title: &str, forces: &Forces) -> Result<String,
         (false, false) => BEARING,
     };
     let compared = if has_horizontal {
-        "it is the shape that is compared, no more".to_owned()
+        "the shape only".to_owned()
     } else {
         let resolution = epsilon * middle(&at_rest) / overlap;
-        format!("it is forces that are compared, to about {resolution:.0e} of the greatest")
+        format!("forces, to about {resolution:.0e} of the greatest")
     };
     let weight = match springs.gravity {
         0.0 => String::new(),

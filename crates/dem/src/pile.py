@@ -1,25 +1,25 @@
 # cannonpile: relaxes spheres.txt and writes the forces of its contacts to forces.csv.
 # Run: yade -n -x pile.py
-# Frictionless spheres on springs; the exact pile is stiff, so forces differ by some 1e-6 of the greatest.
+# Frictionless spheres on springs. The exact pile is rigid, so forces differ by about 1e-6 of the greatest.
 import csv
 import os
 import sys
 
 from yade import ymport
 
-FIRST_ON_FLOOR = {first}  # ids are cannonpile's, from 1; those of YADE begin with 0
+FIRST_ON_FLOOR = {first}  # ids of cannonpile start from 1; those of YADE from 0
 STIFFNESS = {stiffness}  # N/m; a contact of two spheres has E*R
 RADIUS = {radius}
-REST = {rest}  # N, on a sphere: what the last digits of coordinates make of nothing
+REST = {rest}  # N, on a sphere: the effect of the rounding of coordinates
 MAX_STEPS = {most_steps}
-# Newtons downwards besides the weight, by id.
+# Downward forces in addition to the weight, in N, by id.
 LOADS = {loads}
 # Masses other than that of an ordinary sphere, by id.
 MASSES = {masses}
 
 
 def folder_of_spheres():
-    # YADE runs this text by exec, and its __file__ is the program's: the path of the script is in its arguments.
+    # YADE executes this script by exec, so __file__ is the path of YADE. The arguments contain the path of the script.
     for argument in sys.argv:
         folder = os.path.dirname(os.path.abspath(argument))
         if argument.endswith('.py') and os.path.exists(os.path.join(folder, 'spheres.txt')):
@@ -58,7 +58,7 @@ O.dt = {timestep}
 
 
 def at_rest():
-    # YADE gives the greatest force on a sphere in parts of the mean force of a contact.
+    # unbalancedForce(True) is the greatest force on a sphere, divided by the mean contact force.
     forces = [contact.phys.normalForce.norm() for contact in O.interactions if contact.isReal]
     return not forces or unbalancedForce(True) * sum(forces) / len(forces) < REST
 
@@ -67,7 +67,7 @@ while O.iter < MAX_STEPS:
     O.run(1000, True)
     if at_rest():
         break
-print('cannonpile: the pile is ' + ('at rest' if at_rest() else 'NOT at rest; run it longer, or it does not stand'))
+print('cannonpile: the pile is ' + ('at rest' if at_rest() else 'NOT at rest; run it longer, or the pile is unstable'))
 
 with open(os.path.join(here, 'forces.csv'), 'w', newline='') as file:
     rows = csv.writer(file)
