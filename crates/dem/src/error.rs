@@ -134,7 +134,7 @@ impl fmt::Display for Whole<'_> {
             Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
             Error::NeedsUnits { quantity } => write!(
                 f,
-                "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
+                "{quantity} are in newtons and metres: use a packing, with a radius, a mass and a spacing"
             ),
             Error::MustPull { remedy } => write!(
                 f,

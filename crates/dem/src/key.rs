@@ -31,7 +31,7 @@ pub enum Key {
     SinPhi,
     /// Loads on spheres.
     Load,
-    /// Whether the spheres weigh nothing.
+    /// Weightless spheres.
     Weightless,
     /// a/R.
     Spacing,

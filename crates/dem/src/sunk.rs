@@ -17,7 +17,7 @@ pub(super) struct Sunk {
     pub(super) at_rest: Vec<[f64; 3]>,
 }
 
-/// A supporting sphere: its index, and the contact force.
+/// The index of a supporting sphere, and the contact force.
 type Support = (usize, f64);
 
 impl Sunk {

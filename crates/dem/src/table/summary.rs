@@ -104,11 +104,12 @@ impl<'p> Summary<'p> {
     pub fn left_out(&self) -> Vec<(&'static str, String)> {
         let stands = self.verdict().is_none();
         let stands = stands.then(|| {
-            "of a pile without weight it is not asked: give the spheres their weight".to_owned()
+            "a weightless pile is neither stable nor unstable: give the spheres their weight"
+                .to_owned()
         });
         let open = self.held.as_ref().and_then(|held| held.as_ref().err());
         let open = open.map(|error| {
-            format!("whether horizontal contacts hold the pile was not found out: {error}")
+            format!("it is unknown whether horizontal contacts support the pile: {error}")
         });
         let Standing {
             least,

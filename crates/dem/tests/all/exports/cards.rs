@@ -89,7 +89,7 @@ fn floats_are_correctly_rounded() {
         let count = judge_floats(&card).expect("correctly rounded floats");
         assert!(count > 15, "{}: {count}", case.name());
     }
-    // The check detects an error of one unit in the last place.
+    // The check detects an error of 1 ulp.
     let mut planted = card("C1");
     let float = &mut planted["answers"]["greatest"]["force"]["float"];
     *float = float.as_f64().expect("a float").next_up().into();
