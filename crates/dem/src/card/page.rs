@@ -131,13 +131,6 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
     ])
 }
 
-/// Keeps the entries that have a text.
-pub(super) fn given<const N: usize>(texts: [(&str, Option<String>); N]) -> Names {
-    let texts = texts.into_iter();
-    let given = texts.filter_map(|(name, text)| Some((name.to_owned(), text?)));
-    given.collect()
-}
-
 const SPHERE: &str = "| {id} | {site} | `{x.exact}` | `{y.exact}` | `{z.exact}` |";
 const CONTACT: &str =
     "| {id1} | {id2} | {direction} | `{multiple}` | `{force.exact}` | `{force.float}` |";

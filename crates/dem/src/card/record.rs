@@ -189,6 +189,13 @@ fn answers(
     }))
 }
 
+/// Keeps the entries that have a text.
+pub(super) fn given<const N: usize>(texts: [(&str, Option<String>); N]) -> Names {
+    let texts = texts.into_iter();
+    let given = texts.filter_map(|(name, text)| Some((name.to_owned(), text?)));
+    given.collect()
+}
+
 /// Collects the texts and numbers of a record, each named by the path of keys to it.
 pub(super) fn name(path: &str, value: &Json, names: &mut Names) {
     let text = match value {
