@@ -1,14 +1,27 @@
-//! How a line gets its force: the plan, and the engines that it chooses among.
+//! How contact forces are computed: the plan, and the engines from which it chooses.
 //!
-//! | method | how | where |
+//! | method | algorithm | files |
 //! |---|---|---|
-//! | *closed* | by counting the spheres on a line, paper, (8) and (9) | `closed.rs` |
-//! | *tree* | the lines above one sphere, which begin at the changes of sign | `tree.rs` |
-//! | *sweep* | layer after layer, one in memory: plainly in the numbers of a scalar, or in limbs; of extremes a third of it | `sweep.rs`, `cells.rs`, `bands.rs`, `plane.rs`, `limbs.rs`, `thirds.rs` |
-//! | *table* | the distinct forces of a straight pile, copied row by row | `table.rs` |
+//! | *closed* | count the spheres on a line: paper, (8) and (9) | `closed.rs` |
+//! | *tree* | memoised recursion on the dependency cone of a sphere; its nodes lie at sign changes | `tree.rs` |
+//! | *sweep* | layer by layer from the top, one layer in memory: a transfer matrix applied matrix-free | `sweep.rs`, and the files below |
+//! | *table* | tabulated closed form: the distinct forces of a straight pile, copied row by row | `table.rs` |
 //!
-//! Engines know a `System`, not a pile. They count and pass on by the functions of
-//! [`formula`](crate::formula), and by nothing else.
+//! A sweep consists of these parts:
+//!
+//! | part | file |
+//! |---|---|
+//! | storage of the lines of contacts: one cell for a line, in every layer | `grid.rs`, `plane.rs` |
+//! | numerators of a scalar, as they are | `cells.rs` |
+//! | exact numerators in limbs of 64 bits, with deferred carries | `limbs.rs` |
+//! | deferred passes, made together as a wavefront over bands of rows, in parallel | `bands.rs` |
+//! | a third of each layer, where the pile has threefold symmetry | `thirds.rs` |
+//! | correctly rounded floats, straight from the limbs | `nearest.rs` |
+//!
+//! `ends.rs` lists the few sites of a layer at which the forces can be extreme.
+//!
+//! An engine receives a `System`, not a pile. It counts and transmits only by the functions of
+//! [`formula`](crate::formula).
 
 mod bands;
 mod cells;
@@ -56,7 +69,7 @@ pub(crate) use sweep::Descent;
 pub(crate) use table::Table;
 pub(crate) use tree::{Wanted, nodes};
 
-// For the crates beside this one.
+// Re-exports for the other crates of the workspace.
 pub use crate::error::{bug, copies, refuse_beyond, refuse_beyond_memory};
 pub use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};
 pub use exact_surd::short::{numbers as shortened, quoted};

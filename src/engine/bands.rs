@@ -1,11 +1,37 @@
-//! Passes over the numbers of a layer that follow each other.
+//! Deferred passes, made together over the cells of a layer: loop tiling, as a wavefront over rows.
 //!
-//! A sphere of row j has its lines α and β in the cells of row j, and γ in those of row j + o, o the net number of + steps
-//! down to the last layer. So of two passes that follow each other, to o and then to o′, the second may work on row j once
-//! the first has worked on the rows j and j + o′ − o. Passes that wait are therefore made together, row after row: each
-//! pass max(0, o′ − o) rows behind the one before, so that a row of cells is still in the nearest cache when the next
-//! pass comes for it. Threads take bands of rows, halves of halves: within a band each pass leaves out the rows that hang
-//! on the other half, one for each step of o, and what was left out around the border is made up for when both are done.
+//! A pass changes every number of a layer and does little arithmetic with it. Made one by one, several passes would
+//! move the whole layer through the caches each time. Here each row of cells is still in the cache when the next pass
+//! needs it.
+//!
+//! # Dependencies
+//! A sphere of row j has its lines α and β in the cells of row j. Its line γ is in the cells of row j + o, with o the
+//! net number of + steps down to the last layer ([`grid`](super::grid)). Consider two consecutive passes, to layers
+//! with the offsets o and o′. The second pass can treat row j when the first one has treated the rows j and j + o′ − o.
+//! So the second pass follows max(0, o′ − o) rows behind the first one.
+//!
+//! For three passes with o′ − o = 1 each time, the rows treated are
+//!
+//! ```text
+//! time      0   1   2   3   4   5
+//! pass 1    0   1   2   3   …
+//! pass 2        0   1   2   3   …
+//! pass 3            0   1   2   3
+//! ```
+//!
+//! # Bands of rows
+//! This part runs in parallel. The rows are halved recursively into *bands*, one for a thread. Within a band, each pass
+//! omits the rows that depend on the other half: |o′ − o| more rows for each pass. For o′ − o = −1 the halves A and B
+//! are
+//!
+//! ```text
+//! pass 1    A A A A A A B B B B B B
+//! pass 2    A A A A A A . B B B B B
+//! pass 3    A A A A A A . . B B B B
+//! ```
+//!
+//! When both halves are complete, one thread treats the omitted rows (dots) around the border. This is a split tiling:
+//! no row is computed twice, and the result does not depend on the number of bands.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
@@ -18,14 +44,17 @@ use super::plane::{Plane, Ramps, row};
 use crate::lattice::{Along, Counts};
 use crate::{Error, formula};
 
-/// How many numbers are worth a thread of their own, each time one of them is changed.
+/// The least number of updates that justifies a thread.
 const WORTH_A_THREAD: usize = 1 << 13;
 
-/// Passes that follow each other, with what each adds in every plane.
+/// Consecutive passes, with the values that each adds in every plane.
 pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];
 
-/// Makes passes that follow each other in all planes: adds the increments of each, and turns what it ends at if the sign
-/// changes there. Then does with the cells of each row, given among those of all planes, what is to be done at the end.
+/// Makes consecutive passes in all planes. Each pass adds its increments, and applies `turn` where it ends at a sign
+/// change.
+///
+/// After the last pass has treated a row, `finish` is called with the planes and the cells of that row.
+///
 ///
 /// # Errors
 /// [`Error::Bug`] if a line has no cell.
@@ -43,7 +72,8 @@ where
     make_whole(number, planes, grid, passes, (turn, finish))
 }
 
-/// Makes the passes over whole layers, in so many bands at the most.
+/// Makes the passes over whole layers, in at most `number` bands.
+///
 ///
 /// # Errors
 /// As for [`make`].
@@ -68,43 +98,43 @@ where
     whole.make_in_bands(number, grid, passes, (&turn, &finish))
 }
 
-/// Returns how many bands are worth the work of these passes.
+/// Returns the number of bands for these passes: 1 where more threads would cost more than they save.
 fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
-    // Not a default: only whether threads are worth it hangs on it.
+    // Not a default: this count decides only whether threads are used.
     let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
-    // Threads are not asked for where they are not worth it.
+    // The order matters: the number of threads is requested only for enough work.
     if worth < 2 || parallel::threads() < 2 {
         return 1;
     }
     let Some((first, _)) = passes.first() else {
         return 1;
     };
-    // Around a border a band loses rows, one for each step of the shift.
+    // Around a border a band omits rows, one for each step of the offset.
     let shifts = || passes.iter().map(|(pass, _)| pass.shift);
     let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
     let lost: i128 = steps.map(i128::abs).sum();
     let rows = first.rows();
     let most = (rows.end - rows.start) / (2 * lost + 2);
-    // No more than threads: around each border rows are left, which one thread makes up for.
+    // At most one band for a thread: the rows around each border are left to one thread.
     (worth.min(parallel::threads()) as i128).min(most).max(1)
 }
 
-/// The rows that are taken, by pass.
+/// The rows to treat, one range for each pass.
 type Taken = Vec<Range<i128>>;
 
-/// Rows of a layer with the cells of their lines in every plane, and what each pass takes of them.
+/// A band of rows with the cells of their lines in every plane, and the rows that each pass treats.
 struct Band<'c, V> {
     taken: Taken,
-    /// Where the slices begin among all cells.
+    /// The first cell of each slice, among all cells.
     starts: [usize; 3],
     planes: Vec<[&'c mut [V]; 3]>,
 }
 
 impl<V> Band<'_, V> {
-    /// Returns where half of its bands end: the row of the first pass behind them, which is not its first one, and the row
-    /// of γ behind them.
+    /// Returns the border after the first half of the bands: the row of the first pass at which the second half begins,
+    /// and its row of γ cells. The border is never the first row.
     fn border(&self, number: i128, passes: &Passes<V>) -> Option<[i128; 2]> {
         let ((pass, _), rows) = (passes.first()?, self.taken.first()?.clone());
         let sites = |j| {
@@ -115,8 +145,9 @@ impl<V> Band<'_, V> {
         Some([border, border + pass.shift])
     }
 
-    /// Splits it before a row of the first pass: each pass takes of either part what hangs on that part alone. Returns what
-    /// is left around the border, too, by pass.
+    /// Splits the band before a row of the first pass. In either part each pass treats the rows that depend on that
+    /// part alone. Also returns the remaining rows around the border, by pass.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`] for a row that has no cells.
@@ -127,7 +158,7 @@ impl<V> Band<'_, V> {
         passes: &Passes<V>,
     ) -> Result<([Band<'_, V>; 2], Taken), Error> {
         let shifts = || passes.iter().map(|(pass, _)| pass.shift);
-        // Row j hangs on the rows j and j + step of the pass before.
+        // Row j depends on the rows j and j + step of the previous pass.
         let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
         let around = steps.scan(border..border, |around, step| {
             around.start = around.start.min(around.start - step);
@@ -142,7 +173,7 @@ impl<V> Band<'_, V> {
         let before = by_pass(|rows, around| rows.start..rows.end.min(around.start));
         let behind = by_pass(|rows, around| rows.start.max(around.end)..rows.end);
         let left = by_pass(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
-        // γ is cut beside α and β: between the rows that the first pass takes together.
+        // The γ cells are cut at another row than those of α and β: where the second half of the first pass begins.
         let own = grid.row_start(border)?;
         let starts = [own, own, grid.row_start(gamma)?];
         let mut parts = [(before, self.starts), (behind, starts)].map(|(taken, starts)| Band {
@@ -163,8 +194,9 @@ impl<V> Band<'_, V> {
 }
 
 impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
-    /// Makes all passes over their rows, in so many bands at once where there are threads; then what was left out around the
-    /// borders between them.
+    /// Makes all passes over their rows, in at most `number` bands, in parallel if there are threads. Then treats the
+    /// rows omitted around the borders.
+    ///
     ///
     /// # Errors
     /// As for [`make`](Self::make).
@@ -193,7 +225,9 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
 }
 
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
-    /// Makes all passes over their rows, each as far behind the one before as it must be.
+    /// Makes all passes over their rows. Each pass follows as many rows behind the previous one as its dependencies
+    /// require.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`] if a line has no cell.
@@ -208,7 +242,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         let mut delays = Vec::with_capacity(passes.len());
         for (place, (pass, _)) in passes.iter().enumerate() {
             let before = place.checked_sub(1).and_then(|before| passes.get(before));
-            // The first pass waits for none.
+            // The first pass depends on no other.
             delay += match before {
                 Some((before, _)) => (pass.shift - before.shift).max(0),
                 None => 0,
@@ -233,7 +267,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         };
         for time in start..end {
             for (place, (pass, ramps)) in passes.iter().enumerate() {
-                // As many delays and ranges as passes.
+                // `delays`, `rows` and `counts` have one entry for each pass.
                 let j = time - delays[place];
                 if self.taken[place].contains(&j) {
                     let cells = self.pass(grid, pass, ramps, (j, &counts[place]), turn)?;
@@ -246,7 +280,8 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         Ok(())
     }
 
-    /// Makes a pass over row j, and returns where its cells are.
+    /// Makes a pass over row j, and returns the cells of the row.
+    ///
     ///
     /// # Errors
     /// As for [`make`](Self::make).
@@ -280,13 +315,13 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
     }
 }
 
-/// Adds to three rows what their counts come to, and turns them.
+/// Adds the increments of three rows, and turns the forces at a sign change.
 fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     [alpha, beta, gamma]: [&mut [V]; 3],
     along @ [a, b, c]: &[Along<'_, V>; 3],
     turn: &impl Fn(&[V; 3]) -> [V; 3],
 ) {
-    /// So many places are dealt with one by one sooner than in loops of their own.
+    /// Up to this number of positions, a single loop is faster than one loop for each part of the rows.
     const FEW: usize = 16;
     let n = alpha.len();
     let up = a.up.len().max(b.up.len()).max(c.up.len());
@@ -297,7 +332,7 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
         return add_then_turn([alpha, beta, gamma], along, turn);
     };
     let sum = |x: &V, w| formula::transmitted(x.clone(), w);
-    // Where all three are level, what is added is the same everywhere.
+    // Where all three counts are level, the same three values are added everywhere.
     let level = up..(n - down).max(up);
     turn_apart(
         &mut alpha[level.clone()],
@@ -316,7 +351,7 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     }
 }
 
-// Kept apart, so that the usual way stays small.
+// A function of its own keeps the common path small.
 #[inline(never)]
 fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     mut rows: [&mut [V]; 3],
@@ -330,7 +365,7 @@ fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     turn_apart(alpha, beta, gamma, turn);
 }
 
-/// Rows in different places, which the compiler knows of parameters.
+/// Turns three disjoint rows. As parameters of a function they are known to the compiler not to overlap.
 #[inline(never)]
 fn turn_apart<V: Clone>(a: &mut [V], b: &mut [V], c: &mut [V], turn: &impl Fn(&[V; 3]) -> [V; 3]) {
     let n = a.len().min(b.len()).min(c.len());
@@ -341,7 +376,7 @@ fn turn_apart<V: Clone>(a: &mut [V], b: &mut [V], c: &mut [V], turn: &impl Fn(&[
     }
 }
 
-/// Adds to a row what its counts come to.
+/// Adds the increments of a row.
 fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], along: &Along<'_, V>) {
     let Along { up, level, down } = *along;
     let (rising, rest) = row.split_at_mut(up.len());
@@ -374,7 +409,7 @@ mod tests {
     use crate::lattice::Region;
     use crate::shape::Shape;
 
-    /// The passes down to the last layer, without what they add.
+    /// Returns the passes down to the last layer, without increments.
     fn passes_of(shape: &Shape, grid: &Grid<'_>) -> Vec<(Pass, Vec<Ramps<i64>>)> {
         let last = shape.layers() - 1;
         let (mut passes, mut k) = (Vec::new(), 0);
@@ -385,8 +420,8 @@ mod tests {
         passes
     }
 
-    /// All passes of a pile, so many at a time, in so many bands, with something added when rows are finished. The numbers
-    /// stay small, and no turn is like another.
+    /// Makes all passes of a pile in groups of `at_a_time`, in at most `number` bands. Adds `finished` to each finished
+    /// row. The numbers stay small, and `turn` is asymmetric.
     fn swept(shape: &Shape, at_a_time: usize, number: i128, finished: i64) -> Plane<i64> {
         let last = shape.layers() - 1;
         let grid = Grid::new(shape, last, 1).unwrap();
@@ -449,7 +484,7 @@ mod tests {
         assert_eq!(compared, 144);
     }
 
-    /// From bands of a few rows to as many as fit between the rows that passes lose.
+    /// From bands of a few rows to as many as the omitted rows allow.
     #[test]
     fn bands_of_low_layers_are_the_whole() {
         for (side, stacking) in [(12, "+-+-+-+-"), (20, "-++-+--+"), (31, "+++---+-")] {
@@ -463,7 +498,8 @@ mod tests {
         }
     }
 
-    /// A column of many rows, cut no more often than there are bands: each cut waits for both of its halves.
+    /// Checks that a column of many rows is cut no more often than there are bands, since each cut waits for both
+    /// halves.
     #[test]
     fn rows_are_not_cut_for_less_than_a_band() {
         let column = Region::new(0..=0, 0..=99_999, 0..=99_999).unwrap();
@@ -480,7 +516,8 @@ mod tests {
         Shape::under(top, stacking).unwrap()
     }
 
-    /// Its share of the spheres lies before a border, and without the last row there less than that.
+    /// The rows before a border hold at least their share of the spheres. Without the last of these rows they hold
+    /// less.
     #[test]
     fn a_border_is_where_the_first_bands_have_their_share() {
         let mut borders = 0;
@@ -522,7 +559,8 @@ mod tests {
         assert!(borders > 15, "{borders}");
     }
 
-    /// As many as there are threads, as each has enough to do, and as have rows to lose on both sides of a border: but no fewer.
+    /// Three limits apply: the threads, the work for each thread, and the rows to omit on both sides of a border.
+    /// Checks that the number of bands is the largest one within them.
     #[cfg(feature = "rayon")]
     #[test]
     fn bands_are_as_many_as_are_worth_it() {

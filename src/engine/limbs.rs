@@ -1,41 +1,55 @@
-//! The exact engine: integer numerators over 3^d, as wide as is proved to be enough.
+//! The exact engine: integer numerators over 3^d, of a width that is proved to be sufficient.
+//!
+//! A `BigInt` for each line would allocate, and would propagate carries at every addition. Here all numbers of a sweep
+//! have the same width, which follows from a bound on all forces. A number is a few limbs of 64 bits, in a redundant
+//! (carry-save) representation: limbs are added without carries, and several passes share one carry propagation.
 //!
 //! # Width
-//! After d changes of sign every force is an integer over D·3^d, D the common denominator of weights and loads
-//! ([`paper`](crate::paper#transfer)). A change of sign triples the half-turn, 3G g = 2Σg − 3g, and no division is left. Let layer κ have n_κ
-//! spheres of weight u and loads e, in mg. G is orthogonal, and so is the way from layer to layer, so in ℓ² over a
-//! layer ‖f‖ ≤ ‖g‖ + √3·‖w‖, and over K layers of N spheres in all, by Cauchy–Schwarz,
+//! After d sign changes every force is an integer over D·3^d, with D the common denominator of weights and loads
+//! ([`paper`](crate::paper#transfer)). A sign change triples the numerators, 3G g = 2Σg − 3g, so nothing is divided.
+//!
+//! Let layer κ have n_κ spheres of weight u and loads e, in mg. G is orthogonal, and each line of a layer continues as
+//! one line of the next. So in the ℓ² norm over a layer ‖f‖ ≤ ‖g‖ + √3·‖w‖. For K layers of N spheres in all, the
+//! Cauchy–Schwarz inequality gives
 //!
 //! ‖f‖ ≤ B = u√(3·K·N) + √3·Σ|e|.
 //!
-//! No sum on the way to 3G g is greater than 2√3·‖g‖: all numbers of a sweep with d changes stay within
-//! 2√3·B·D·3^(d−1), and B·D without one.
+//! No intermediate sum of 3G g exceeds 2√3·‖g‖. So all numbers of a sweep with d sign changes are at most
+//! 2√3·B·D·3^(d−1), and at most B·D without a sign change.
 //!
 //! # Limbs and carries
-//! A number is Σ x_p 2^(55p), one limb x_p in each of P planes, all of them `i64`. Passes are linear, so they act on
-//! each plane by itself, in the same loop; only carries lead from one plane to the next, and they can wait.
+//! A number is Σ x_p 2^(55p). The limb x_p is an `i64` in *limb plane* p, and there are P planes. Passes are linear, so
+//! they act on each plane separately, in the same loop. Only carries connect a plane to the next one, and they can be
+//! deferred.
 //!
-//! Lemma. Right after carrying the lower limbs lie in [−2^54, 2^54). Let M·2^55 bound them after some passes, M = 1/2 at
-//! first. A pass adds an increment's limb, at most 2^54, and turns by 2(b + c) − a.
+//! The idea in base 10, with digits −5 … 4: let the low digits of a, b, c be 3, 4, 4. The transfer 2(b + c) − a gives
+//! 13. It stays in the low position, since 13 is a valid value there until the carry. The carry then writes 3, and adds
+//! 1 to the next digit.
 //!
-//! | after | M | because |
+//! *Lemma.* Immediately after a carry the lower limbs lie in [−2^54, 2^54). Let M·2^55 bound them some passes later,
+//! with M = 1/2 at first. A pass adds a limb of an increment, at most 2^54, and may apply 2(b + c) − a.
+//!
+//! | after | M | reason |
 //! |---|---|---|
-//! | t + 1 passes | 5(M + 1/2) | \|2(b + c) − a\| ≤ 5 max(\|a\|, \|b\|, \|c\|), and no sum on the way is greater |
+//! | t + 1 passes | 5(M + 1/2), with M after t passes | \|2(b + c) − a\| ≤ 5 max(\|a\|, \|b\|, \|c\|), and no intermediate sum is greater |
 //! | 1, 2, 3 passes | 5, 27.5, 140 | |
-//! | 3 passes | 140 | 140·2^55 + 2^54 < 2^8·2^55 = 2^63; the fourth would lead to 702.5 |
+//! | 3 passes | 140 | 140·2^55 + 2^54 < 2^8·2^55 = 2^63; a fourth pass would give 702.5 |
 //!
-//! So carries are due after every third pass. The top limb is the number over 2^(55(P−1)) less what the lower ones still
-//! owe, which is below 2^8. P is the least for which 2√3·B·D·3^(d−1) < 2^62·2^(55(P−1)), and 2^62 + 2^8 < 2^63. Right
-//! after carrying the lower limbs owe less than 1, and no force is greater than √3/2 of that bound: a top limb of 2^62 or
-//! more is an error, and all of them are looked at whenever limbs carry. With one plane nothing is ever carried. d is
-//! the number of changes so far, so there are few planes at the top of a pile and more further down.
+//! So the lower limbs are carried after every third pass.
 //!
-//! Limbs of 51 bits would bear five passes, of 58 two: for many layers there are as few planes as may be, and for few
-//! layers there is as little to carry, where three passes wait.
+//! The top limb equals the number divided by 2^(55(P−1)), less the carries still deferred, which are below 2^8. P is
+//! the least integer with 2√3·B·D·3^(d−1) < 2^62·2^(55(P−1)). Since 2^62 + 2^8 < 2^63, the top limb fits in 64 bits.
 //!
-//! # Passes that wait
-//! Between carries each plane is for itself. Passes wait until carries are due or a number is asked for; then they are
-//! made together, row after row ([`make`]), and each row carries when the last of them has been over it.
+//! Immediately after a carry the deferred part is below 1. No force exceeds √3/2 of the bound above. So a top limb of
+//! 2^62 or more is an error, and every carry checks all top limbs. A single plane needs no carry. P depends on the sign
+//! changes so far, so the layers near the top use few planes, and lower ones use more.
+//!
+//! The limb width is a compromise. Limbs of 51 bits would allow five passes between carries, and limbs of 58 bits two.
+//! Wide limbs keep P small in high piles. Three passes between carries keep the cost of carrying small in low ones.
+//!
+//! # Deferred passes
+//! Between carries the planes are independent. Passes are therefore deferred until a carry is required or a number is
+//! read. Then they are made together, row after row ([`make`]). Each row is carried when the last pass has treated it.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering::{Equal, Less};
@@ -57,67 +71,69 @@ use crate::lattice::Direction;
 /// The bits of a limb below the top one.
 pub(super) const LIMB: u32 = 55;
 
-/// How many passes the lower limbs bear between carries.
+/// The number of passes that the lower limbs allow between two carries.
 const TURNS: u32 = 3;
 
-/// The invariant that the width of the numbers rests on.
+/// The invariant behind the width of the numbers.
 const WIDE_ENOUGH: &str = "no force is wider than the bound on all forces";
 
-/// How wide the numbers of a sweep are.
+/// The width of the numbers of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Size {
-    /// The bits that the proved bound asks for, without a sign.
+    /// The bits that the proved bound requires, without a sign.
     pub(crate) bits: u64,
-    /// The planes of `i64` that hold them.
+    /// The number of `i64` planes that provide these bits.
     pub(crate) planes: usize,
 }
 
 impl Size {
-    /// After so many changes of sign, from a bound no less than 2√3·B·D ([`bound`]).
+    /// Returns the width after some sign changes, from an upper bound of 2√3·B·D ([`bound`]).
     pub(crate) fn new(bound: &BigInt, changes: usize) -> Self {
         let turned = bound * num_traits::pow(BigInt::from(3), changes.saturating_sub(1));
         let bits = turned.bits();
         let planes = match bits.checked_sub(62) {
             None | Some(0) => 1,
-            // Not a default: more planes than can be addressed are refused for their size.
+            // Not a default: a number of planes beyond the address space is refused later for its size.
             Some(over) => 1 + usize::try_from(over.div_ceil(LIMB.into())).unwrap_or(usize::MAX - 1),
         };
         Self { bits, planes }
     }
 
-    /// The bits that there are for them.
+    /// Returns the bits that the planes provide.
     pub(crate) fn reserved(self) -> u64 {
         62 + u64::from(LIMB) * (self.planes as u64 - 1)
     }
 }
 
-/// No less than 2√3·B·D, by 2√3·B ≤ √(36·K·N)·u + 6·Σ|e|, over K = `layers` layers of N = `spheres` spheres in all, with
-/// numerators of `ordinary` for an ordinary sphere and extras that sum to `extras` without their signs.
+/// Returns an upper bound of 2√3·B·D, for K = `layers` layers of N = `spheres` spheres in all.
+///
+/// It follows from 2√3·B ≤ √(36·K·N)·u + 6·Σ|e|. The numerator of an ordinary weight is `ordinary`. The numerators of
+/// the extra weights and loads, without signs, add up to `extras`.
 pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: &BigInt) -> BigInt {
     let area = BigUint::from(layers.unsigned_abs()) * spheres * 36_u32;
     let root = BigInt::from(area.sqrt() + 1_u32);
     root * ordinary.abs() + extras.abs() * 6_u32
 }
 
-/// The numbers of a layer, plane by plane.
+/// The numbers of a layer, one plane for each limb.
 #[derive(Clone, Debug)]
 pub(crate) struct Planes {
-    /// The planes that the numbers fill by now, the lowest first; further down they are more.
+    /// The planes in use, the lowest first. Their number grows on the way down.
     limbs: Vec<Plane<i64>>,
-    /// Memory for moves, kept so that it grows in place.
+    /// A buffer for moves between windows. It is kept, so that it grows in place.
     spare: Vec<i64>,
-    /// No less than 2√3·B·D.
+    /// An upper bound of 2√3·B·D.
     bound: BigInt,
-    /// Passes that were asked for and not made yet.
+    /// The deferred passes, with their increments.
     waiting: Vec<(Pass, [BigInt; 3])>,
-    /// Passes since the last carry, those that wait among them.
+    /// The passes since the last carry, deferred ones included.
     passes: u32,
-    /// Changes of sign so far.
+    /// The number of sign changes so far.
     changes: usize,
 }
 
 impl Planes {
-    /// For a sweep whose numbers are within a bound no less than 2√3·B·D ([`bound`]).
+    /// Returns the planes for a sweep with an upper bound of 2√3·B·D ([`bound`]), all zero.
     pub(crate) fn new(grid: &Grid<'_>, bound: BigInt) -> Self {
         let size = Size::new(&bound, 0);
         Self {
@@ -130,8 +146,10 @@ impl Planes {
         }
     }
 
-    /// Makes room for what the passes that wait lead to. What was the top limb is a lower one then, and carries on all lines
-    /// that the first of them goes along; the others bear as many passes as before.
+    /// Adds the planes that the deferred passes require.
+    ///
+    /// The former top limb becomes a lower one. It is carried on all lines of the first deferred pass. The other limbs
+    /// allow as many passes as before.
     fn grow(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         let had = self.limbs.len();
         let planes = Size::new(&self.bound, self.changes).planes;
@@ -148,7 +166,7 @@ impl Planes {
         Ok(())
     }
 
-    /// Makes the passes that wait, and carries if that is due.
+    /// Makes the deferred passes, and carries the lower limbs if that is required.
     fn make_waiting(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         self.grow(grid)?;
         let planes = self.limbs.len();
@@ -181,20 +199,20 @@ impl Planes {
         check(fits.into_inner())
     }
 
-    /// Returns what consecutive lines carry, by direction, from the top limbs down.
+    /// Returns the limbs of consecutive lines, by direction. The top limbs come first.
     pub(super) fn slices(&self, cells: &[Range<usize>; 3]) -> Vec<[&[i64]; 3]> {
         none_wait(&self.waiting);
         let top_down = self.limbs.iter().rev();
         top_down.map(|plane| plane.slices(cells.clone())).collect()
     }
 
-    /// Whether the three lines of two spheres carry the same limbs, and so the same numbers.
+    /// Returns whether the lines of two spheres have equal limbs. If so, their forces are equal.
     pub(super) fn are_alike(&self, [one, other]: [[usize; 3]; 2]) -> bool {
         let mut planes = self.limbs.iter();
         planes.all(|plane| plane.carried(one) == plane.carried(other))
     }
 
-    /// Brings the lower limbs into [−2^54, 2^54).
+    /// Reduces all lower limbs to [−2^54, 2^54).
     fn carry(&mut self) -> Result<(), Error> {
         self.passes = 0;
         let all = self
@@ -207,15 +225,16 @@ impl Planes {
         check(fits)
     }
 
-    /// Brings the lower limbs of the three lines of one sphere into [−2^54, 2^54).
+    /// Reduces the lower limbs of the three lines of one sphere to [−2^54, 2^54).
     fn carry_at(&mut self, cells: [usize; 3]) -> Result<(), Error> {
         let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
         let fits = carry_rows(&mut planes, &cells.map(|cell| cell..cell + 1));
         check(fits)
     }
 
-    /// Returns the least number on the lines of the layer that a pass led to, and the first place (i, j) and direction, in
-    /// row order, that has it. Carries first.
+    /// Returns the smallest number on the lines of the layer that a pass leads to, and its first position and direction
+    /// in row order. Carries first.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`].
@@ -228,14 +247,15 @@ impl Planes {
             let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
                 for direction in Direction::ALL {
-                    // From the top limb down, limbs in [−2^54, 2^54) compare like digits: what is below a limb is less
-                    // than one of its units.
+                    // Limbs in [−2^54, 2^54) compare like digits, from the top limb down: the lower limbs together are
+                    // less than one unit of the limb above.
                     let limbs = rows.iter().map(|row| row[direction.index()][n]);
                     let order = match &least {
                         Some((least, ..)) => limbs.clone().cmp(least.iter().copied()),
                         None => Less,
                     };
-                    // In row order the first of whole layers is met first; of a third its images may come before.
+                    // In a whole layer, row order finds the first position first. In a third of it, images may precede
+                    // the stored line.
                     if order == Less || order == Equal && grid.corner.is_some() {
                         let first = grid.first_image([i, row.j], direction, pass.k)?;
                         match &mut least {
@@ -259,7 +279,7 @@ fn check(fits: bool) -> Result<(), Error> {
     if fits { Ok(()) } else { Err(bug(WIDE_ENOUGH)) }
 }
 
-/// A least number, and where it is.
+/// The smallest number of a layer, with its position and direction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Least {
     pub(crate) numerator: BigInt,
@@ -300,7 +320,7 @@ impl Layer<BigRational> for Planes {
         for (p, plane) in self.limbs.iter_mut().enumerate() {
             plane.add_to(cells, &[a[p], b[p], c[p]]);
         }
-        // Loads on one line may follow each other without a pass between them.
+        // Several loads may act on one line without a pass between them, so each is carried at once.
         self.carry_at(cells)
     }
 
@@ -319,8 +339,7 @@ impl Layer<BigRational> for Planes {
     }
 }
 
-/// Brings the lower limbs of some cells into [−2^54, 2^54), and returns whether the top limbs are as small as the width
-/// of the numbers promises.
+/// Reduces the lower limbs of some cells to [−2^54, 2^54). Returns whether the top limbs are within the proved width.
 fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool {
     for p in 1..planes.len() {
         let (below, above) = planes.split_at_mut(p);
@@ -335,11 +354,12 @@ fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool
     top.into_iter().flatten().all(|top| are_within_2_62(top))
 }
 
-/// Hands on to the next limbs what is beyond [−2^54, 2^54).
+/// Carries to the next limbs the parts outside [−2^54, 2^54).
 #[inline(never)]
 fn carry(lower: &mut [i64], upper: &mut [i64]) {
     const HALF: i64 = 1 << (LIMB - 1);
-    // x >> 55 rounded down, by way of x + 2^63: vectors of old processors shift no signed numbers.
+    // Computes x >> 55, rounded down, from the unsigned x + 2^63: old processors have no vector shift of signed
+    // numbers.
     const OFFSET: u64 = 1 << 63;
     for (x, next) in lower.iter_mut().zip(upper) {
         let moved = (*x + HALF).cast_unsigned();
@@ -348,27 +368,28 @@ fn carry(lower: &mut [i64], upper: &mut [i64]) {
     }
 }
 
-/// Whether all of these are at least −2^62 and below 2^62: their two highest bits are alike.
+/// Returns whether all limbs are at least −2^62 and below 2^62. Then their two highest bits are equal.
 fn are_within_2_62(limbs: &[i64]) -> bool {
     limbs.iter().fold(0, |unlike, x| unlike | (x ^ (x << 1))) >= 0
 }
 
-/// The number of these limbs, from the top one down.
+/// Returns the number with these limbs, the top one first.
 fn value<'a>(top_down: impl Iterator<Item = &'a i64>) -> BigInt {
     top_down.fold(BigInt::zero(), |value, limb| (value << LIMB) + *limb)
 }
 
-/// An integer as limbs, from the lowest up: all but the top one in [−2^54, 2^54). `None` if the top one is none.
+/// Returns the limbs of an integer, the lowest first. All but the top one lie in [−2^54, 2^54). Returns `None` if the
+/// top limb exceeds an `i64`.
 pub(super) fn limbs(value: &BigInt, planes: usize) -> Option<Vec<i64>> {
     const BASE: i64 = 1 << LIMB;
     let sign = if value.is_negative() { -1 } else { 1 };
     let mut words = value.iter_u64_digits();
-    // The next bits of the magnitude, of at most two words, and what the limb below hands on.
+    // `bits` holds the next bits of the magnitude, at most two words. `carried` is the carry from the limb below.
     let (mut bits, mut held, mut carried) = (0_u128, 0, 0);
     let mut limbs = Vec::with_capacity(planes);
     for _ in 1..planes {
         if held < LIMB {
-            // Not a default: above the highest word there are zeros.
+            // Not a default: above the highest word all bits are zero.
             bits |= u128::from(words.next().unwrap_or(0)) << held;
             held += u64::BITS;
         }
@@ -403,7 +424,7 @@ mod tests {
         planes
     }
 
-    /// As many loads on one line as a limb would not bear without carrying: 2^16 times nearly 2^54.
+    /// Without carries a limb would overflow: 2^16 loads of nearly 2^54 act on one line.
     #[test]
     fn loads_that_follow_each_other_do_not_fill_a_limb() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
@@ -419,7 +440,8 @@ mod tests {
         assert_eq!(planes.at(cells), [sum.clone(), BigInt::zero(), -sum]);
     }
 
-    /// 2^55 + 10 in the lower limb alone, before it is carried, and 2^55 + 5 in both: by the top limbs the first would be the less.
+    /// One number has 2^55 + 10 in its lower limb, uncarried. Another has 2^55 + 5 in both limbs. By the top limbs
+    /// alone the first would be the smaller.
     #[test]
     fn the_least_is_looked_for_among_what_is_carried() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
@@ -454,7 +476,7 @@ mod tests {
         }
     }
 
-    /// 2√3·B·D ≤ the bound < 2√3·B·D + 7, for B = u√(3KN) + √3·Σ|e|: squared, and so in integers.
+    /// Checks 2√3·B·D ≤ bound < 2√3·B·D + 7 for B = u√(3KN) + √3·Σ|e|. Squares keep the comparison in integers.
     #[test]
     fn the_bound_is_what_is_proved_and_hardly_more() {
         for (layers, spheres, ordinary, extras) in [
@@ -477,7 +499,7 @@ mod tests {
         }
     }
 
-    /// The table of the lemma: M in halves, and the fourth pass that would be too much.
+    /// Checks the table of the lemma, with M in halves, and that a fourth pass would overflow.
     #[test]
     fn lower_limbs_bear_three_passes_and_no_more() {
         let half = 1_i128 << (LIMB - 1);
@@ -487,8 +509,8 @@ mod tests {
         assert!(bounds(TURNS + 1) * half >= 1 << 63);
     }
 
-    /// Three turns of limbs that are as great as limbs can be, each with increments that are, too: 3^3 times as great at
-    /// least. Overflow is noticed in a checked run.
+    /// Turns the greatest limbs three times, each time after increments as great. They grow by 3^3 at least. A checked
+    /// build detects an overflow.
     #[test]
     fn great_limbs_do_not_overflow() {
         let half = 1_i64 << (LIMB - 1);
@@ -514,7 +536,7 @@ mod tests {
         assert!(!are_within_2_62(&[within, within, 0]));
     }
 
-    /// All lines of all layers, in limbs and in big integers, down to many planes.
+    /// Compares all lines of all layers, in limbs and in big integers, down to many planes.
     fn compare(pile: &Pile) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         let lines = Lines::<BigRational>::new(&system);
@@ -522,7 +544,7 @@ mod tests {
             exact_sweep(&lines, &system, last).unwrap();
         let mut plain: Descent<'_, BigRational, Cells<BigInt>> =
             plain_sweep(&lines, &system, last).unwrap();
-        // Far, so that passes wait, and then one by one.
+        // Large steps first, so that passes are deferred, then single layers.
         for k in (0..=last).filter(|k| *k % 13 == 7 || last - *k < 4) {
             exact.advance(k, crate::engine::Meter::NONE).unwrap();
             plain.advance(k, crate::engine::Meter::NONE).unwrap();
@@ -533,7 +555,7 @@ mod tests {
         }
     }
 
-    /// Numbers that grow from one limb to two on the way.
+    /// The numbers grow from one limb to two within the pile.
     #[test]
     fn the_first_numbers_of_two_limbs_are_what_big_integers_are() {
         let pile = Pile::under(Region::SITE, "+-".repeat(21).parse().unwrap()).unwrap();
@@ -543,7 +565,7 @@ mod tests {
         compare(&pile);
     }
 
-    /// Lines that begin within a run, with a load, before the pass through it makes room for another limb.
+    /// Lines begin within a run and carry a load, before the pass through that run adds a plane.
     #[test]
     fn loads_of_a_run_are_carried_into_a_new_limb() {
         let stacking = "-+-----+-+-+".parse().unwrap();
@@ -576,7 +598,7 @@ mod tests {
         }
     }
 
-    /// Two changes of sign need a bit more than there is in one limb, which the pass to the second makes room for.
+    /// Two sign changes need slightly more bits than one limb has. The pass to the second one adds a plane.
     #[test]
     fn limbs_grow_with_the_pass_that_turns() {
         let shape = Shape::under(Region::SITE, "+-++-".parse().unwrap()).unwrap();
@@ -602,7 +624,7 @@ mod tests {
         assert!(matches!(added, Err(Error::Bug { .. })));
     }
 
-    /// Into [−2^54, 2^54), and no further.
+    /// A carry reduces limbs to [−2^54, 2^54), and not further.
     #[test]
     fn no_more_is_carried_than_must_be() {
         let half = 1_i64 << (LIMB - 1);
@@ -621,7 +643,7 @@ mod tests {
         assert_eq!(limbs(&(half - 1).into(), 2), Some(alloc::vec![half - 1, 0]));
     }
 
-    /// From the least to the greatest number that so many limbs are, and no further.
+    /// Converts the smallest and the largest number of so many limbs, and refuses the next ones.
     #[test]
     fn what_is_wider_than_its_limbs_is_none() {
         let half = 1_i64 << (LIMB - 1);
@@ -634,7 +656,7 @@ mod tests {
             let [least, greatest] = ends.each_ref().map(|limbs| value(limbs.iter().rev()));
             let of = |number: &BigInt| limbs(number, below + 1);
             assert_eq!([of(&least), of(&greatest)], ends.map(Some));
-            // The last two with every bit of two words above the limbs that are cut off, and half a limb below.
+            // In the last two, all bits of two words above the limbs are one, and the lower bits are half a limb.
             let bits: BigInt = (BigInt::from(1) << 127) - 1;
             let bits: BigInt = ((bits * 2 + 1) << (LIMB as usize * below)) / 2;
             let wider: [BigInt; 4] = [least - 1, greatest + 1, bits.clone(), -bits];

@@ -1,7 +1,21 @@
-//! Layer after layer, one layer in memory: the method *sweep*.
+//! The method *sweep*: from the top down, layer by layer, with one layer in memory.
 //!
-//! The passes are linear, and alike for every number: a [`Cells`] of the numerators of a scalar is the generic sweep;
-//! several of `i64`, one for each limb, are the exact engine ([`Planes`]). Where lines have their cells: [`Grid`].
+//! In numerical terms a sweep applies a transfer matrix, without assembling it. The state is three forces from above
+//! for each sphere of a layer. One step maps it linearly to the state of the next layer:
+//!
+//! 1. At a sign change, each sphere replaces its three forces g by G g, with G = (2/3)J − I.
+//! 2. Each sphere adds its own weight, one increment to each line.
+//! 3. Each line continues to the sphere below. This permutes the state, and a [`Grid`] makes it free.
+//!
+//! For example, let one sphere lie on "+−". It transmits (1, 0, 0), (0, 1, 0) and (0, 0, 1) to its three supports. The
+//! sign changes there, so the first of them transmits G(1, 0, 0) + (1, 1, 1) = (2/3, 5/3, 5/3), in f₀.
+//!
+//! Between two sign changes the second step is all that remains. So a whole run is one *pass*: it adds to each line the
+//! increments of all spheres of the run that lie on it.
+//!
+//! The step is the same for every type of number. A [`Cells`] of the numerators of a scalar gives the generic sweep.
+//! [`Planes`] of `i64`, one for each limb, give the exact engine. All memory is for one layer, and no call is
+//! recursive.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -22,16 +36,16 @@ use crate::error::bug;
 use crate::lattice::{Region, Row, Site};
 use crate::scalar::{Algebra, CorrectlyRounded};
 
-/// A pile on its way down: the forces of one layer.
+/// The state of a sweep: the forces on all lines of one layer.
 #[derive(Clone, Debug)]
 pub(crate) struct Descent<'p, T: Algebra, S> {
     lines: Lines<'p, T>,
     grid: Grid<'p>,
     layer: S,
-    /// The last pass; none at the top.
+    /// The last pass, or `None` at the top.
     pass: Option<Pass>,
     k: i128,
-    /// Whether the extra weights and loads of layer `k` are on its lines already.
+    /// Whether the lines already contain the extra weights and loads of layer `k`.
     extras_added: bool,
 }
 
@@ -47,12 +61,13 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         }
     }
 
-    /// The layer that it is at.
+    /// Returns the current layer.
     pub(crate) fn k(&self) -> i128 {
         self.k
     }
 
-    /// Returns the spheres of this layer that are kept: all, or a third of them, of which the others are images.
+    /// Returns the stored spheres of the current layer: all of them, or a third whose images are the rest.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`].
@@ -60,7 +75,8 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         self.grid.part(self.k)
     }
 
-    /// Goes down to layer `k`, if it is further down.
+    /// Advances to layer `k`. Does nothing if the sweep is there already, or further down.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`].
@@ -82,7 +98,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             meter.pass();
             if meter.counts() && pass.turns {
                 let sites = pass.part.site_count().to_usize();
-                // Not a default: more than a counter holds are counted as the most.
+                // Not a default: a count beyond `usize` is reported as its maximum.
                 meter.turn(sites.unwrap_or(usize::MAX));
             }
             (self.k, self.pass, self.extras_added) = (pass.k, Some(pass), false);
@@ -90,7 +106,8 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         self.layer.catch_up(&self.grid)
     }
 
-    /// Puts the extra weights and loads of this layer on its lines.
+    /// Adds the extra weights and loads of the current layer to its lines.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`].
@@ -114,17 +131,17 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         Ok(())
     }
 
-    /// Returns the forces from above on a sphere of this layer, which must be the last of the sweep.
+    /// Returns the forces from above on a sphere of the current layer.
     ///
     /// # Errors
-    /// [`Error::Bug`] if the sphere is of another layer.
+    /// [`Error::Bug`] if the sphere belongs to another layer.
     pub(crate) fn received(&self, site: Site) -> Result<Received<T>, Error> {
         if site.k != self.k {
             return Err(bug("a sweep is asked of the layer that it is at"));
         }
         let ([i, j], turns) = self.grid.kept([site.i, site.j], site.k)?;
         let mut forces = self.layer.at(self.grid.site(i, j, site.k)?);
-        // Each from the line that the turns lead it to.
+        // The rotation maps each direction to the one whose line carries its force.
         forces.rotate_left(turned(0, turns));
         Ok(Received {
             forces,
@@ -132,13 +149,13 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         })
     }
 
-    /// The changes of sign across which what the lines carry is turned.
+    /// Returns the number of sign changes that the numbers on the lines already include.
     pub(crate) fn turned_already(&self) -> usize {
         let turns = self.pass.is_some_and(|pass| pass.turns);
         self.changes() + usize::from(turns)
     }
 
-    /// The changes of sign above the layer that it is at.
+    /// Returns the number of sign changes above the current layer.
     fn changes(&self) -> usize {
         match self.pass {
             Some(pass) => pass.run.index,
@@ -146,10 +163,10 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         }
     }
 
-    /// Returns what a sphere of this layer passes on.
+    /// Returns the forces that a sphere of the current layer transmits to its supports.
     ///
     /// # Errors
-    /// [`Error::Bug`] if the sphere is of another layer.
+    /// [`Error::Bug`] if the sphere belongs to another layer.
     pub(crate) fn transmitted(&self, site: Site, meter: Meter<'_>) -> Result<Received<T>, Error> {
         let Received { forces, changes } = self.received(site)?;
         Ok(match self.pass {
@@ -162,7 +179,8 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
 }
 
 impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
-    /// Returns what the lines of any row of this layer carry: [`Error::Bug`] for a row of another one.
+    /// Returns a function from a row of the current layer to the forces on its lines. It returns [`Error::Bug`] for a
+    /// row of another layer.
     pub(crate) fn carried_by_rows<'s>(
         &'s self,
     ) -> impl Fn(&Row) -> Result<[&'s [T::Numerator]; 3], Error> + use<'s, 'p, T> {
@@ -172,11 +190,11 @@ impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
 }
 
 impl Descent<'_, BigRational, Planes> {
-    /// Writes the floats nearest to what a readout makes of the lines of a row of this layer; returns whether all of them
-    /// are floats.
+    /// Writes the correctly rounded values of a readout for a row of the current layer. Returns whether every value is
+    /// a float.
     ///
     /// # Errors
-    /// [`Error::Bug`] if the row is of another layer.
+    /// [`Error::Bug`] if the row belongs to another layer, or exceeds the stored part of it.
     pub(crate) fn nearest_row<F: CorrectlyRounded>(
         &self,
         row: &Row,
@@ -191,10 +209,13 @@ impl Descent<'_, BigRational, Planes> {
         readout.write(units, &self.layer.slices(&cells), out)
     }
 
-    /// Returns whether two spheres that are kept of this layer receive and weigh the same; it may not be seen of all that do.
+    /// Returns whether two stored spheres of the current layer have equal forces and equal weights.
+    ///
+    /// The limbs are compared, and equal numbers may have different limbs. So the answer may be `false` for equal
+    /// forces.
     ///
     /// # Errors
-    /// [`Error::Bug`] for a sphere that is not kept.
+    /// [`Error::Bug`] for a sphere that is not stored.
     pub(crate) fn are_alike(&self, [one, other]: [Site; 2]) -> Result<bool, Error> {
         let extra = |site| self.lines.extra_weights.contains_key(&site);
         let cells = |Site { i, j, k }| self.grid.site(i, j, k);
@@ -202,7 +223,7 @@ impl Descent<'_, BigRational, Planes> {
         Ok(alike && !extra(one) && !extra(other))
     }
 
-    /// Returns the least number on the lines of this layer, and where it is.
+    /// Returns the smallest number on the lines of the current layer, and its position.
     ///
     /// # Errors
     /// [`Error::Bug`] at the top, where no line has begun.
@@ -227,7 +248,7 @@ mod tests {
         Pile::under(Region::SITE, "+-+-+-".parse().unwrap()).unwrap()
     }
 
-    /// What is written of a row when the sweep is at layer 4.
+    /// Writes a row when the sweep is at layer 4.
     fn write(row: &Row) -> Result<bool, Error> {
         let pile = pile();
         let system = pile.system();
@@ -256,7 +277,7 @@ mod tests {
         }
     }
 
-    /// The second row of layer 4, with so many spheres more before and behind it, as one of a layer.
+    /// Returns the second row of layer 4 as a row of layer `k`, extended by so many sites at either end.
     fn row(k: i128, [before, behind]: [i128; 2]) -> Row {
         let layer = pile().shape().layer(4).unwrap();
         let Row { j, i, .. } = layer.rows(4).nth(1).unwrap();
