@@ -1,4 +1,4 @@
-//! The layer of an engine that works in the numbers of a scalar: its passes wait for each other.
+//! The layer of a sweep in the numerators of a scalar, with deferred passes.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -11,10 +11,10 @@ use super::plane::{Plane, Ramps};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
-/// Passes that wait for each other, at the most, where nothing else says when.
+/// The number of deferred passes after which they are made, unless a number is read before.
 const WAITING: usize = 8;
 
-/// A number for each line of a layer, and the passes that were asked for and not made yet.
+/// One number for each line of a layer, and the deferred passes with their increments.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells<V> {
     plane: Plane<V>,
@@ -29,7 +29,7 @@ impl<V: Clone> Cells<V> {
         }
     }
 
-    /// What consecutive lines carry, by direction.
+    /// Returns the numbers on consecutive lines, by direction.
     pub(super) fn slices(&self, cells: [Range<usize>; 3]) -> [&[V]; 3] {
         none_wait(&self.waiting);
         self.plane.slices(cells)

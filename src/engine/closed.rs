@@ -1,4 +1,8 @@
-//! Forces below no sign change, in closed form: the paper, (8) and (9), with the loads on the line.
+//! The method *closed*: forces below no sign change, by the paper's (8) and (9), with the loads on the line.
+//!
+//! Within a run the force on a line is its increment times the number of spheres above on it. So a force takes O(1)
+//! operations, whatever the height. Each load on the line adds one term. Below a sign change the lines mix, and no such
+//! formula exists.
 
 use num_traits::Zero;
 
@@ -11,8 +15,10 @@ use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::Stretch;
 
-/// Returns the force below a sphere of a straight stacking along one line, whose site the caller has checked: one increment
-/// more than the spheres above it on the line. `None` where a sign changes, or another method was asked for.
+/// Returns the force that a sphere of a straight stacking transmits along one line.
+///
+/// It is one increment more than the spheres above it on the line contribute. The caller has checked the site. Returns
+/// `None` if the stacking has a sign change, or if another method is required.
 pub(crate) fn closed_contact<T: Algebra>(
     lines: &Lines<'_, T>,
     (site, direction): (Site, Direction),
@@ -33,8 +39,9 @@ pub(crate) fn closed_contact<T: Algebra>(
 }
 
 impl<T: Algebra> Lines<'_, T> {
-    /// The forces from above on a sphere above which no sign changes, whose site the caller has checked; zero on lines
-    /// not wanted. `None` below a change.
+    /// Returns the forces from above on a sphere without a sign change above it, and zero on lines that are not wanted.
+    ///
+    /// The caller has checked the site. Returns `None` below a sign change.
     pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
         let Site { i, j, k } = site;
         let Some(run) = self.shape.stretch_to(k) else {
@@ -53,7 +60,7 @@ impl<T: Algebra> Lines<'_, T> {
         }))
     }
 
-    /// What the `n` spheres above a site on a line add to it, over the first denominator.
+    /// Returns the sum that the `n` spheres above a site add to a line, over the first denominator.
     pub(super) fn counted(
         &self,
         run: Stretch,

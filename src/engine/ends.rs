@@ -1,8 +1,17 @@
-//! Where the forces of a layer take their extremes.
+//! Candidate sites for the extremes of the forces in a layer.
 //!
-//! Along a row the forces are linear between few places, and what is looked for is greatest at the ends of such pieces:
-//! a linear function of the three forces, and the ratio of shear to normal force. The lemma and its reason are in
-//! [`paper`](crate::paper#extremes). A layer has as many rows as a side has spheres: far fewer places than spheres.
+//! Along a row the forces are piecewise linear, with few pieces. A linear function of the three forces takes its
+//! extremes at the ends of a piece. So does the ratio of shear to normal force. [`paper`](crate::paper#extremes) gives
+//! the lemma with its reason. A search therefore visits the ends of the pieces: a few sites for each row, instead of
+//! all its spheres.
+//!
+//! For example, the count of spheres on a line may run along a row as follows:
+//!
+//! ```text
+//! site     0  1  2  3  4  5  6  7
+//! count    1  2  3  3  3  3  2  1
+//! ends     x     x        x     x
+//! ```
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -15,11 +24,11 @@ use crate::lattice::Direction;
 use crate::scalar::Algebra;
 use crate::shape::Stretch;
 
-/// The ends of pieces in a row, if nothing special meets it: the ends of the row, and three places for each line.
+/// The maximum number of ends in an ordinary row: the two ends of the row, and four sites for each of the three lines.
 const ENDS_OF_A_ROW: u32 = 14;
 
 impl<T: Algebra> Lines<'_, T> {
-    /// Returns how many sites [`ends_of_pieces`](Self::ends_of_pieces) has at most.
+    /// Returns an upper bound of the number of sites that [`ends_of_pieces`](Self::ends_of_pieces) yields.
     pub(crate) fn most_ends_of_pieces(&self, k: i128) -> Result<BigUint, Error> {
         let region = self.shape.layer(k)?;
         let rows = BigUint::from((region.y().end() - region.y().start() + 1).unsigned_abs());
@@ -30,8 +39,10 @@ impl<T: Algebra> Lines<'_, T> {
         Ok(rows * ENDS_OF_A_ROW + (starts + self.extra_weights.len()) * 9_u32)
     }
 
-    /// Returns the rows of layer `k`, each with the places i where a piece of it ends: with all spheres whose lines come
-    /// from a change of sign, or carry more than ordinary weights of the last run, and their neighbours.
+    /// Returns the rows of layer `k`, each with the sites at which a linear piece of the forces ends.
+    ///
+    /// They include every sphere on a line from a sign change, and its neighbours. They also include every sphere on a
+    /// line with an extra weight of the last run, and its neighbours.
     pub(crate) fn ends_of_pieces(
         &self,
         k: i128,
@@ -45,7 +56,7 @@ impl<T: Algebra> Lines<'_, T> {
                 let steps = k - run.from;
                 let start = row.i.start;
                 for count in self.shape.row_counts(&run, k, [start, row.j]) {
-                    // A count that does not rise, or fall, is level to the end of the row.
+                    // A count that does not rise, or does not fall, is level up to that end of the row.
                     let level = (
                         match count.rises {
                             Some(rises) => start - rises + count.cap,
@@ -73,8 +84,8 @@ impl<T: Algebra> Lines<'_, T> {
         }))
     }
 
-    /// The spheres of layer `k` that weigh more, and those on whose lines, within the run down to there, such spheres
-    /// lie, with the places beside them, by row.
+    /// Returns, by row, the sites of layer `k` with an extra weight, or with one above them on a line of the run `run`.
+    /// Their neighbours in the row are included.
     fn ends_of_extras(&self, k: i128, run: Option<Stretch>) -> BTreeMap<i128, Vec<i128>> {
         let mut rows: BTreeMap<i128, Vec<i128>> = BTreeMap::new();
         let mut meet = |[i, j]: [i128; 2]| {
@@ -103,7 +114,7 @@ mod tests {
     use crate::engine::Wanted;
     use crate::lattice::{Region, Site};
 
-    /// Straight, with changes of sign, on lines of odd and even length, with a load inside and one on the floor.
+    /// Straight stackings and sign changes, lines of odd and of even length, with a load inside and one near the floor.
     fn piles() -> Vec<Pile> {
         let tops = [
             Region::SITE,
@@ -127,14 +138,14 @@ mod tests {
         piles
     }
 
-    /// Where a site is not listed, each force is halfway between those beside it: no end of a piece is left out.
+    /// At a site that is not listed, each force is the mean of the forces on its two neighbours. So no end is missing.
     #[test]
     fn forces_are_linear_between_them() {
         let unlisted = are_linear(piles());
         assert!(unlisted > 1000, "{unlisted}");
     }
 
-    /// Lines that end before they are as long as the run, on rows of odd and even length.
+    /// Lines that end at a surface within the run, on rows of odd and even length.
     #[test]
     fn forces_under_a_few_spheres_are_linear_between_them() {
         let low = Region::new(-3..=3, -4..=4, -2..=5).unwrap();
@@ -148,8 +159,8 @@ mod tests {
         assert!(unlisted > 100, "{unlisted}");
     }
 
-    /// On a base that is cut off at a corner lines rise and fall again before they are as long as the run: to a top of one
-    /// place, or of two.
+    /// A base whose corner is cut off: the counts rise and fall before they reach the length of the run. Their maximum
+    /// covers one site or two.
     #[test]
     fn forces_on_a_base_are_linear_between_them() {
         let cut = Region::new(0..=12, 0..=18, 9..=18).unwrap();
@@ -160,7 +171,7 @@ mod tests {
         assert!(unlisted > 100, "{unlisted}");
     }
 
-    /// Where no line has begun.
+    /// In the top layer no line has begun.
     #[test]
     fn a_row_of_the_top_has_its_ends() {
         let pile = Pile::under(Region::triangle(4).unwrap(), "+".parse().unwrap()).unwrap();
@@ -179,7 +190,7 @@ mod tests {
         );
     }
 
-    /// How many sites are not listed; each has forces halfway between those beside it.
+    /// Returns the number of sites that are not listed. Checks that each has the mean force of its neighbours.
     fn are_linear(piles: impl IntoIterator<Item = Pile>) -> usize {
         let mut unlisted = 0;
         for pile in piles {

@@ -1,15 +1,18 @@
-//! Where the lines of a layer have their cells.
+//! The memory layout of a sweep: one cell for each line of contacts.
 //!
-//! # Lines keep their cells
-//! From layer to layer every line of contacts goes on: each sphere receives three and passes three on. So a line is
-//! given a cell, once for all, named by where the line will be in the last layer: the lines of direction α by the site
-//! (i, j) they end at, and a sphere (i, j) of layer k finds its three lines at
+//! # Cells of lines
+//! From one layer to the next every line of contacts continues: each sphere receives three forces and transmits three.
+//! So a line has one cell for the whole sweep. The cell is named by the position of the line in the last layer. A
+//! sphere (i, j) of layer k finds its three lines in the cells
 //!
-//! α: (i, j), β: (i+o, j), γ: (i, j+o), where o is the net number of + steps from layer k to the last one.
+//! α: (i, j), β: (i+o, j), γ: (i, j+o), with o the net number of + steps from layer k to the last one.
 //!
-//! A step without a change of sign moves nothing: lines count up, and a whole run is one pass that adds to each cell
-//! the increments of the spheres on it ([`Region::spheres_above`]). A change of sign turns the three cells of each
-//! sphere in place. A line that has not begun is a cell that holds zero.
+//! For example, a pile of three layers has the stacking "++". For its top sphere (0, 0) the offset o is 2. Its lines
+//! have the cells (0, 0), (2, 0) and (0, 2): they end in the three corners of the base.
+//!
+//! So a step moves no number. A whole run is one pass, which adds to each cell the increments of the spheres on its
+//! line ([`Region::spheres_above`]). A sign change turns the three cells of each sphere in place. The cell of a line
+//! that has not begun contains zero.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -22,54 +25,55 @@ use crate::lattice::Region;
 use crate::scalar::Algebra;
 use crate::shape::{Shape, Stretch};
 
-/// The most numbers that a sweep keeps, 1 GiB of `i64`.
+/// The maximum number of values in a sweep: 1 GiB of `i64`.
 pub(crate) const MAX_NUMBERS: u64 = 1 << 27;
 
-/// A number of a plane has eight; and as many are for what is computed from it.
+/// The bytes for each value: eight in its plane, and eight for the results.
 const BYTES: usize = 16;
 
-/// Where the lines of a layer have their cells.
+/// The cells of the lines of contacts in a sweep, or in a window of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid<'p> {
     pub(super) shape: &'p Shape,
-    /// The layer that names the cells: the last one of the sweep, or of its window.
+    /// The layer whose sites name the cells: the last one of the sweep, or of the window.
     pub(super) last: i128,
     /// The last layer of the sweep.
     pub(super) end: i128,
-    /// The least i and i+j of layer `last`, if a third of each layer is kept.
+    /// The lower bounds of i and i+j in layer `last`, if a third of each layer is stored.
     pub(super) corner: Option<[i128; 2]>,
     first_row: i128,
-    /// By row of the last layer: its first site and that site's cell.
+    /// For each row of the last layer: its first site, and the cell of that site.
     rows: Vec<(i128, usize)>,
     pub(super) cells: usize,
 }
 
-/// One pass: the layer that it leads to, and where that layer's rows lie.
+/// One pass of a sweep: through a run, or a part of one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pass {
-    /// The run passed through, down to `k`.
+    /// The run of the pass. It may continue below layer `k`.
     pub(crate) run: Stretch,
-    /// Whether a change of sign follows at layer `k`.
+    /// Whether the sign changes at layer `k`.
     pub(crate) turns: bool,
-    /// The layer that the pass begins at.
+    /// The layer at which the pass begins.
     pub(crate) from: i128,
-    /// The layer that it leads to.
+    /// The layer at which the pass ends.
     pub(crate) k: i128,
     pub(crate) region: Region,
-    /// The spheres of it that are kept.
+    /// The stored spheres of `region`.
     pub(crate) part: Region,
     /// The net number of + steps from layer `k` to the last one.
     pub(super) shift: i128,
 }
 
 impl Pass {
-    /// The rows that are kept.
+    /// Returns the stored rows.
     pub(super) fn rows(&self) -> Range<i128> {
         let rows = self.part.y();
         *rows.start()..rows.end() + 1
     }
 
-    /// No line of the layer has more spheres of the pass on it: not more than steps, nor than sites on a side.
+    /// Returns an upper bound of the spheres of the pass on one line: the steps of the pass, and the sides of the
+    /// layer.
     pub(super) fn greatest_count(&self) -> i128 {
         let widths = self.region.widths();
         widths.into_iter().fold(self.k - self.from, i128::min)
@@ -77,7 +81,8 @@ impl Pass {
 }
 
 impl<'p> Grid<'p> {
-    /// The cells of a sweep from the top to layer `last`, each of `planes` numbers.
+    /// Returns the cells of a sweep from the top to layer `last`, each of `planes` numbers.
+    ///
     ///
     /// # Errors
     /// [`Error::TooLarge`], with the size; [`Error::LayerOutside`].
@@ -86,10 +91,10 @@ impl<'p> Grid<'p> {
         Self::over(shape, [last, last], None, &shape.layer(last)?)
     }
 
-    /// The cells of a sweep to layer `end`, named by the places of layer `last` in a region.
+    /// Returns the cells of a sweep to layer `end`, named by the sites of layer `last` within a region.
     ///
     /// # Errors
-    /// [`Error::Bug`] for a row that no memory holds.
+    /// [`Error::Bug`] for a row that exceeds the address space.
     pub(super) fn over(
         shape: &'p Shape,
         [last, end]: [i128; 2],
@@ -113,7 +118,8 @@ impl<'p> Grid<'p> {
         })
     }
 
-    /// How many numbers they are.
+    /// Returns the number of values in such a sweep.
+    ///
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -128,11 +134,11 @@ impl<'p> Grid<'p> {
         Ok(numbers)
     }
 
-    /// Returns the next pass on the way from layer `from` down to layer `to`: through one run, or as far as it is asked
-    /// for, and not beyond the cells. `None` where there is none.
+    /// Returns the next pass from layer `from` towards layer `to`. It ends with its run, at layer `to`, or with the
+    /// window, whichever comes first. Returns `None` if `from` is not above that layer.
     ///
     /// # Errors
-    /// [`Error::Bug`] if a line of the layer that it leads to has no cell.
+    /// [`Error::Bug`] if a line of the layer where the pass ends has no cell.
     pub(crate) fn pass(&self, from: i128, to: i128) -> Result<Option<Pass>, Error> {
         let to = to.min(self.last);
         if from >= to {
@@ -150,7 +156,7 @@ impl<'p> Grid<'p> {
             part: self.part(k)?,
             shift: self.shift(k),
         };
-        // Layers are convex, and so are the places their lines lead to: the corners speak for all.
+        // Layers are convex, and so are the cells of their lines. So a check of the corners suffices.
         let places = pass.part.corners().into_iter().flat_map(|[i, j]| {
             let shift = pass.shift;
             [[i, j], [i + shift, j], [i, j + shift]]
@@ -161,14 +167,15 @@ impl<'p> Grid<'p> {
         Ok(Some(pass))
     }
 
-    /// Returns the spheres of a layer that a sweep keeps.
+    /// Returns the spheres of a layer that the sweep stores.
+    ///
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
     pub(crate) fn part(&self, k: i128) -> Result<Region, Error> {
         let layer = self.shape.layer(k)?;
         match self.corner {
-            // Lower by one for each + step.
+            // The corner is lower by one for each + step between the layers.
             Some(corner) => cut(&layer, corner, (self.last - k).midpoint(self.shift(k))),
             None => Ok(layer),
         }
@@ -178,10 +185,10 @@ impl<'p> Grid<'p> {
         self.shape.shift(self.last) - self.shape.shift(k)
     }
 
-    /// Returns the cells of consecutive lines, from that to the place (i, j) of the last layer on.
+    /// Returns the cells of `length` consecutive lines, from the line that ends at site (i, j) of the last layer.
     ///
     /// # Errors
-    /// [`Error::Bug`] if not all of their places are in it.
+    /// [`Error::Bug`] if one of them is outside.
     fn cells(&self, i: i128, j: i128, length: usize) -> Result<Range<usize>, Error> {
         let cells = self.cells_in_row(i, j, length);
         cells.ok_or_else(|| bug("every line of a layer goes on to the last one"))
@@ -200,7 +207,7 @@ impl<'p> Grid<'p> {
     /// Returns the first cell of row j of the last layer.
     ///
     /// # Errors
-    /// [`Error::Bug`] if it has no such row.
+    /// [`Error::Bug`] if the layer does not have this row.
     pub(super) fn row_start(&self, j: i128) -> Result<usize, Error> {
         let row = usize::try_from(j - self.first_row).ok();
         let row = row.and_then(|row| self.rows.get(row));
@@ -209,6 +216,7 @@ impl<'p> Grid<'p> {
     }
 
     /// Returns the cells of a row of sites of a layer, by direction.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`] if one of their lines has no cell.
@@ -228,6 +236,7 @@ impl<'p> Grid<'p> {
 
     /// Returns the cells of a sphere of layer `k`, by direction.
     ///
+    ///
     /// # Errors
     /// As for [`row`](Self::row).
     pub(crate) fn site(&self, i: i128, j: i128, k: i128) -> Result<[usize; 3], Error> {
@@ -236,28 +245,29 @@ impl<'p> Grid<'p> {
     }
 }
 
-/// From where the numbers of the next window come.
+/// The moves of numbers from one window to the next.
 #[derive(Default)]
 pub(crate) struct Moves {
-    /// From the same lines.
+    /// Rows whose lines are stored in both windows.
     pub(super) rows: Vec<Piece>,
-    /// One by one from images.
+    /// Single lines, each copied from an image under the threefold symmetry.
     pub(super) images: Vec<Piece>,
 }
 
-/// Numbers that are in other cells in the next window: direction and first cell in both, and how many.
+/// A piece of a row that is stored in other cells of the next window: direction and first cell in both, and the length.
 pub(super) struct Piece {
     pub(super) from: (usize, usize),
     pub(super) to: (usize, usize),
     pub(super) length: usize,
 }
 
-/// The numbers of a layer, in one of the ways they are kept.
+/// The numbers on the lines of a layer, in one of several representations.
 pub(crate) trait Layer<T: Algebra> {
-    /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there. May note it only.
+    /// Makes a pass: adds its increments, by direction, and turns the forces if it ends at a sign change. May defer
+    /// this work.
     ///
     /// # Errors
-    /// [`Error::Bug`] for numbers wider than they can be.
+    /// [`Error::Bug`] for a number beyond its proved width.
     fn pass(
         &mut self,
         grid: &Grid<'_>,
@@ -265,31 +275,33 @@ pub(crate) trait Layer<T: Algebra> {
         increments: &[T::Numerator; 3],
     ) -> Result<(), Error>;
 
-    /// Makes the passes that were only noted: before anything else is asked of the layer.
+    /// Makes all deferred passes. Required before any other method is called.
+    ///
     ///
     /// # Errors
     /// As for [`pass`](Self::pass).
     fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error>;
 
-    /// Adds to the three lines of a sphere.
+    /// Adds values to the three lines of a sphere.
+    ///
     ///
     /// # Errors
     /// As for [`pass`](Self::pass).
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error>;
 
-    /// Takes the numbers to the cells of the next window.
+    /// Moves the numbers to the cells of the next window.
     fn move_to(&mut self, next: &Grid<'_>, moves: &Moves);
 
-    /// What the three lines of a sphere carry.
+    /// Returns the numbers on the three lines of a sphere.
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3];
 }
 
-/// Whoever looks at the numbers of a layer has made the passes that lead to them.
+/// Asserts that no pass is deferred: numbers may be read and changed only then.
 pub(super) fn none_wait<P>(waiting: &[P]) {
     debug_assert!(waiting.is_empty(), "passes come before what they lead to");
 }
 
-/// The sites not below a corner that is so much lower.
+/// Returns the sites of a region above a corner, which is lowered by `lower`.
 pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Region, Error> {
     let part = region.above(corner.map(|bound| bound - lower));
     part.ok_or_else(|| bug("a third of a layer has a sphere"))
@@ -298,7 +310,7 @@ pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Reg
 /// Returns the number of sites in a range.
 ///
 /// # Errors
-/// [`Error::Bug`] if no memory holds as many.
+/// [`Error::Bug`] if the number exceeds the address space.
 fn length(i: &Range<i128>) -> Result<usize, Error> {
     let sites = usize::try_from(i.end - i.start);
     sites.map_err(|_| bug("a row of a sweep fits in memory"))
@@ -309,7 +321,7 @@ mod tests {
     use super::*;
     use crate::lattice::Dimension;
 
-    /// One past the end of a row is no sphere of the next.
+    /// The site after the end of a row is not the first one of the next row.
     #[test]
     #[cfg_attr(
         debug_assertions,

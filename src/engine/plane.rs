@@ -1,4 +1,4 @@
-//! A number for each line of a layer, and what a pass adds to it.
+//! One number for each line of a layer, and the increments of a pass.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
@@ -6,15 +6,15 @@ use core::ops::{Add, Range};
 use super::grid::{Grid, Moves, Pass, Piece};
 use crate::formula;
 
-/// A number for each line of a layer, by direction, in the cells of the last layer.
+/// One number for each line of a layer, by direction, in the cells of the grid.
 #[derive(Clone, Debug)]
 pub(super) struct Plane<V>(pub(super) [Vec<V>; 3]);
 
-/// What the spheres of a pass come to on a line: `ramps[direction][n]` for n of them.
+/// The increments of a pass on a line: `ramps[direction][n]` for n spheres.
 pub(super) struct Ramps<V>(pub(super) [Vec<V>; 3]);
 
 impl<V: Clone + PartialEq> Ramps<V> {
-    /// From what one sphere adds to its lines, and what `n` of it are.
+    /// Returns the ramps of a pass from the increments of one sphere and a function for n times an increment.
     pub(super) fn new<W: PartialEq>(
         pass: &Pass,
         increments: &[W; 3],
@@ -31,7 +31,7 @@ impl<V: Clone + PartialEq> Ramps<V> {
         Self([alpha, beta, gamma])
     }
 
-    /// The ramps of a part of each number, if all of them have it.
+    /// Returns the ramps of one part of each number, or `None` if a number does not have this part.
     pub(super) fn try_map<U>(&self, part: impl Fn(&V) -> Option<U>) -> Option<Ramps<U>> {
         let of_line = |ramp: &Vec<V>| ramp.iter().map(&part).collect::<Option<Vec<U>>>();
         let [a, b, c] = self.0.each_ref().map(of_line);
@@ -50,8 +50,8 @@ impl<V: Clone> Plane<V> {
         ))
     }
 
-    /// Takes the numbers to the cells of the next window: those of a direction in other memory, which is left with what
-    /// they had.
+    /// Moves the numbers to the cells of the next window. Each direction is copied into the buffer `other`, which is
+    /// then swapped with it.
     pub(super) fn move_to(&mut self, other: &mut Vec<V>, next: &Grid<'_>, moves: &Moves, zero: &V) {
         let images = moves.images.iter();
         let images: Vec<_> = images
@@ -59,7 +59,8 @@ impl<V: Clone> Plane<V> {
             .collect();
         for (line, numbers) in self.0.iter_mut().enumerate() {
             other.clear();
-            // With room for windows to come: memory that grows by little each time leaves gaps that nothing fits in.
+            // The reserve leaves room for later windows. A buffer that grows slightly each time leaves gaps too small
+            // for reuse.
             other.reserve(next.cells);
             other.resize(next.cells, zero.clone());
             for Piece { from, to, length } in moves.rows.iter().filter(|row| row.to.0 == line) {
@@ -73,13 +74,13 @@ impl<V: Clone> Plane<V> {
         }
     }
 
-    /// What the three lines of a sphere carry.
+    /// Returns the numbers on the three lines of a sphere.
     pub(super) fn carried(&self, [a, b, c]: [usize; 3]) -> [&V; 3] {
         let Self([alpha, beta, gamma]) = self;
         [&alpha[a], &beta[b], &gamma[c]]
     }
 
-    /// What consecutive lines carry, by direction.
+    /// Returns the numbers on consecutive lines, by direction.
     pub(super) fn slices(&self, [a, b, c]: [Range<usize>; 3]) -> [&[V]; 3] {
         let Self([alpha, beta, gamma]) = self;
         [&alpha[a], &beta[b], &gamma[c]]
@@ -87,16 +88,16 @@ impl<V: Clone> Plane<V> {
 }
 
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Plane<V> {
-    /// Adds to the three lines of a sphere.
+    /// Adds values to the three lines of a sphere.
     pub(super) fn add_to(&mut self, cells: [usize; 3], values: &[V; 3]) {
         for ((line, cell), value) in self.0.iter_mut().zip(cells).zip(values) {
-            // A cell of the grid.
+            // The cells come from the grid, so they are in range.
             line[cell] = formula::transmitted(line[cell].clone(), value);
         }
     }
 }
 
-/// The cells of a row by direction.
+/// Returns the slices of a row, by direction.
 pub(super) fn row<'r, V>(
     [alpha, beta, gamma]: &'r mut [&mut [V]; 3],
     [a, b, c]: [Range<usize>; 3],

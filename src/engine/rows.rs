@@ -1,4 +1,4 @@
-//! The forces of many spheres, sphere after sphere in row order.
+//! The forces on many spheres, in row order.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -22,14 +22,14 @@ use crate::pile::System;
 use crate::scalar::Algebra;
 use crate::shape::Rows;
 
-/// What a plan has chosen to answer many spheres with.
+/// The method that a plan has chosen for many spheres.
 #[derive(Clone, Debug)]
 pub(crate) enum Engine<'p, T: Algebra, L> {
-    /// Each sphere by itself.
+    /// Each sphere separately.
     Single(Option<Method>),
-    /// A piece of a row at a time.
+    /// A tree for each piece of a row.
     Tree,
-    /// One layer in memory.
+    /// A sweep, with one layer in memory.
     Sweep(Box<Descent<'p, T, L>>),
 }
 
@@ -41,7 +41,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     ) -> Result<Self, Error> {
         Ok(match plan.method {
             Method::Tree if rows.one().is_none() => Self::Tree,
-            // A method that is cheapest is found again for each sphere, with what it falls back on.
+            // Each sphere tries this method, and a tree where *closed* does not apply.
             method @ (Method::Closed | Method::Tree) => Self::Single(Some(method)),
             Method::Sweep => Self::Sweep(Box::new(sweep(last_of(rows))?)),
         })
@@ -51,7 +51,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         matches!(self, Self::Sweep(_))
     }
 
-    /// Returns how many spheres of a row are best asked for at once: what a tree shares among them, or what a cache holds.
+    /// Returns the best number of spheres for one request: those that share a tree, or a number that fits in the cache.
     pub(crate) const fn sites_at_once(&self) -> i128 {
         match self {
             Self::Tree => CHUNK,
@@ -59,7 +59,8 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         }
     }
 
-    /// Goes down to layer `k`, if this is a sweep and the layer is further down.
+    /// Advances a sweep to layer `k`. Other methods do nothing.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`], [`Error::Interrupted`].
@@ -70,7 +71,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         }
     }
 
-    /// Returns the forces from above on each sphere of a piece of a row; a sweep has gone down to its layer.
+    /// Returns the forces from above on each sphere of a piece of a row. A sweep must be at its layer.
     pub(crate) fn received_in(
         &self,
         pile: (&Lines<'p, T>, &System<'p>),
@@ -95,8 +96,8 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         }
     }
 
-    /// Returns the forces to the spheres below each sphere of a piece of a row that is not on the floor; a sweep has gone
-    /// down to its layer.
+    /// Returns the forces that each sphere of a piece of a row transmits. The row is above the floor, and a sweep must
+    /// be at its layer.
     pub(crate) fn transmitted_in(
         &self,
         pile: (&Lines<'p, T>, &System<'p>),
@@ -120,6 +121,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
 impl<'p, T: Algebra> Engine<'p, T, Cells<T::Numerator>> {
     /// Returns the engine that a plan has chosen, in the numerators of the scalar.
     ///
+    ///
     /// # Errors
     /// [`Error::TooLarge`] if it does not fit in memory.
     pub(crate) fn plain(
@@ -132,7 +134,8 @@ impl<'p, T: Algebra> Engine<'p, T, Cells<T::Numerator>> {
 }
 
 impl<'p> Engine<'p, BigRational, Planes> {
-    /// Returns the engine that a plan has chosen, with sweeps in limbs.
+    /// Returns the engine that a plan has chosen. A sweep works in limbs.
+    ///
     ///
     /// # Errors
     /// [`Error::TooLarge`] if it does not fit in memory.
@@ -145,7 +148,8 @@ impl<'p> Engine<'p, BigRational, Planes> {
     }
 }
 
-/// Returns a sweep in limbs down to layer `last`, at the top.
+/// Returns a sweep in limbs down to layer `last`. It starts at the top.
+///
 ///
 /// # Errors
 /// [`Error::TooLarge`] if a layer does not fit in memory.
@@ -160,10 +164,10 @@ pub(crate) fn exact_sweep<'p>(
     Ok(Descent::new(lines.clone(), grid, layer))
 }
 
-/// Returns the forces from above on consecutive spheres of a row, from the lines that lead to a piece of them at a time.
+/// Returns the forces from above on consecutive spheres of a row, with one tree for each piece of it.
 ///
 /// # Errors
-/// [`Error::TooLarge`] if they are too far below too many changes of sign.
+/// [`Error::TooLarge`] if they are too far below too many sign changes.
 fn received_in<T: Algebra>(
     lines: &Lines<'_, T>,
     row: &Row,
@@ -180,7 +184,8 @@ fn received_in<T: Algebra>(
     Ok(received)
 }
 
-/// Returns the same sweep, of a third of each layer where the others are images of it.
+/// Returns the same sweep. If the pile has threefold symmetry, it stores a third of each layer.
+///
 ///
 /// # Errors
 /// As for [`exact_sweep`].

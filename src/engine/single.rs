@@ -1,4 +1,4 @@
-//! The forces on one sphere, by the method that was asked for or by the cheapest that will do.
+//! The forces on one sphere, by a given method or by the cheapest one.
 
 use num_traits::Zero;
 
@@ -16,10 +16,10 @@ use crate::lattice::Site;
 use crate::pile::System;
 use crate::scalar::{Algebra, Exactness};
 
-/// Returns the forces from above on a sphere of the pile, on the lines that are wanted; zero on others.
+/// Returns the forces from above on a sphere of the pile, and zero on lines that are not wanted.
 ///
 /// # Errors
-/// [`Error::TooLarge`] if it is too far below too many changes of sign.
+/// [`Error::TooLarge`] if the sphere is too far below too many sign changes.
 pub(crate) fn received<T: Algebra>(
     (lines, system): (&Lines<'_, T>, &System<'_>),
     (site, wanted): (Site, Wanted),
@@ -47,11 +47,11 @@ pub(crate) fn received<T: Algebra>(
     if method.is_some() {
         return by_tree();
     }
-    // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
+    // A tree that is too large for its sign changes may still have few enough spheres for a sweep.
     unless_too_large(by_tree, || by_sweep(lines, system, site, meter))
 }
 
-/// Returns the forces from above on spheres of one layer, from the lines that lead to them.
+/// Returns the forces from above on spheres of one layer, by the tree.
 pub(super) fn by_tree<T: Algebra>(
     lines: &Lines<'_, T>,
     k: i128,
@@ -65,7 +65,7 @@ pub(super) fn by_tree<T: Algebra>(
     Ok(above)
 }
 
-/// Returns the forces from above on one sphere, after a sweep of the whole layer.
+/// Returns the forces from above on one sphere, by a sweep of all layers down to it.
 fn by_sweep<T: Algebra>(
     lines: &Lines<'_, T>,
     system: &System<'_>,
@@ -78,7 +78,8 @@ fn by_sweep<T: Algebra>(
     sweep.received(site)
 }
 
-/// Returns a sweep down to layer `last` in the numerators of the scalar, at the top.
+/// Returns a sweep down to layer `last` in the numerators of the scalar. It starts at the top.
+///
 ///
 /// # Errors
 /// [`Error::TooLarge`] if a layer does not fit in memory.
@@ -92,7 +93,7 @@ pub(crate) fn plain_sweep<'p, T: Algebra>(
         Keeping::Limbs => size_of::<T::Numerator>().div_ceil(size_of::<i64>()),
     };
     if T::EXACTNESS == Exactness::Exact {
-        // Integers keep their digits elsewhere.
+        // The digits of a big integer are stored elsewhere.
         words += system.size_of_sweep(last).planes;
     }
     let grid = Grid::new(lines.shape, last, words)?;
