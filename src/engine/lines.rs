@@ -1,13 +1,14 @@
-//! What the lines of contacts of a pile add up to, run by run: the methods *closed* and *tree*.
+//! The forces on the lines of contacts, run by run: the common part of the methods *closed* and *tree*.
 //!
-//! Within a run of steps of one sign a line just counts up, see [`paper`](crate::paper#lines): a sphere m layers into a run receives
-//! along a line the increments of the N spheres above it on the line, N ≤ m by
-//! [`Region::spheres_above`](crate::lattice::Region::spheres_above). If N < m the line begins at a surface, with
-//! nothing. If N = m it begins at the change of sign, with what the sphere there passes on across it, which needs the
-//! three forces on that sphere, and so on up: a tree whose nodes are pairs of a run and a site. Different branches meet
-//! at the same nodes again and again; each is visited once.
+//! Within a run a line only counts, see [`paper`](crate::paper#lines). A sphere m layers into a run receives the
+//! increments of the N spheres above it on the line. [`Region::spheres_above`](crate::lattice::Region::spheres_above)
+//! returns N ≤ m.
 //!
-//! A straight pile has no change of sign: its tree has no nodes, and every force is closed.
+//! * If N < m, the line begins at a surface, with zero force.
+//! * If N = m, it begins at the sign change, with the force that the sphere there transmits. This force depends on the
+//!   three forces on that sphere, and so on upwards: see the method *tree*.
+//!
+//! A straight pile has no sign change, so every force has a closed form.
 
 use alloc::collections::BTreeMap;
 
@@ -24,32 +25,33 @@ use crate::pile::System;
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
 
-/// Forces on a sphere, by direction, as numerators.
+/// The forces on a sphere, by direction, as numerators.
 #[derive(Clone, Debug)]
 pub(crate) struct Received<T: Algebra> {
     pub(crate) forces: [T::Numerator; 3],
-    /// The changes of sign before: the denominator is [`Lines::scale`] of it.
+    /// The number of sign changes above. The denominator is [`Lines::scale`] of it.
     pub(crate) changes: usize,
 }
 
-/// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.
+/// The increments that the spheres of a pile add to their lines, as numerators in the ring of the scalar.
 ///
-/// A force after d changes of sign has the denominator [`scale`](Self::scale)(d).
+/// A force after d sign changes has the denominator [`scale`](Self::scale)(d).
 #[derive(Clone, Debug)]
 pub(crate) struct Lines<'p, T: Algebra> {
     pub(super) shape: &'p Shape,
-    /// Of an ordinary sphere.
+    /// The increments of an ordinary sphere.
     pub(super) ordinary: [T::Numerator; 3],
-    /// What some spheres add beside, with horizontal contacts, by line, and by layer on it.
+    /// The further increments of some spheres, by line and layer, from extra weights, loads and horizontal contacts.
     pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
-    /// The weight of what acts on some spheres beside an ordinary weight, in mg/W; 0 where only horizontal contacts do.
+    /// The weight of some spheres and their loads, less an ordinary weight, in mg/W. It is 0 for a sphere with
+    /// horizontal contacts only.
     pub(super) extra_weights: BTreeMap<Site, T::Numerator>,
     scale: T::Numerator,
-    /// Whether a change of sign triples the denominator: the ring of numerators has no thirds.
+    /// Whether a sign change triples the denominator. It does if the ring of numerators does not contain 1/3.
     triples: bool,
 }
 
-/// A line of contacts within a run: its direction, and the place where it would cross layer 0.
+/// A line of contacts within a run: its direction, and the position at which it would cross layer 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Line {
     run: usize,
@@ -57,7 +59,7 @@ pub(super) struct Line {
     place: [i128; 2],
 }
 
-/// Numerators over the denominator of `least`, which they share.
+/// Returns the numerator of a value over the denominator of `least`, which all numerators share.
 fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerator {
     let ([value, _], _) = T::numerators(&[value, least.clone()]);
     value
@@ -67,7 +69,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn new(system: &System<'p>) -> Self {
         let increments = &system.increments;
         let own = system.loading.ordinary();
-        // One denominator for all: of increments, and of weights and loads times increments.
+        // One denominator serves the increments, and the products of increments with weights and loads.
         let least = BigRational::new(BigInt::one(), system.denominator());
         let (_, scale) = T::numerators(core::array::from_ref(&least));
         let ordinary = increments
@@ -101,12 +103,12 @@ impl<'p, T: Algebra> Lines<'p, T> {
         lines
     }
 
-    /// The denominator of forces after so many changes of sign.
+    /// Returns the denominator of forces after some sign changes.
     pub(crate) fn scale(&self, changes: usize) -> T::Numerator {
         self.scaled(self.scale.clone(), changes)
     }
 
-    /// A numerator over the first denominator, over the one after so many changes.
+    /// Converts a numerator from the first denominator to the one after some sign changes.
     pub(super) fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
         if self.triples && changes > 0 {
             numerator * &pow(T::Numerator::from_i128(3), changes)
@@ -115,12 +117,12 @@ impl<'p, T: Algebra> Lines<'p, T> {
         }
     }
 
-    /// A numerator over the denominator after `from` changes, over the one after `to`.
+    /// Converts a numerator from the denominator after `from` sign changes to the one after `to`.
     pub(crate) fn rescaled(&self, numerator: T::Numerator, from: usize, to: usize) -> T::Numerator {
         self.scaled(numerator, to.saturating_sub(from))
     }
 
-    /// Weight and load of a sphere, in mg/W, over the denominator after so many changes.
+    /// Returns the weight of a sphere and its load, in mg/W, over the denominator after some sign changes.
     pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
         let ordinary = self.ordinary_weight(changes);
         match self.extra_weights.get(&site) {
@@ -129,23 +131,23 @@ impl<'p, T: Algebra> Lines<'p, T> {
         }
     }
 
-    /// Returns the weight of an ordinary sphere, in mg/W, over the denominator after so many changes.
+    /// Returns the weight of an ordinary sphere, in mg/W, over the denominator after some sign changes.
     pub(crate) fn ordinary_weight(&self, changes: usize) -> T::Numerator {
         self.scaled(formula::weight(&self.ordinary), changes)
     }
 
-    /// Returns what `n` ordinary spheres add to a line of a direction, over the first denominator.
+    /// Returns the sum of `n` increments of ordinary spheres on a line of a direction, over the first denominator.
     pub(crate) fn ordinary(&self, n: T::Numerator, line: usize) -> T::Numerator {
         force(n, &self.ordinary[line])
     }
 
-    /// What an ordinary sphere adds to its lines after so many changes.
+    /// Returns the increments of an ordinary sphere, over the denominator after some sign changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
         let ordinary = self.ordinary.each_ref();
         ordinary.map(|w| self.scaled(w.clone(), changes))
     }
 
-    /// What a sphere adds to its lines in the run below it, beside an ordinary weight.
+    /// Returns the increments of a sphere in the run below it, less those of an ordinary weight.
     pub(crate) fn extra(&self, site: Site) -> [T::Numerator; 3] {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
             return core::array::from_fn(|_| T::Numerator::zero());
@@ -154,14 +156,14 @@ impl<'p, T: Algebra> Lines<'p, T> {
             let extra = self
                 .extras
                 .get(&(Line::through(site, direction, run), site.k));
-            // A sphere of ordinary weight has none.
+            // A sphere of ordinary weight has no entry.
             extra.map_or_else(T::Numerator::zero, |extra| {
                 self.scaled(extra.clone(), run.index)
             })
         })
     }
 
-    /// The spheres of a row that weigh more or less than an ordinary one, or carry loads.
+    /// Returns the spheres of a row whose weight is not ordinary, or that carry loads.
     pub(crate) fn extras_in_row(&self, row: &Row) -> impl Iterator<Item = Site> + '_ {
         let Row { k, j, ref i } = *row;
         let [start, end] = [i.start, i.end].map(|i| Site { i, j, k });
@@ -169,7 +171,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         sites.map(|(site, _)| *site)
     }
 
-    /// The spheres of some layers that weigh more or less than an ordinary one, or carry loads.
+    /// Returns the spheres of some layers whose weight is not ordinary, or that carry loads.
     pub(crate) fn extras_in(
         &self,
         layers: core::ops::Range<i128>,
@@ -185,7 +187,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         sites.map(|(site, _)| *site)
     }
 
-    /// Returns what a sphere passes on in each direction, from what it receives.
+    /// Returns the forces that a sphere transmits, by direction, from the forces that it receives.
     pub(crate) fn to_below(&self, site: Site, above: Received<T>, meter: Meter<'_>) -> Received<T> {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
             return above;
@@ -199,7 +201,8 @@ impl<'p, T: Algebra> Lines<'p, T> {
         self.with_own(site, received, run.index)
     }
 
-    /// Returns what a sphere passes on, from what it receives, turned if the sign changes there.
+    /// Returns the forces that a sphere transmits, from the forces that it receives. At a sign change the caller has
+    /// turned them.
     pub(crate) fn with_own(
         &self,
         site: Site,
@@ -214,7 +217,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     }
 }
 
-/// Returns what a sphere passes on along its three lines.
+/// Adds the increments of a sphere to the forces on its three lines.
 fn add<N: Ring>([a, b, c]: [N; 3], [own_a, own_b, own_c]: &[N; 3]) -> [N; 3] {
     [
         transmitted(a, own_a),
@@ -234,7 +237,7 @@ impl Line {
     }
 }
 
-/// The site so many steps up a line.
+/// Returns the site that is `steps` steps up a line.
 pub(super) fn start_of(
     [i, j]: [i128; 2],
     direction: Direction,

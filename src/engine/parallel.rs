@@ -1,4 +1,6 @@
-//! Work on all cores, with the feature `rayon`; one after the other without it.
+//! Work in parallel, with the feature `rayon`. Without it the same functions work one item after the other.
+//!
+//! The engines use it for bands of rows of a sweep, for rows that are written into slices, and for halves of a table.
 
 use core::ops::Range;
 
@@ -6,10 +8,10 @@ use core::ops::Range;
 use super::interrupt;
 use crate::Error;
 
-/// Whether there may be several.
+/// Whether several threads are possible.
 pub(crate) const HAS_THREADS: bool = cfg!(feature = "rayon");
 
-/// How many threads there are to work on.
+/// Returns the number of threads available for work.
 #[must_use]
 pub fn threads() -> usize {
     #[cfg(feature = "rayon")]
@@ -18,8 +20,10 @@ pub fn threads() -> usize {
     1
 }
 
-/// Returns before which row those rows end that are for the first half of so many threads: where they have their share of the
-/// spheres, or just more; and how many spheres that is. `None` if it were all rows.
+/// Returns the first row of the second half of the work, and the number of spheres before it. Returns `None` if no row
+/// is left for the second half.
+///
+/// The first half belongs to `threads / 2` of the threads. Its rows hold their share of the spheres, or just more.
 pub(crate) fn cut(
     mut rows: Range<i128>,
     threads: i128,
@@ -37,7 +41,7 @@ pub(crate) fn cut(
     border.map(|border| (border, before))
 }
 
-/// Does two things, at once where there are threads, and returns what comes of them.
+/// Calls two functions, in parallel if there are threads, and returns both results.
 pub(crate) fn join<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B + Send,
@@ -54,10 +58,10 @@ pub(crate) fn join<A: Send, B: Send>(
     (one(), other())
 }
 
-/// Does two things, at once where there are threads.
+/// Calls two functions, in parallel if there are threads.
 ///
 /// # Errors
-/// Those of both.
+/// The error of the first one, or else of the second one.
 pub(crate) fn share(
     one: impl FnOnce() -> Result<(), Error> + Send,
     other: impl FnOnce() -> Result<(), Error> + Send,
@@ -66,7 +70,10 @@ pub(crate) fn share(
     ones.and(others)
 }
 
-/// Does something with each item, in any order, at once where there are threads. Of items that fail, returns one's error.
+/// Calls `work` with each item, in any order, in parallel if there are threads.
+///
+/// # Errors
+/// The error of one of the items that failed.
 pub fn try_for_each<I: Send, E: Send>(
     items: alloc::vec::Vec<I>,
     work: impl Fn(I) -> Result<(), E> + Send + Sync,
@@ -82,7 +89,7 @@ pub fn try_for_each<I: Send, E: Send>(
     items.into_iter().try_for_each(work)
 }
 
-/// Returns what comes of each item, in their order, worked out at once where there are threads.
+/// Returns the result of `work` for each item, in the order of the items. Works in parallel if there are threads.
 pub fn map<I: Send, O: Send>(
     items: alloc::vec::Vec<I>,
     work: impl Fn(I) -> O + Send + Sync,
@@ -113,7 +120,7 @@ mod tests {
         pool.build().unwrap()
     }
 
-    /// 1 + 2 + … + n, by halves of halves.
+    /// Returns start + … + (end − 1) by recursive halving.
     fn sum(numbers: core::ops::Range<u64>) -> u64 {
         let middle = numbers.start.midpoint(numbers.end);
         if middle == numbers.start {
@@ -134,7 +141,7 @@ mod tests {
         lower + upper
     }
 
-    /// Two things that wait for each other, which would never end one after the other.
+    /// Two items wait for each other, so the test would never end without parallel work.
     #[test]
     fn items_are_worked_on_at_once() {
         use std::sync::Barrier;
@@ -160,11 +167,11 @@ mod tests {
         for threads in [1, 2, 3] {
             let pool = pool(threads);
             assert_eq!(pool.install(|| sum(0..1000)), 499_500);
-            // Others in the same pool at once.
+            // Two tasks in the same pool at once.
             let sums = pool.install(|| rayon::join(|| sum(0..1000), || sum(0..2000)));
             assert_eq!(sums, (499_500, 1_999_000));
         }
-        // Others from outside at once.
+        // Several tasks from outside a pool at once.
         thread::scope(|scope| {
             let sums = [(); 4].map(|()| scope.spawn(|| sum(0..300)));
             assert!(sums.into_iter().all(|sum| sum.join().unwrap() == 44_850));

@@ -1,4 +1,4 @@
-//! Slices that the rows of a layer are written into, one after the other.
+//! Rows of a layer, written one after the other into slices, in parallel.
 
 use core::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Region, Row};
 
-/// From so many spheres on a part of a layer is worth a thread.
+/// The least number of spheres that justifies a thread.
 const WORTH_A_THREAD: usize = 1 << 12;
 
 const AS_LONG: &str = "slices are as long as the layer has spheres";
@@ -16,7 +16,7 @@ const AS_LONG: &str = "slices are as long as the layer has spheres";
 /// Splits the first `n` elements off each slice.
 ///
 /// # Errors
-/// [`Error::Bug`] for slices that are not as long.
+/// [`Error::Bug`] if a slice is shorter.
 pub(crate) fn split_front<'a, V>(
     rest: &mut [&'a mut [V]; 3],
     n: usize,
@@ -27,10 +27,11 @@ pub(crate) fn split_front<'a, V>(
     }
 }
 
-/// Writes the rows of layer `k` into slices of as many numbers as it has spheres; parts of them at once where there are threads.
+/// Writes the rows of layer `k` into slices with one entry for each sphere. Parts of the layer are written in parallel
+/// if there are threads.
 ///
 /// # Errors
-/// Those of `write`; [`Error::Bug`] for slices that are not as long.
+/// Those of `write`, and [`Error::Bug`] for slices of another length.
 pub(crate) fn fill_rows<V: Send>(
     layer: &Region,
     k: i128,
@@ -87,7 +88,7 @@ mod tests {
 
     use super::*;
 
-    /// Each sphere is written once, in its place, in however many parts.
+    /// Each sphere is written once, at its position, for any number of parts.
     #[test]
     fn parts_of_a_layer_are_the_layer() {
         let regions = [
@@ -118,7 +119,8 @@ mod tests {
         }
     }
 
-    /// A column of many rows, cut no more often than there are parts: each cut waits for both of its halves.
+    /// Checks that a column of many rows is cut no more often than there are parts, since each cut waits for both
+    /// halves.
     #[test]
     fn rows_are_not_cut_for_less_than_a_part() {
         let column = Region::new(0..=0, 0..=99_999, 0..=99_999).unwrap();
@@ -150,7 +152,7 @@ mod tests {
         assert!(matches!(filled, Err(Error::Bug { .. })));
     }
 
-    /// Whichever row cannot be written.
+    /// An error in any row is returned.
     #[test]
     fn errors_of_any_part_are_heard() {
         let layer = Region::triangle(9).unwrap();

@@ -1,9 +1,21 @@
-//! All contact forces of a straight pile, copied into slices.
+//! The tabulated closed form: all contact forces of a straight pile, copied into slices.
 //!
-//! A straight pile has few distinct forces: along a line they are 1, 2, 3, … increments. They are rounded once, into a
-//! table, and the rows of the pile are pieces of it: under one sphere, along a row of layer k, α runs down the table from
-//! k−j+1 increments to one, β runs up it, and γ stays at j+1; under any other top each direction rises, is level, and
-//! falls. Nothing else is computed and nothing allocated, and every row can be filled by itself.
+//! A straight pile has few distinct forces: along a line they are 1, 2, 3, … increments. The closed form would convert
+//! and round a number for each contact. The table rounds each distinct force once. The rows of the pile are pieces of
+//! the table.
+//!
+//! For example, take the three spheres of row j = 1 in layer k = 3 under one sphere. Their contact forces, in
+//! increments, are
+//!
+//! ```text
+//! i             0  1  2
+//! α, k−i−j+1    3  2  1    the table backwards
+//! β, i+1        1  2  3    the table forwards
+//! γ, j+1        2  2  2    one entry
+//! ```
+//!
+//! Under any other top each direction rises, is level, and falls along a row. A row needs no other row and no memory of
+//! its own. So two halves of the layers are filled in parallel.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -20,20 +32,23 @@ use crate::lattice::{Along, Row, Sign, Slopes};
 use crate::pile::System;
 use crate::shape::Shape;
 
-/// The distinct contact forces of a straight pile, by direction: what 1, 2, 3, … increments come to.
+/// The distinct contact forces of a straight pile, by direction: the values of 1, 2, 3, … increments.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Table<V> {
-    /// By direction; the n-th is that of n+1 increments.
+    /// By direction. Entry n is the value of n+1 increments.
     tables: [Vec<V>; 3],
     shape: Shape,
 }
 
-/// The most increments of a table; the contacts of as many layers take 10¹⁹ bytes.
+/// The maximum number of increments in a table. The contacts of so many layers fill 10¹⁹ bytes.
 const MOST: i128 = 1_000_000;
 
 impl<V> Table<V> {
-    /// Returns the table of the values of n ≤ `most` increments along a line, or `None` where there is none: of piles with
-    /// changes of sign or loads, of spheres that do not weigh mg, of discs, or for more than a million increments.
+    /// Returns the table of the values of n ≤ `most` increments along a line.
+    ///
+    /// Returns `None` for piles with sign changes or loads, for weights other than mg, for discs, and for more than a
+    /// million increments.
+    ///
     ///
     /// # Errors
     /// Those of `value`.
@@ -60,7 +75,8 @@ impl<V> Table<V> {
 }
 
 impl<V> Table<V> {
-    /// Returns the table of other values of the same forces.
+    /// Returns the table of a function of these values.
+    ///
     ///
     /// # Errors
     /// Those of `value`.
@@ -78,12 +94,12 @@ impl<V> Table<V> {
     }
 }
 
-/// From so many spheres on a part of the layers is worth a thread.
+/// The least number of spheres that justifies a thread.
 const WORTH_A_THREAD: u32 = 1 << 15;
 
 impl<V: Clone + Send + Sync> Table<V> {
-    /// Writes the forces below layers above the floor, one layer after the other, into slices of as many numbers as they
-    /// have spheres; in two halves at once where there are threads.
+    /// Writes the forces below layers above the floor, one layer after the other, into slices with one entry for each
+    /// sphere. Treats two halves in parallel if there are threads.
     pub(crate) fn fill(&self, layers: Range<i128>, slices: [&mut [V]; 3]) -> Result<(), Error> {
         let Some((upper, lower)) = self.halves(&layers) else {
             let mut rest = slices;
@@ -99,19 +115,20 @@ impl<V: Clone + Send + Sync> Table<V> {
         first.and(second)
     }
 
-    /// Returns two parts of some layers with about as many spheres, where that is worth a thread.
+    /// Returns two parts of some layers with similar numbers of spheres, or `None` if a second thread would not pay.
     fn halves(&self, layers: &Range<i128>) -> Option<(Range<i128>, Range<i128>)> {
         let spheres = self.shape.spheres_in(layers.clone());
         if !parallel::HAS_THREADS || spheres < BigUint::from(2 * WORTH_A_THREAD) {
             return None;
         }
-        // Layers grow like squares: the half of a pile lies at 0.8 of its height, or less.
+        // The number of spheres in a layer grows like a square, so half of the spheres lie above 0.8 of the height, or
+        // less.
         let mut inside = layers.start + 1..layers.end;
         let middle = inside.find(|k| self.shape.spheres_in(layers.start..*k) * 2_u32 >= spheres)?;
         Some((layers.start..middle, middle..layers.end))
     }
 
-    /// Writes the forces below layer `k` into the front of the slices, which are left without it.
+    /// Writes the forces below layer `k` into the front of the slices, and removes that part from them.
     fn fill_layer(&self, k: i128, rest: &mut [&mut [V]; 3]) -> Result<(), Error> {
         for row in self.shape.layer(k)?.rows(k) {
             check_interrupt()?;
@@ -126,15 +143,15 @@ impl<V: Clone + Send + Sync> Table<V> {
         Ok(())
     }
 
-    /// Writes the forces below consecutive spheres of a row of any straight pile; on the floor those below it if the pile went
-    /// on.
+    /// Writes the forces below consecutive spheres of a row of any straight pile. On the floor they are the forces to a
+    /// further layer.
     pub(crate) fn fill_row(&self, row: &Row, slices: [&mut [V]; 3]) -> Result<(), Error> {
         let region = self.shape.layer(row.k)?;
         let shape = &self.shape;
-        // One sign for all steps.
+        // All steps of a straight pile have one sign.
         let sign = match shape.sign_below(row.k).or(shape.sign_below(row.k - 1)) {
             Some(sign) => sign,
-            // No sphere is above another.
+            // In a single layer no sphere is above another, so either sign will do.
             None if shape.layers() == 1 => Sign::Plus,
             None => return Err(bug("a layer of a pile rests on another, or is rested on")),
         };
@@ -153,7 +170,7 @@ impl<V: Clone + Send + Sync> Table<V> {
         let (Some(alpha), Some(beta)) = (alpha.get(..n), beta.get(..n)) else {
             return Err(too_short());
         };
-        // In one loop: two of them, or a copy, take half as long again on rows this short.
+        // One loop serves both. Two loops, or a copy, take 1.5 times as long on rows this short.
         let values = alpha.iter().rev().zip(beta);
         for ((a, b), (down, up)) in a.iter_mut().zip(b).zip(values) {
             (*a, *b) = (down.clone(), up.clone());
@@ -204,7 +221,8 @@ mod tests {
         assert!(matches!(written, Err(Error::Bug { .. })));
     }
 
-    /// From 2^16 spheres on: 72 layers have 64,824, and 73 have 67,525; a single layer is not cut.
+    /// Layers are halved from 2^16 spheres on: 72 layers have 64,824, and 73 have 67,525. A single layer is never
+    /// halved.
     #[cfg(feature = "rayon")]
     #[test]
     fn halves_have_as_many_spheres_to_a_layer() {

@@ -1,21 +1,36 @@
-//! Sweeps of a third of each layer, of piles whose forces are the same after a third of a turn.
+//! Sweeps that store a third of each layer, for piles with threefold symmetry.
 //!
-//! # The turn
-//! A layer with bounds x₀ ≤ i, j ≤ x₁ and s − x₁ ≤ i+j ≤ s − x₀ is mapped onto itself by (i, j) → (j, s−i−j), which leads α
-//! to γ, γ to β and β to α. A + step adds 1 to s, a − step takes 1 from it, and the layer below is mapped onto itself the
-//! same way. If no sphere weighs more than others and all lines grow alike, so are the forces.
+//! # The rotation
+//! Let a layer have the bounds x₀ ≤ i, j ≤ x₁ and s − x₁ ≤ i+j ≤ s − x₀. The rotation by 120° maps it onto itself: (i,
+//! j) → (j, s−i−j). It maps α to γ, γ to β and β to α. A + step adds 1 to s, and a − step subtracts 1 from it. So the
+//! rotation maps the layer below onto itself as well. If all spheres weigh the same, and the three
+//! increments are equal, the forces have the same symmetry.
 //!
-//! # The part that is kept
-//! With a = s−i−j the turn leads (a, i, j) to (i, j, a). Of three numbers in a circle, less their mean, one is not positive
-//! and the next not negative: of the three images of a site one has a ≤ s/3 ≤ i. So these sites are enough, i ≥ ⌈s/3⌉ and
-//! i+j ≥ s − ⌊s/3⌋: a region again, cut off at a corner.
+//! # The stored part
+//! With a = s−i−j the rotation maps (i, j, a) to (j, a, i). The differences of three numbers from their mean sum to
+//! zero. So somewhere in their cyclic order a difference that is not positive is followed by one that is not negative.
+//! One of the three images of a site therefore has a ≤ s/3 ≤ i. So the sites with i ≥ ⌈s/3⌉ and i+j ≥ s − ⌊s/3⌋
+//! suffice. They form a region again, cut off at a corner.
+//!
+//! For example, the layer 0 ≤ i, j and i+j ≤ 2 has s = 2. The sites with i ≥ 1 and i+j ≥ 2 are stored (#):
+//!
+//! ```text
+//! j = 2    .
+//! j = 1    . #
+//! j = 0    . . #
+//! ```
+//!
+//! The rotation maps # at (2, 0) to the corners (0, 2) and (0, 0), and # at (1, 1) to (1, 0) and (0, 1).
 //!
 //! # Windows
-//! What a sphere receives comes from (i, j), (i−n, j), (i, j−n) of the layer n + steps further up, or from (i, j), (i+n, j),
-//! (i, j+n) of that n − steps further up. So the part of a layer follows from that of a layer above if its corner lies lower
-//! there by one for each + step between them. A window is a few runs with such parts: its cells are named by its last layer,
-//! of which it has the part, widened by as far as lines move on the way. Below it the next window begins: what its first
-//! layer has more than the last one of the window above is copied from images.
+//! A sphere receives forces from the layer n steps further up. After + steps they come from (i, j), (i−n, j) and (i,
+//! j−n). After − steps they come from (i, j), (i+n, j) and (i, j+n). So the stored part of a layer follows from that of
+//! a layer above, if the corner of the latter is lower by one for each + step between them.
+//!
+//! Further up, such parts are larger than a third. So the sweep is divided into *windows* of a few runs. The cells of a window are named by
+//! its last layer. They cover the stored part of that layer, widened by the distance that lines move in the window.
+//! Below it the next window begins. Its first layer stores more than the last one of the window above. The additional
+//! numbers are copied from their images.
 
 use super::grid::{Grid, Moves, Piece, cut};
 use crate::Error;
@@ -24,20 +39,23 @@ use crate::lattice::{Direction, Region};
 use crate::pile::System;
 use crate::shape::Shape;
 
-/// The layers of a window, unless one run is longer: three times as many as passes wait, so that few cells are copied, and
-/// few are beside the part.
+/// The maximum number of steps in a window, unless a single run is longer.
+///
+/// It is three times the number of passes that are deferred. So few numbers are copied between windows, and few cells
+/// lie outside the stored part.
 const LAYERS: i128 = 9;
 
-/// Whether the forces of a pile are the same after a third of a turn.
+/// Returns whether the forces of a pile have threefold symmetry.
 pub(crate) fn are_thirds_alike(system: &System<'_>) -> bool {
     let [a, b, c] = &system.increments;
     let even = a == b && b == c && system.fills_its_layers();
-    // What is above a base that is mapped onto itself, or below such a top, is so too.
+    // If the rotation maps the base or the top onto itself, it does so with all layers.
     even && system.loading.is_ordinary() && system.shape.base().sum_of_turn().is_some()
 }
 
 impl<'p> Grid<'p> {
-    /// Returns the first window of a sweep of thirds from the top to layer `end`, each cell of `planes` numbers.
+    /// Returns the first window of a sweep of thirds from the top to layer `end`, with `planes` numbers in each cell.
+    ///
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -46,10 +64,10 @@ impl<'p> Grid<'p> {
         Self::window(shape, end, 0)
     }
 
-    /// Returns the window below this one, and from where its numbers come.
+    /// Returns the next window, and the moves of the numbers into it.
     ///
     /// # Errors
-    /// [`Error::Bug`] where the sweep ends.
+    /// [`Error::Bug`] at the end of the sweep.
     pub(super) fn next_window(&self) -> Result<(Self, Moves), Error> {
         if self.last == self.end {
             return Err(bug("a sweep is asked of layers that it leads to"));
@@ -70,13 +88,14 @@ impl<'p> Grid<'p> {
         let s = sum(&region)?;
         let corner = [-(-s).div_euclid(3), s - s.div_euclid(3)];
         let net = shape.shift(last) - shape.shift(first);
-        // The more of + and − steps: the mean of their sum and difference.
+        // The larger of the numbers of + and − steps is the mean of their sum and their absolute difference.
         let reach = (last - first).midpoint(net.abs());
         let cells = cut(&region, corner, reach)?;
         Self::over(shape, [last, end], Some(corner), &cells)
     }
 
-    /// Returns the images of a sphere, each by one turn more: only itself where whole layers are kept.
+    /// Returns the images of a sphere under 0, 1 and 2 rotations, or only the sphere if whole layers are stored.
+    ///
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
@@ -93,7 +112,8 @@ impl<'p> Grid<'p> {
         Ok(core::iter::successors(Some(place), next).take(3))
     }
 
-    /// Returns the image of a sphere that is kept, and how many turns lead there.
+    /// Returns the stored image of a sphere, and the number of rotations that lead to it.
+    ///
     ///
     /// # Errors
     /// [`Error::Bug`].
@@ -107,7 +127,8 @@ impl<'p> Grid<'p> {
         kept.ok_or_else(|| bug("one of three images is kept"))
     }
 
-    /// Returns the first of the images of a line of layer `k`, in row order: its row, place and direction.
+    /// Returns the first image of a line of layer `k`, in row order: its row, its position and its direction.
+    ///
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
@@ -125,7 +146,7 @@ impl<'p> Grid<'p> {
             .ok_or_else(|| bug("a line is an image of itself"))
     }
 
-    /// Returns from where the numbers of the next window come.
+    /// Returns the moves of the numbers to the next window.
     fn moves_to(&self, next: &Self) -> Result<Moves, Error> {
         let k = self.last;
         let (had, wanted) = (self.part(k)?, next.part(k)?);
@@ -163,12 +184,12 @@ impl<'p> Grid<'p> {
     }
 }
 
-/// The direction that so many turns lead a direction to: α to γ, γ to β, β to α.
+/// Returns the direction after some rotations: α becomes γ, γ becomes β, and β becomes α.
 pub(super) fn turned(line: usize, turns: usize) -> usize {
     (line + 2 * turns) % 3
 }
 
-/// The i+j+a of a layer that is mapped onto itself.
+/// Returns i+j+a for a layer that the rotation maps onto itself.
 fn sum(region: &Region) -> Result<i128, Error> {
     let sum = region.sum_of_turn();
     sum.ok_or_else(|| bug("every layer of a pile is mapped onto itself if its base is"))
@@ -186,7 +207,8 @@ mod tests {
     use crate::engine::rows::{exact_sweep, shortest_exact_sweep};
     use crate::engine::{Cells, Descent, Lines};
 
-    /// One sphere, six-sided and three-sided tops, one elsewhere, and a base; changes everywhere, seldom, and mixed.
+    /// Tops with one sphere, with six and with three sides, and away from the origin, and a base. The sign changes
+    /// everywhere, seldom, and irregularly.
     fn piles() -> Vec<Pile> {
         let hexagon = Region::hexagon(3, 2).unwrap();
         let elsewhere = Region::new(5..=8, 5..=8, 9..=12).unwrap();
@@ -212,7 +234,7 @@ mod tests {
         piles
     }
 
-    /// All spheres, and the least lines, of every so many layers.
+    /// Compares all spheres, and the smallest numbers, in every `stops`-th layer.
     fn compare(pile: &Pile, stops: i128) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         assert!(are_thirds_alike(&system));
@@ -237,7 +259,7 @@ mod tests {
         }
     }
 
-    /// Some layers at a time and all at once, with windows between them, and a run that is longer than a window.
+    /// Some layers at a time and all at once, with several windows, and with a run longer than a window.
     #[test]
     fn a_third_of_a_small_pile_is_the_whole() {
         for (top, stacking) in [
@@ -252,7 +274,7 @@ mod tests {
         }
     }
 
-    /// Windows are of layers, whatever numbers are kept.
+    /// Windows work the same with any representation of the numbers.
     #[test]
     fn a_third_in_plain_numbers_is_the_whole() {
         let pile = Pile::under(Region::SITE, "+-+--+-+-+++-+".parse().unwrap()).unwrap();
@@ -274,20 +296,20 @@ mod tests {
     #[test]
     fn a_third_is_the_whole() {
         for pile in piles() {
-            // Layer after layer, and far, so that passes wait.
+            // Layer by layer, and in steps large enough to defer passes.
             for stops in [1, 2, 7, pile.layers() - 1] {
                 compare(&pile, stops);
             }
         }
-        // So large that threads take bands of it, with the feature `rayon`.
+        // Piles large enough for several bands, with the feature `rayon`.
         for stacking in ["+-".repeat(45), "+-++-".repeat(15)] {
             let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
             compare(&pile, 30);
         }
     }
 
-    /// Whether, window after window, each layer's part has a third of its spheres and all that its part receives from, if
-    /// corners lie this much higher.
+    /// Returns whether in every window each stored part contains an image of every site, and every sphere that the next
+    /// part receives from. The corners are raised by `higher`.
     fn are_parts_enough(pile: &Pile, higher: i128) -> bool {
         let shape = pile.shape();
         let mut grid = Grid::of_thirds(shape, shape.layers() - 1, 1).unwrap();

@@ -1,4 +1,22 @@
-//! The forces above spheres, from the lines that lead to them.
+//! The method *tree*: memoised recursion on the dependency cone of a sphere.
+//!
+//! A force depends on few other forces. Within a run a line only counts, so the recursion skips the run. It continues
+//! only where a line crosses a sign change. There it needs the three forces on the sphere at the change, so a node may need
+//! three nodes of the next level.
+//!
+//! Plain recursion would visit 3^d nodes below d sign changes. But many branches meet. Let the sign change in every
+//! layer, and take a sphere at (0, 0):
+//!
+//! ```text
+//! one sign change above       (0,0) (−1,0) (0,−1)
+//! two above, 9 branches       (0,0) three times, (1,0) (0,1) (−1,0) (−1,1) (0,−1) (1,−1)
+//! ```
+//!
+//! The 9 branches end at 7 spheres. In general a level has at most as many nodes as its layer has spheres.
+//!
+//! So the recursion is evaluated by levels. A level is a list of distinct sites, sorted. The lists are built upwards
+//! from the question, and the forces are computed downwards again. The call stack does not grow. The cost depends on
+//! the sign changes, not on the layers between them.
 
 use alloc::vec::Vec;
 
@@ -13,31 +31,31 @@ use crate::lattice::{Direction, Site};
 use crate::scalar::Algebra;
 use crate::shape::{Shape, Stretch};
 
-/// The most nodes of a tree that are visited for one row.
+/// The maximum number of nodes in a tree.
 pub(crate) const MAX_NODES: usize = 4_000_000;
 
-/// Of so many it is not asked whether they fit in memory.
+/// Up to this number of nodes, the memory limit is not checked.
 const FEW_NODES: usize = 10_000;
 
-/// Its site, in lists that grow by doubling, and what three numerators of the level below it take.
+/// The bytes for each node: its site, in a list that grows by doubling, and three numerators of the level below it.
 const BYTES_A_NODE: usize = 256;
 
 /// The forces from above on some spheres of one layer, as numerators.
 pub(crate) struct Above<T: Algebra> {
-    /// By site, in the order of the question.
+    /// The forces by site, in the order of the question.
     pub(crate) forces: Vec<[T::Numerator; 3]>,
-    /// The changes of sign before: the denominator is [`Lines::scale`] of it.
+    /// The number of sign changes above. The denominator is [`Lines::scale`] of it.
     pub(crate) changes: usize,
-    /// The spheres at changes of sign that they depend on.
+    /// The number of spheres at sign changes on which the forces depend.
     pub(crate) nodes: usize,
 }
 
-/// Spheres of one layer whose forces from above are needed, in order and each once.
+/// A level of a tree: spheres of one layer whose forces from above are needed, sorted and distinct.
 struct Level {
     stretch: Stretch,
     k: i128,
     sites: Vec<[i128; 2]>,
-    /// On which of their lines.
+    /// The lines whose forces are needed.
     wanted: Wanted,
 }
 
@@ -49,7 +67,8 @@ pub(crate) enum Wanted {
 }
 
 impl Wanted {
-    /// What a contact below a sphere needs: its line, or all three where they are mixed by a change of sign.
+    /// Returns the lines that a contact below a sphere needs: its own line, or all three at a sign change, which mixes
+    /// them.
     pub(crate) fn for_contact(shape: &Shape, site: Site, direction: Direction) -> Self {
         if shape.stacking().is_straight() {
             return Self::One(direction);
@@ -67,12 +86,12 @@ impl Wanted {
     }
 }
 
-/// Errors if the forces above these spheres depend on too many others.
+/// Returns an error if the tree of these spheres has too many nodes.
 pub(crate) fn check_tree(shape: &Shape, k: i128, sites: &[[i128; 2]]) -> Result<(), Error> {
     levels(shape, k, sites, Wanted::All).map(|_| ())
 }
 
-/// Returns how many spheres at changes of sign the force of a contact depends on.
+/// Returns the number of spheres at sign changes on which the force of a contact depends.
 pub(crate) fn nodes(shape: &Shape, site: Site, direction: Direction) -> Result<usize, Error> {
     let wanted = Wanted::for_contact(shape, site, direction);
     let levels = levels(shape, site.k, &[[site.i, site.j]], wanted)?;
@@ -80,7 +99,7 @@ pub(crate) fn nodes(shape: &Shape, site: Site, direction: Direction) -> Result<u
     Ok(above + usize::from(wanted == Wanted::All))
 }
 
-/// Returns the levels of the tree above some spheres, from the question up.
+/// Returns the levels of the tree of some spheres, from the question upwards.
 fn levels(
     shape: &Shape,
     k: i128,
@@ -126,10 +145,11 @@ fn levels(
 }
 
 impl<T: Algebra> Lines<'_, T> {
-    /// The forces from above on spheres of layer `k`, whose sites the caller has checked; zero on lines not wanted.
+    /// Returns the forces from above on spheres of layer `k`, and zero on lines that are not wanted. The caller has
+    /// checked the sites.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if the lines above pass more than 4 million spheres at changes of sign.
+    /// [`Error::TooLarge`] if the tree has more than 4 million nodes.
     pub(crate) fn forces_above(
         &self,
         k: i128,
@@ -167,8 +187,8 @@ impl<T: Algebra> Lines<'_, T> {
         })
     }
 
-    /// Returns the forces from above on the spheres of a level, from what the spheres `starts` at the change of sign above
-    /// receive, turned.
+    /// Returns the forces from above on the spheres of a level. `turned` are the forces on the spheres `starts` at the
+    /// sign change above, after the half-turn.
     fn received(
         &self,
         level: &Level,
@@ -188,7 +208,7 @@ impl<T: Algebra> Lines<'_, T> {
                 }
                 let n = counts[direction.index()];
                 let counted = self.counted(run, k, *site, direction, n) * &unit;
-                // A line that begins at a change of sign carries on what is turned there.
+                // A line that begins at a sign change starts with the turned force there.
                 let begins_at_change = run.index > 0 && n == k - run.from;
                 force[direction.index()] = if begins_at_change {
                     let start = start_of(*site, direction, run.sign, n);
@@ -213,7 +233,7 @@ mod tests {
     use crate::Pile;
     use crate::lattice::Region;
 
-    /// Under a row of n spheres n + 1 of the next layer.
+    /// A row of n spheres has n + 1 supports in the next layer.
     #[test]
     fn a_tree_has_four_million_nodes_at_most() {
         let most = 4_000_000;
