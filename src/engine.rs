@@ -1,4 +1,4 @@
-//! How contact forces are computed: the plan, and the engines from which it chooses.
+//! The computation of contact forces: a plan chooses one of several engines.
 //!
 //! | method | algorithm | files |
 //! |---|---|---|

@@ -20,9 +20,9 @@
 //! ```
 //!
 //! # Bands of rows
-//! This part runs in parallel. The rows are halved recursively into *bands*, one for a thread. Within a band, each pass
-//! omits the rows that depend on the other half: |o′ − o| more rows for each pass. For o′ − o = −1 the halves A and B
-//! are
+//! This part runs in parallel. The rows are halved recursively into *bands*, one for a thread. In either half, each
+//! pass omits the rows that depend on the other half. These are |o′ − o| more rows than in the previous pass. For o′ −
+//! o = −1 the halves A and B are
 //!
 //! ```text
 //! pass 1    A A A A A A B B B B B B
@@ -91,7 +91,7 @@ where
     V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
 {
     let whole = Band {
-        taken: passes.iter().map(|(pass, _)| pass.rows()).collect(),
+        rows: passes.iter().map(|(pass, _)| pass.rows()).collect(),
         starts: [0; 3],
         planes: planes.iter_mut().map(Plane::slices_mut).collect(),
     };
@@ -122,11 +122,11 @@ fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
 }
 
 /// The rows to treat, one range for each pass.
-type Taken = Vec<Range<i128>>;
+type RowsByPass = Vec<Range<i128>>;
 
 /// A band of rows with the cells of their lines in every plane, and the rows that each pass treats.
 struct Band<'c, V> {
-    taken: Taken,
+    rows: RowsByPass,
     /// The first cell of each slice, among all cells.
     starts: [usize; 3],
     planes: Vec<[&'c mut [V]; 3]>,
@@ -136,7 +136,7 @@ impl<V> Band<'_, V> {
     /// Returns the border after the first half of the bands: the row of the first pass at which the second half begins,
     /// and its row of γ cells. The border is never the first row.
     fn border(&self, number: i128, passes: &Passes<V>) -> Option<[i128; 2]> {
-        let ((pass, _), rows) = (passes.first()?, self.taken.first()?.clone());
+        let ((pass, _), rows) = (passes.first()?, self.rows.first()?.clone());
         let sites = |j| {
             let row = pass.part.row(j);
             row.end - row.start
@@ -156,7 +156,7 @@ impl<V> Band<'_, V> {
         [border, gamma]: [i128; 2],
         grid: &Grid<'_>,
         passes: &Passes<V>,
-    ) -> Result<([Band<'_, V>; 2], Taken), Error> {
+    ) -> Result<([Band<'_, V>; 2], RowsByPass), Error> {
         let shifts = || passes.iter().map(|(pass, _)| pass.shift);
         // Row j depends on the rows j and j + step of the previous pass.
         let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
@@ -167,17 +167,18 @@ impl<V> Band<'_, V> {
         });
         let around: Vec<_> = core::iter::once(border..border).chain(around).collect();
         let by_pass = |of: fn(&Range<i128>, &Range<i128>) -> Range<i128>| {
-            let rows = self.taken.iter().zip(&around);
+            let rows = self.rows.iter().zip(&around);
             rows.map(|(rows, around)| of(rows, around)).collect()
         };
         let before = by_pass(|rows, around| rows.start..rows.end.min(around.start));
         let behind = by_pass(|rows, around| rows.start.max(around.end)..rows.end);
-        let left = by_pass(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
+        let omitted =
+            by_pass(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
         // The γ cells are cut at another row than those of α and β: where the second half of the first pass begins.
         let own = grid.row_start(border)?;
         let starts = [own, own, grid.row_start(gamma)?];
-        let mut parts = [(before, self.starts), (behind, starts)].map(|(taken, starts)| Band {
-            taken,
+        let mut parts = [(before, self.starts), (behind, starts)].map(|(rows, starts)| Band {
+            rows,
             starts,
             planes: Vec::with_capacity(self.planes.len()),
         });
@@ -189,7 +190,7 @@ impl<V> Band<'_, V> {
             parts[0].planes.push([a, b, c]);
             parts[1].planes.push([a_behind, b_behind, c_behind]);
         }
-        Ok((parts, left))
+        Ok((parts, omitted))
     }
 }
 
@@ -212,13 +213,13 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
     ) -> Result<(), Error> {
         let several = number > 1;
         if let Some(border) = several.then(|| self.border(number, passes)).flatten() {
-            let ([before, behind], left) = self.split_before(border, grid, passes)?;
+            let ([before, behind], omitted) = self.split_before(border, grid, passes)?;
             let half = number / 2;
             parallel::share(
                 || before.make_in_bands(half, grid, passes, (turn, finish)),
                 || behind.make_in_bands(number - half, grid, passes, (turn, finish)),
             )?;
-            self.taken = left;
+            self.rows = omitted;
         }
         self.make(grid, passes, turn, finish)
     }
@@ -255,7 +256,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             .map(counts)
             .collect::<Result<Vec<Counts>, _>>()?;
         let filled = || {
-            self.taken
+            self.rows
                 .iter()
                 .zip(&delays)
                 .filter(|(rows, _)| !rows.is_empty())
@@ -269,7 +270,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             for (place, (pass, ramps)) in passes.iter().enumerate() {
                 // `delays`, `rows` and `counts` have one entry for each pass.
                 let j = time - delays[place];
-                if self.taken[place].contains(&j) {
+                if self.rows[place].contains(&j) {
                     let cells = self.pass(grid, pass, ramps, (j, &counts[place]), turn)?;
                     if place + 1 == passes.len() {
                         finish(&mut self.planes, &cells);
@@ -334,7 +335,7 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     let sum = |x: &V, w| formula::transmitted(x.clone(), w);
     // Where all three counts are level, the same three values are added everywhere.
     let level = up..(n - down).max(up);
-    turn_apart(
+    turn_disjoint(
         &mut alpha[level.clone()],
         &mut beta[level.clone()],
         &mut gamma[level.clone()],
@@ -362,12 +363,17 @@ fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
         add(row, along);
     }
     let [alpha, beta, gamma] = rows;
-    turn_apart(alpha, beta, gamma, turn);
+    turn_disjoint(alpha, beta, gamma, turn);
 }
 
 /// Turns three disjoint rows. As parameters of a function they are known to the compiler not to overlap.
 #[inline(never)]
-fn turn_apart<V: Clone>(a: &mut [V], b: &mut [V], c: &mut [V], turn: &impl Fn(&[V; 3]) -> [V; 3]) {
+fn turn_disjoint<V: Clone>(
+    a: &mut [V],
+    b: &mut [V],
+    c: &mut [V],
+    turn: &impl Fn(&[V; 3]) -> [V; 3],
+) {
     let n = a.len().min(b.len()).min(c.len());
     let (a, b, c) = (&mut a[..n], &mut b[..n], &mut c[..n]);
     for place in 0..n {
@@ -450,7 +456,7 @@ mod tests {
     }
 
     #[test]
-    fn bands_and_their_seams_are_the_whole() {
+    fn bands_give_the_same_numbers_as_whole_layers() {
         let alternating = "+-".repeat(9);
         let mut compared = 0;
         for stacking in [
@@ -486,7 +492,7 @@ mod tests {
 
     /// From bands of a few rows to as many as the omitted rows allow.
     #[test]
-    fn bands_of_low_layers_are_the_whole() {
+    fn bands_of_low_layers_give_the_same_numbers() {
         for (side, stacking) in [(12, "+-+-+-+-"), (20, "-++-+--+"), (31, "+++---+-")] {
             let top = Region::triangle(side).unwrap();
             let shape = Shape::under(top, stacking.parse().unwrap()).unwrap();
@@ -533,7 +539,7 @@ mod tests {
             };
             for number in 2..8 {
                 let band = Band::<i64> {
-                    taken: alloc::vec![rows.clone()],
+                    rows: alloc::vec![rows.clone()],
                     starts: [0; 3],
                     planes: Vec::new(),
                 };
@@ -563,7 +569,7 @@ mod tests {
     /// Checks that the number of bands is the largest one within them.
     #[cfg(feature = "rayon")]
     #[test]
-    fn bands_are_as_many_as_are_worth_it() {
+    fn bands_are_as_many_as_the_limits_allow() {
         let mut limited = [0; 3];
         for (top, stacking) in [
             ("triangle:30", "+-+-+-+-"),

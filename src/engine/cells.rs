@@ -6,7 +6,7 @@ use core::ops::Range;
 use num_traits::Zero;
 
 use super::bands::make;
-use super::grid::{Grid, Layer, Moves, Pass, none_wait};
+use super::grid::{Grid, Layer, Moves, Pass, assert_none_deferred};
 use super::plane::{Plane, Ramps};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
@@ -31,7 +31,7 @@ impl<V: Clone> Cells<V> {
 
     /// Returns the numbers on consecutive lines, by direction.
     pub(super) fn slices(&self, cells: [Range<usize>; 3]) -> [&[V]; 3] {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         self.plane.slices(cells)
     }
 }
@@ -63,19 +63,19 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error> {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         self.plane.add_to(cells, values);
         Ok(())
     }
 
     fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         let zero = T::Numerator::zero();
         self.plane.move_to(&mut Vec::new(), next, moves, &zero);
     }
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         self.plane.carried(cells).map(Clone::clone)
     }
 }

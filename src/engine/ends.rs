@@ -88,16 +88,16 @@ impl<T: Algebra> Lines<'_, T> {
     /// Their neighbours in the row are included.
     fn ends_of_extras(&self, k: i128, run: Option<Stretch>) -> BTreeMap<i128, Vec<i128>> {
         let mut rows: BTreeMap<i128, Vec<i128>> = BTreeMap::new();
-        let mut meet = |[i, j]: [i128; 2]| {
+        let mut insert_around = |[i, j]: [i128; 2]| {
             rows.entry(j).or_default().extend([i - 1, i, i + 1]);
         };
         for site in self.extras_in(k..k + 1) {
-            meet([site.i, site.j]);
+            insert_around([site.i, site.j]);
         }
         if let Some(run) = run {
             for site in self.extras_in(run.from..k) {
                 for direction in Direction::ALL {
-                    meet(start_of([site.i, site.j], direction, run.sign, site.k - k));
+                    insert_around(start_of([site.i, site.j], direction, run.sign, site.k - k));
                 }
             }
         }

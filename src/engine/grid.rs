@@ -72,7 +72,7 @@ impl Pass {
         *rows.start()..rows.end() + 1
     }
 
-    /// Returns an upper bound of the spheres of the pass on one line: the steps of the pass, and the sides of the
+    /// Returns an upper bound of the spheres that a line meets in the pass: the steps of the pass, and the sides of the
     /// layer.
     pub(super) fn greatest_count(&self) -> i128 {
         let widths = self.region.widths();
@@ -297,8 +297,11 @@ pub(crate) trait Layer<T: Algebra> {
 }
 
 /// Asserts that no pass is deferred: numbers may be read and changed only then.
-pub(super) fn none_wait<P>(waiting: &[P]) {
-    debug_assert!(waiting.is_empty(), "passes come before what they lead to");
+pub(super) fn assert_none_deferred<P>(deferred: &[P]) {
+    debug_assert!(
+        deferred.is_empty(),
+        "deferred passes are made before numbers are read"
+    );
 }
 
 /// Returns the sites of a region above a corner, which is lowered by `lower`.

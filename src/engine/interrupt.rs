@@ -1,4 +1,4 @@
-//! Long work that another thread can end.
+//! Cancellation of long work by another thread.
 
 use crate::Error;
 
@@ -7,7 +7,8 @@ pub use with_threads::Interrupt;
 #[cfg(feature = "rayon")]
 pub(crate) use with_threads::{current, within};
 
-/// Errors if an end of what this thread does was asked for.
+/// Returns an error if the work of the current thread has been cancelled.
+///
 ///
 /// # Errors
 /// [`Error::Interrupted`].
@@ -27,15 +28,15 @@ mod with_threads {
     use crate::Error;
 
     std::thread_local! {
-        static ASKED: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
+        static REQUEST: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
     }
 
-    /// A request to end work, made by another thread: for Ctrl-C, a button, a time limit.
+    /// A request to cancel work, made by another thread: for Ctrl-C, a button, or a time limit.
     ///
-    /// What is done [`during`](Self::during) it looks at the request before each row, layer, contact or equation, in all its
-    /// threads, and ends with [`Error::Interrupted`] within a fraction of a second. Without a request nothing is another than
-    /// it would be; with one an answer that was found meanwhile is still an answer. Of requests within each other the inner
-    /// one counts.
+    /// Work inside [`during`](Self::during) checks the request before each row, layer, contact or equation, in all its
+    /// threads. It ends with [`Error::Interrupted`] within a fraction of a second. Without a request the results do not
+    /// change. An answer that is complete before the check is still returned. If calls of `during` are nested, only the
+    /// innermost request is checked.
     ///
     /// # Examples
     /// ```
@@ -59,7 +60,7 @@ mod with_threads {
     }
 
     impl Interrupt {
-        /// A request that was not made yet; its clones are the same one.
+        /// Creates a request that has not been made yet. All clones share its state.
         ///
         /// # Examples
         /// ```
@@ -72,7 +73,7 @@ mod with_threads {
             Self::default()
         }
 
-        /// Asks the work to end.
+        /// Makes the request: the work is to end.
         ///
         /// # Examples
         /// ```
@@ -86,7 +87,7 @@ mod with_threads {
             self.requested.store(true, Ordering::Relaxed);
         }
 
-        /// Returns whether the work was asked to end.
+        /// Returns whether the request has been made.
         ///
         /// # Examples
         /// ```
@@ -99,10 +100,10 @@ mod with_threads {
             self.requested.load(Ordering::Relaxed)
         }
 
-        /// Does work on this thread that ends soon after a request.
+        /// Runs `work` on the current thread, and ends it soon after a request.
         ///
         /// # Errors
-        /// [`Error::Interrupted`] for whatever fails after a request; else those of `work`.
+        /// [`Error::Interrupted`] for any error after a request. Otherwise the error of `work`.
         ///
         /// # Examples
         /// ```
@@ -127,7 +128,8 @@ mod with_threads {
             })
         }
 
-        /// Errors if the work that this thread is doing was asked to end: for loops of one's own around this library's.
+        /// Returns an error if the work of the current thread has been cancelled. Call it in loops around this library.
+        ///
         ///
         /// # Errors
         /// [`Error::Interrupted`].
@@ -138,45 +140,45 @@ mod with_threads {
         ///
         /// let interrupt = Interrupt::new();
         /// interrupt.request();
-        /// // It is of what is done during it, and of nothing else.
+        /// // The request applies only to work inside `during`.
         /// assert_eq!(Interrupt::check(), Ok(()));
         /// assert_eq!(interrupt.during(Interrupt::check), Err(Error::Interrupted));
         /// ```
         pub fn check() -> Result<(), Error> {
-            let asked = ASKED.try_with(|asked| {
-                let asked = asked.borrow();
-                asked
+            let request = REQUEST.try_with(|request| {
+                let request = request.borrow();
+                request
                     .as_ref()
-                    .is_some_and(|asked| asked.load(Ordering::Relaxed))
+                    .is_some_and(|request| request.load(Ordering::Relaxed))
             });
-            // A thread that is ending does nothing for anybody.
-            match asked {
+            // The thread-local value is gone only while its thread ends, and such a thread does no work.
+            match request {
                 Ok(true) => Err(Error::Interrupted),
                 _ => Ok(()),
             }
         }
     }
 
-    /// What ends the work of this thread.
+    /// Returns the request that the work of the current thread checks.
     #[cfg(feature = "rayon")]
     pub(crate) fn current() -> Option<Arc<AtomicBool>> {
-        ASKED
-            .try_with(|asked| asked.borrow().clone())
+        REQUEST
+            .try_with(|request| request.borrow().clone())
             .ok()
             .flatten()
     }
 
-    /// Does work that this ends, on this thread.
-    pub(crate) fn within<T>(asked: Option<&Arc<AtomicBool>>, work: impl FnOnce() -> T) -> T {
-        /// Puts back what was there, also when the work panics.
+    /// Runs `work` on the current thread with this request.
+    pub(crate) fn within<T>(request: Option<&Arc<AtomicBool>>, work: impl FnOnce() -> T) -> T {
+        /// Restores the previous request, also when the work panics.
         struct Before(Option<Arc<AtomicBool>>);
         impl Drop for Before {
             fn drop(&mut self) {
                 let before = self.0.take();
-                let _ = ASKED.try_with(|asked| asked.replace(before));
+                let _ = REQUEST.try_with(|request| request.replace(before));
             }
         }
-        let before = ASKED.try_with(|now| now.replace(asked.cloned()));
+        let before = REQUEST.try_with(|now| now.replace(request.cloned()));
         let _before = Before(before.ok().flatten());
         work()
     }

@@ -8,9 +8,9 @@
 //! After d sign changes every force is an integer over D·3^d, with D the common denominator of weights and loads
 //! ([`paper`](crate::paper#transfer)). A sign change triples the numerators, 3G g = 2Σg − 3g, so nothing is divided.
 //!
-//! Let layer κ have n_κ spheres of weight u and loads e, in mg. G is orthogonal, and each line of a layer continues as
-//! one line of the next. So in the ℓ² norm over a layer ‖f‖ ≤ ‖g‖ + √3·‖w‖. For K layers of N spheres in all, the
-//! Cauchy–Schwarz inequality gives
+//! Let the spheres have the weight u and the loads e, in mg. Let w be the weights and loads in one layer. G is
+//! orthogonal, and each line of a layer continues as one line of the next. So in the ℓ² norm over a layer ‖f‖ ≤ ‖g‖ +
+//! √3·‖w‖. For K layers of N spheres in all, the Cauchy–Schwarz inequality gives
 //!
 //! ‖f‖ ≤ B = u√(3·K·N) + √3·Σ|e|.
 //!
@@ -24,7 +24,7 @@
 //!
 //! The idea in base 10, with digits −5 … 4: let the low digits of a, b, c be 3, 4, 4. The transfer 2(b + c) − a gives
 //! 13. It stays in the low position, since 13 is a valid value there until the carry. The carry then writes 3, and adds
-//! 1 to the next digit.
+//!     1 to the next digit.
 //!
 //! *Lemma.* Immediately after a carry the lower limbs lie in [−2^54, 2^54). Let M·2^55 bound them some passes later,
 //! with M = 1/2 at first. A pass adds a limb of an increment, at most 2^54, and may apply 2(b + c) − a.
@@ -61,7 +61,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use super::bands::make;
-use super::grid::{Grid, Layer, Moves, Pass, none_wait};
+use super::grid::{Grid, Layer, Moves, Pass, assert_none_deferred};
 use super::plane::{Plane, Ramps, row};
 use crate::Error;
 use crate::error::bug;
@@ -151,13 +151,13 @@ impl Planes {
     /// The former top limb becomes a lower one. It is carried on all lines of the first deferred pass. The other limbs
     /// allow as many passes as before.
     fn grow(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
-        let had = self.limbs.len();
+        let available = self.limbs.len();
         let planes = Size::new(&self.bound, self.changes).planes;
-        let Some((pass, _)) = self.waiting.first().filter(|_| planes > had) else {
+        let Some((pass, _)) = self.waiting.first().filter(|_| planes > available) else {
             return Ok(());
         };
         self.limbs.resize(planes, Plane::new(grid, &0));
-        let top_and_next = self.limbs[had - 1..=had].iter_mut();
+        let top_and_next = self.limbs[available - 1..=available].iter_mut();
         let mut top_and_next: Vec<_> = top_and_next.map(Plane::slices_mut).collect();
         for row in pass.part.rows(pass.k) {
             let cells = grid.row(row.j, &row.i, pass.shift)?;
@@ -201,7 +201,7 @@ impl Planes {
 
     /// Returns the limbs of consecutive lines, by direction. The top limbs come first.
     pub(super) fn slices(&self, cells: &[Range<usize>; 3]) -> Vec<[&[i64]; 3]> {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         let top_down = self.limbs.iter().rev();
         top_down.map(|plane| plane.slices(cells.clone())).collect()
     }
@@ -239,7 +239,7 @@ impl Planes {
     /// # Errors
     /// [`Error::Bug`].
     pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Result<Least, Error> {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         self.carry()?;
         let mut least: Option<(Vec<i64>, (i128, i128, Direction))> = None;
         for row in pass.part.rows(pass.k) {
@@ -311,7 +311,7 @@ impl Layer<BigRational> for Planes {
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) -> Result<(), Error> {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         let planes = self.limbs.len();
         let [Some(a), Some(b), Some(c)] = values.each_ref().map(|value| limbs(value, planes))
         else {
@@ -325,14 +325,14 @@ impl Layer<BigRational> for Planes {
     }
 
     fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         for plane in &mut self.limbs {
             plane.move_to(&mut self.spare, next, moves, &0);
         }
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {
-        none_wait(&self.waiting);
+        assert_none_deferred(&self.waiting);
         let top_down = self.limbs.iter().rev();
         let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
         [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))
@@ -443,7 +443,7 @@ mod tests {
     /// One number has 2^55 + 10 in its lower limb, uncarried. Another has 2^55 + 5 in both limbs. By the top limbs
     /// alone the first would be the smaller.
     #[test]
-    fn the_least_is_looked_for_among_what_is_carried() {
+    fn the_smallest_number_is_found_after_a_carry() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
         let grid = Grid::new(&shape, 1, 2).unwrap();
         let pass = grid.pass(0, 1).unwrap().unwrap();
@@ -478,7 +478,7 @@ mod tests {
 
     /// Checks 2√3·B·D ≤ bound < 2√3·B·D + 7 for B = u√(3KN) + √3·Σ|e|. Squares keep the comparison in integers.
     #[test]
-    fn the_bound_is_what_is_proved_and_hardly_more() {
+    fn the_bound_is_close_to_the_proved_one() {
         for (layers, spheres, ordinary, extras) in [
             (1, 1_i128, 1, 0),
             (2, 4, 1, 0),
@@ -501,7 +501,7 @@ mod tests {
 
     /// Checks the table of the lemma, with M in halves, and that a fourth pass would overflow.
     #[test]
-    fn lower_limbs_bear_three_passes_and_no_more() {
+    fn lower_limbs_allow_three_passes_and_no_more() {
         let half = 1_i128 << (LIMB - 1);
         let bounds = |passes| (0..passes).fold(1, |halves, _| 5 * (halves + 1));
         assert_eq!(bounds(TURNS), 280);
@@ -557,7 +557,7 @@ mod tests {
 
     /// The numbers grow from one limb to two within the pile.
     #[test]
-    fn the_first_numbers_of_two_limbs_are_what_big_integers_are() {
+    fn numbers_that_grow_to_two_limbs_equal_big_integers() {
         let pile = Pile::under(Region::SITE, "+-".repeat(21).parse().unwrap()).unwrap();
         let system = pile.system();
         let planes = |last| system.size_of_sweep(last).planes;
@@ -585,7 +585,7 @@ mod tests {
     }
 
     #[test]
-    fn passes_wait_until_carries_are_due() {
+    fn passes_are_deferred_until_a_carry_is_required() {
         let shape = Shape::under(Region::SITE, "+-+-+-+-".parse().unwrap()).unwrap();
         let grid = Grid::new(&shape, 8, 2).unwrap();
         let mut planes = two_planes(&grid);
@@ -615,7 +615,7 @@ mod tests {
 
     #[test]
     #[cfg_attr(debug_assertions, should_panic(expected = "no force is wider"))]
-    fn a_number_that_is_wider_than_was_proved_is_a_bug() {
+    fn a_number_wider_than_its_bound_is_a_bug() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
         let grid = Grid::new(&shape, 1, 1).unwrap();
         let (mut planes, cells) = (Planes::new(&grid, 1.into()), grid.site(0, 0, 0).unwrap());
@@ -626,7 +626,7 @@ mod tests {
 
     /// A carry reduces limbs to [−2^54, 2^54), and not further.
     #[test]
-    fn no_more_is_carried_than_must_be() {
+    fn a_carry_leaves_limbs_within_their_range() {
         let half = 1_i64 << (LIMB - 1);
         let mut lower = [half, -half, half - 1, -half - 1, 0, -1, 3 * half];
         let mut upper = [0; 7];
@@ -645,7 +645,7 @@ mod tests {
 
     /// Converts the smallest and the largest number of so many limbs, and refuses the next ones.
     #[test]
-    fn what_is_wider_than_its_limbs_is_none() {
+    fn a_number_wider_than_its_limbs_is_refused() {
         let half = 1_i64 << (LIMB - 1);
         for below in 0..9 {
             let ends = [(-half, i64::MIN), (half - 1, i64::MAX)].map(|(limb, top)| {
@@ -669,7 +669,7 @@ mod tests {
     }
 
     #[test]
-    fn limbs_are_what_big_integers_are() {
+    fn limbs_equal_big_integers() {
         let alternating = "+-".repeat(40);
         let mixed = "+-++---+".repeat(6);
         for (top, stacking) in [

@@ -1,8 +1,8 @@
 //! The forces on the lines of contacts, run by run: the common part of the methods *closed* and *tree*.
 //!
-//! Within a run a line only counts, see [`paper`](crate::paper#lines). A sphere m layers into a run receives the
-//! increments of the N spheres above it on the line. [`Region::spheres_above`](crate::lattice::Region::spheres_above)
-//! returns N ≤ m.
+//! Within a run the force on a line is proportional to a count of spheres, see [`paper`](crate::paper#lines). A sphere
+//! m layers into a run receives the increments of the N spheres above it on the line.
+//! [`Region::spheres_above`](crate::lattice::Region::spheres_above) returns N ≤ m.
 //!
 //! * If N < m, the line begins at a surface, with zero force.
 //! * If N = m, it begins at the sign change, with the force that the sphere there transmits. This force depends on the

@@ -1,11 +1,11 @@
-//! The work that an answer took, counted by the engines as they go.
+//! Counters of the work for an answer.
 
 use core::fmt;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
 /// Counts the work of answers: spheres visited, sign changes crossed, passes of a sweep, rows answered.
 ///
-/// Counts are of type `usize` inside and stop at the greatest of them.
+/// The counts are of type `usize` internally. A count stops at the maximum of this type.
 ///
 /// # Examples
 /// ```
@@ -48,13 +48,13 @@ impl Counters {
         count(&self.turned)
     }
 
-    /// Returns the number of runs, or parts of one, that a sweep crossed at once.
+    /// Returns the number of passes of a sweep. A pass crosses a run, or a part of one, in one step.
     #[must_use]
     pub fn passes(&self) -> u64 {
         count(&self.passes)
     }
 
-    /// Returns the number of rows that iterators answered; the answer to a single question is not a row.
+    /// Returns the number of rows that iterators returned. The answer to a single question does not count as a row.
     #[must_use]
     pub fn rows(&self) -> u64 {
         count(&self.rows)
@@ -75,19 +75,19 @@ impl fmt::Display for Counters {
     }
 }
 
-/// The counters that an engine reports to, if there are any.
+/// The counters to which an engine reports, if any.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meter<'c>(Option<&'c Counters>);
 
 impl<'c> Meter<'c> {
-    /// Counts nothing.
+    /// The meter without counters.
     pub(crate) const NONE: Self = Self(None);
 
     pub(crate) const fn of(counters: &'c Counters) -> Self {
         Self(Some(counters))
     }
 
-    /// Returns whether anything counts: some counts take time to find out.
+    /// Returns whether counters are present. Some counts take time to compute.
     pub(crate) const fn counts(self) -> bool {
         self.0.is_some()
     }
@@ -115,7 +115,7 @@ impl<'c> Meter<'c> {
     fn add(self, counter: impl FnOnce(&Counters) -> &AtomicUsize, more: usize) {
         if let Some(counters) = self.0 {
             let counter = counter(counters);
-            // Not `fetch_add`, which would wrap: the closure never refuses.
+            // `fetch_add` would wrap. The closure always returns a value, so the update cannot fail.
             let _ = counter.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |count| {
                 Some(count.saturating_add(more))
             });

@@ -1,9 +1,13 @@
-//! The floats nearest to sums of what lines carry, straight from the limbs.
+//! Correctly rounded floats of sums of line forces, straight from the limbs.
 //!
-//! An integer over a denominator times c·√r is n·v with v = c·√r/denominator. v is enclosed once, in a double-double; of n the
-//! leading bits are taken, and what is left out is bounded. If both ends of the product round to one float, so does the
-//! value between them, and no root, no gcd and no long integer is needed. Else, once in some hundreds or at a tie, the exact
-//! [`Surd`] decides.
+//! A force is an integer n over a denominator, times c·√r: in short n·v with v = c·√r/denominator. An exact evaluation
+//! needs a long integer, a gcd and a root for each force. Here a screen decides almost all of them:
+//!
+//! 1. v is enclosed once, in a double-double.
+//! 2. The leading bits of n are read from its top limbs, and the remainder is bounded.
+//! 3. If both ends of the product round to the same float, the exact value rounds to it as well.
+//!
+//! Otherwise the exact [`Surd`] decides. This happens once in some hundreds of forces, or at a tie.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -14,16 +18,16 @@ use crate::Error;
 use crate::error::bug;
 use crate::scalar::{CorrectlyRounded, DoubleDouble, Surd, float_between};
 
-/// What integers are multiplied by before they are rounded: c·√r over a denominator.
+/// The unit by which integers are multiplied before they are rounded: c·√r over a denominator.
 #[derive(Clone, Debug)]
 pub(crate) struct Unit {
     surd: Surd,
     denominator: BigInt,
-    /// None of zero.
+    /// `None` for a unit of zero.
     factor: Option<Factor>,
 }
 
-/// A positive number, value·2^exponent to within 2^−104 of it, with 1/8 ≤ value ≤ 1.
+/// A positive number value·2^exponent, with 1/8 ≤ value ≤ 1 and a relative error of at most 2^−104.
 #[derive(Clone, Copy, Debug)]
 struct Factor {
     value: DoubleDouble,
@@ -31,7 +35,8 @@ struct Factor {
     negative: bool,
 }
 
-/// How the three numbers of a sphere are made of what its lines carry: n_k = Σ_m combination[k][m]·x_m + own[k], in units.
+/// The three results of a sphere as combinations of its line forces x: n_k = Σ_m combination[k][m]·x_m + own[k], in
+/// units.
 #[derive(Clone, Debug)]
 pub(crate) struct Readout {
     pub(crate) combination: [[i32; 3]; 3],
@@ -39,7 +44,7 @@ pub(crate) struct Readout {
 }
 
 impl Unit {
-    /// c·√r over a positive denominator.
+    /// Returns the unit c·√r over a positive denominator.
     pub(crate) fn new(surd: Surd, denominator: BigInt) -> Self {
         let factor = Factor::new(&surd, &denominator);
         Self {
@@ -49,21 +54,21 @@ impl Unit {
         }
     }
 
-    /// The float nearest to n units.
+    /// Returns n units, correctly rounded, or `None` if the result is not a float.
     pub(crate) fn nearest<F: CorrectlyRounded>(&self, n: &BigInt) -> Option<F> {
         const LEADING: u64 = 120;
         let below = n.bits().saturating_sub(LEADING);
         let decided = if below == 0 {
             n.to_i128().and_then(|n| self.decide(n, 0, 0.0))
         } else {
-            // What is shifted out is less than one, and n is rounded down.
+            // n is rounded down, and the bits shifted out amount to less than one.
             let (leading, exponent) = ((n >> below).to_i128()?, i64::try_from(below).ok()?);
             self.decide(leading, exponent, 1.0)
         };
         decided.or_else(|| self.exactly(n))
     }
 
-    /// The float nearest to n units.
+    /// Returns n units, correctly rounded, or `None` if the result is not a float.
     pub(crate) fn nearest_to<F: CorrectlyRounded>(&self, n: i128) -> Option<F> {
         let decided = self.decide(n, 0, 0.0);
         decided.or_else(|| self.exactly(&n.into()))
@@ -73,9 +78,9 @@ impl Unit {
         self.surd.coefficient().is_zero()
     }
 
-    /// Whether the unit is surely greater than 2^e, whatever its sign.
+    /// Returns whether the absolute value of the unit certainly exceeds 2^e.
     pub(crate) fn exceeds_power_of_two(&self, e: i64) -> bool {
-        // At least 1/8 of its power.
+        // The value of a factor is at least 1/8.
         self.factor.is_some_and(|factor| factor.exponent - 3 > e)
     }
 
@@ -87,16 +92,16 @@ impl Unit {
         self.surd.scaled(&multiple).nearest()
     }
 
-    /// The float nearest to (n + δ)·2^exponent units for every |δ| ≤ owed, if it is one.
+    /// Returns (n + δ)·2^exponent units, correctly rounded, if the result is the same float for all |δ| ≤ `remainder`.
     #[expect(
         clippy::cast_precision_loss,
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
-        reason = "high is the nearest float, low the exact rest, its rounding within the slack; below 2^127 nothing wraps"
+        reason = "high is correctly rounded, low the exact rest, its rounding within the slack; below 2^127 nothing wraps"
     )]
-    fn decide<F: CorrectlyRounded>(&self, n: i128, exponent: i64, owed: f64) -> Option<F> {
-        // 3u² + 7u² + 2^−104 of both sums and the product, u = 2^−53, is below 2^−101.
+    fn decide<F: CorrectlyRounded>(&self, n: i128, exponent: i64, remainder: f64) -> Option<F> {
+        // With u = 2^−53, the errors of both sums and of the product are 3u² + 7u² + 2^−104, less than 2^−101.
         const SLACK: i64 = -98;
         let factor = self.factor?;
         let magnitude = n.unsigned_abs();
@@ -108,8 +113,8 @@ impl Unit {
         let low = magnitude as i128 - (high as u128) as i128;
         let leading = DoubleDouble::new(high * scale) + DoubleDouble::new(low as f64 * scale);
         let product = leading * factor.value;
-        // The factor is at most 1.
-        let slack = product.high() * power_of_two(SLACK) + owed * scale;
+        // The value of a factor is at most 1.
+        let slack = product.high() * power_of_two(SLACK) + remainder * scale;
         let ends = [product.low() - slack, product.low() + slack].map(|low| product.high() + low);
         let negative = (n < 0) != factor.negative;
         float_between(negative, ends, exponent + bits + factor.exponent)
@@ -122,10 +127,10 @@ impl Factor {
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
-        reason = "high is the nearest float, low the exact rest, rounded by 2^−107 of it all at most; of 108 bits nothing wraps"
+        reason = "high is correctly rounded, low the exact rest, rounded by 2^−107 of it all at most; of 108 bits nothing wraps"
     )]
     fn new(surd: &Surd, denominator: &BigInt) -> Option<Self> {
-        // The root of 2^(2s)·(c²r/d²), of 106 to 108 bits, rounded down: to within 2^−105 of it.
+        // The root of 2^(2s)·(c²r/d²) has 106 to 108 bits. Rounded down, its relative error is below 2^−105.
         const BITS: i64 = 214;
         let coefficient = surd.coefficient();
         let (c, d) = (
@@ -156,11 +161,12 @@ impl Factor {
 }
 
 impl Readout {
-    /// Writes the nearest floats of the spheres of a row, from the limbs of their lines by direction, the top ones first;
-    /// returns whether all of them are floats.
+    /// Writes the correctly rounded results of the spheres of a row. Returns whether every result is a float.
+    ///
+    /// `top_down` holds the limbs of their lines, by direction, the top limbs first.
     ///
     /// # Errors
-    /// [`Error::Bug`] for more own weight than limbs can hold.
+    /// [`Error::Bug`] if the own weight exceeds the limbs.
     pub(crate) fn write<F: CorrectlyRounded>(
         &self,
         units: &[Unit; 3],
@@ -187,12 +193,12 @@ impl Readout {
                     sum + i128::from(line[place]) * i128::from(*factor)
                 })
             };
-            // Limbs that wait for their carries are below 2^8 of the next one's unit.
-            let owed = combination.iter().fold(1.0, |owed, factor| {
-                owed + 256.0 * f64::from(factor.unsigned_abs())
+            // A limb with deferred carries is below 2^8 units of the next limb.
+            let remainder = combination.iter().fold(1.0, |remainder, factor| {
+                remainder + 256.0 * f64::from(factor.unsigned_abs())
             });
             for (place, out) in out.iter_mut().enumerate() {
-                match nearest_of(&limb, place, top_down.len(), owed, unit) {
+                match nearest_of(&limb, place, top_down.len(), remainder, unit) {
                     Some(float) => *out = float,
                     None => defined = false,
                 }
@@ -202,24 +208,24 @@ impl Readout {
     }
 }
 
-/// The float nearest to Σ limb(p)·2^(55p), from the top limb down as far as it takes.
+/// Returns Σ limb(p)·2^(55p) units, correctly rounded. Reads as few limbs as it needs, from the top.
 fn nearest_of<F: CorrectlyRounded>(
     limb: &impl Fn(usize, usize) -> i128,
     place: usize,
     planes: usize,
-    owed: f64,
+    remainder: f64,
     unit: &Unit,
 ) -> Option<F> {
-    // Times a limb's 2^55, and with one more below 5·2^63, less than 2^126.
+    // Shifted by the 55 bits of a limb, and with a further limb below 5·2^63, the sum stays below 2^126.
     const ENOUGH: u128 = 1 << 70;
     let (mut leading, mut left) = (0_i128, planes);
     while left > 0 && leading.unsigned_abs() < ENOUGH {
         left -= 1;
         leading = (leading << LIMB) + limb(place, left);
     }
-    let owed = if left == 0 { 0.0 } else { owed };
+    let remainder = if left == 0 { 0.0 } else { remainder };
     let exponent = i64::try_from(left).ok()? * i64::from(LIMB);
-    unit.decide(leading, exponent, owed).or_else(|| {
+    unit.decide(leading, exponent, remainder).or_else(|| {
         let whole = (0..planes)
             .rev()
             .fold(BigInt::zero(), |n, p| (n << LIMB) + limb(place, p));
@@ -227,7 +233,7 @@ fn nearest_of<F: CorrectlyRounded>(
     })
 }
 
-/// 2^e, for −1022 ≤ e ≤ 0.
+/// Returns 2^e, for −1022 ≤ e ≤ 0.
 fn power_of_two(e: i64) -> f64 {
     f64::from_bits(((1023 + e).cast_unsigned()) << 52)
 }
@@ -260,7 +266,7 @@ mod tests {
         unit.surd.scaled(&multiple).nearest()
     }
 
-    /// All lines of all layers in floats, from limbs and from exact numbers, turned or not.
+    /// Compares all lines of all layers as floats, from limbs and from exact numbers, before and after a half-turn.
     fn compare<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(pile: &Pile) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         let lines = Lines::<BigRational>::new(&system);
@@ -303,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn floats_from_limbs_are_the_nearest() {
+    fn floats_from_limbs_are_correctly_rounded() {
         let mixed = "+-++---+".repeat(4);
         for (top, stacking) in [
             (Region::SITE, "+-".repeat(22).as_str()),
@@ -315,7 +321,7 @@ mod tests {
         }
     }
 
-    /// An integer in limbs, read out by itself.
+    /// Reads out a single integer in limbs.
     fn read<F: CorrectlyRounded>(unit: &Unit, n: &BigInt) -> Option<F> {
         let limbs = limbs(n, 26).unwrap();
         let top_down: Vec<[&[i64]; 3]> = limbs
@@ -335,9 +341,9 @@ mod tests {
         defined.then(|| out[0][0])
     }
 
-    /// Ties and their neighbours, which no enclosure decides, and the ends of the floats.
+    /// Ties and their neighbours, which no enclosure decides, and the ends of the range of floats.
     #[test]
-    fn what_is_not_decided_is_asked_of_the_exact_number() {
+    fn the_exact_number_decides_where_the_screen_cannot() {
         let mut met = 0;
         for unit in units(&BigInt::from(1)) {
             for power in (0..1100).step_by(21) {
@@ -358,11 +364,11 @@ mod tests {
         assert!(met > 2500);
     }
 
-    /// Lower limbs as great as an `i64` is, five of them in a sum, owe nearly 5·2^8 of the unit above them: what stands
-    /// there below a tie may be a number above it.
+    /// Five lower limbs as large as an `i64` leave a remainder of nearly 5·2^8 units of the limb above. So the leading
+    /// limbs may be below a tie while the number is above it.
     #[test]
-    fn limbs_that_wait_for_their_carries_are_owed_in_full() {
-        // Nearly 2^7.5, where the factor is nearly as great as it can be: 1/√2.
+    fn deferred_carries_are_bounded_in_full() {
+        // Nearly 2^7.5, where the factor is close to its maximum 1/√2.
         let great = BigRational::from(BigInt::from(181));
         let unit = Unit::new(great.into(), 1.into());
         let units = [(); 3].map(|()| unit.clone());
@@ -370,14 +376,14 @@ mod tests {
             combination: [[-1, 2, 2]; 3],
             own: [(); 3].map(|()| BigInt::zero()),
         };
-        // Times 181 an odd number of 54 bits: a tie. Of 76 bits and of 113, where the product is as little certain as what
-        // is owed.
+        // 181·odd is an odd number of 54 bits, so it is a tie. The numbers n have 76 and 113 bits: there the error of
+        // the product is as large as the remainder.
         let odd = ((1_i128 << 53) / 181 + 1) | 1;
         let ties = [odd << 30, odd << 67].into_iter();
         let below = |tie| (0..1_320).step_by(15).map(move |below| (tie, below));
         let cases = ties.flat_map(below);
         for ((tie, below), sign) in cases.flat_map(|case| [(case, 1), (case, -1)]) {
-            // Twice the upper limbs of β, and five lower ones.
+            // The upper limbs of β count twice, with five lower limbs.
             let upper = limbs(&((tie - below) / 2 * i128::from(sign)).into(), 2).unwrap();
             let least = [-sign, sign, sign].map(|sign| sign * i64::MAX);
             let top_down = [[0, upper[1], 0], [0, upper[0], 0], least];
@@ -394,18 +400,18 @@ mod tests {
         }
     }
 
-    /// The two integers between which n units are a float and a half: the leading limbs alone tell neither from the tie.
+    /// Two adjacent integers lie on either side of a tie. The leading limbs alone cannot distinguish them from it.
     #[test]
-    fn all_limbs_count_beside_a_tie() {
+    fn all_limbs_are_read_next_to_a_tie() {
         let mut met = 0;
         let units = units(&BigInt::from(1));
         for (unit, square) in units.iter().skip(1).zip([
-            // c²r = (7/3)²·8/17 and 2/1,000,003².
+            // The values of c²r: (7/3)²·8/17 and 2/1,000,003².
             (BigInt::from(392), BigInt::from(153)),
             (2.into(), BigInt::from(1_000_003_i64).pow(2)),
         ]) {
             for (odd, power) in (1_i64..40).zip((130..).step_by(3)) {
-                // Halfway between two floats, over the unit, rounded down: n² ≤ tie²/(c²r).
+                // Halfway between two floats, divided by the unit and rounded down: n² ≤ tie²/(c²r).
                 let tie = BigInt::from((1_i64 << 53) + 2 * odd - 1) << power;
                 let squared: BigInt = &tie * &tie * &square.1;
                 let below: BigInt = (squared / &square.0).sqrt();
@@ -419,9 +425,9 @@ mod tests {
         assert_eq!(met, 312);
     }
 
-    /// Ties of one limb and of several, zero under a negative unit, and the ends of the integers.
+    /// Ties of one limb and of several, zero with a negative unit, and the ends of the range of integers.
     #[test]
-    fn ties_zeros_and_ends_are_as_the_exact_number_says() {
+    fn ties_zeros_and_ends_agree_with_the_exact_number() {
         let units = units(&BigInt::from(1));
         for power in [0, 30, 80, 170] {
             let tie = ((BigInt::from(1) << 53) + 1) << power;
@@ -437,7 +443,7 @@ mod tests {
         }
     }
 
-    /// Far below all `f32`, where both ends of a wide enclosure would round to zero: one of them to −0.
+    /// Far below all `f32`, both ends of a wide enclosure would round to zero, one of them to −0.
     #[test]
     fn numbers_that_underflow_keep_their_sign() {
         let two = |power: u32| BigInt::from(1) << power;
@@ -466,7 +472,7 @@ mod tests {
         }
     }
 
-    /// Just below a tie of `f32`, by less than is still owed: what the leading limbs come to lies above it.
+    /// Numbers below a tie of `f32`, by less than the remainder: the leading limbs alone lie above the tie.
     #[test]
     fn numbers_just_below_a_tie_are_rounded_down() {
         let surd = |c: (i32, i32), r: (i32, i32)| {

@@ -48,10 +48,10 @@ pub(crate) fn join<A: Send, B: Send>(
 ) -> (A, B) {
     #[cfg(feature = "rayon")]
     {
-        let asked = interrupt::current();
+        let request = interrupt::current();
         rayon::join(
-            || interrupt::within(asked.as_ref(), one),
-            || interrupt::within(asked.as_ref(), other),
+            || interrupt::within(request.as_ref(), one),
+            || interrupt::within(request.as_ref(), other),
         )
     }
     #[cfg(not(feature = "rayon"))]
@@ -66,8 +66,8 @@ pub(crate) fn share(
     one: impl FnOnce() -> Result<(), Error> + Send,
     other: impl FnOnce() -> Result<(), Error> + Send,
 ) -> Result<(), Error> {
-    let (ones, others) = join(one, other);
-    ones.and(others)
+    let (first, second) = join(one, other);
+    first.and(second)
 }
 
 /// Calls `work` with each item, in any order, in parallel if there are threads.
@@ -81,10 +81,10 @@ pub fn try_for_each<I: Send, E: Send>(
     #[cfg(feature = "rayon")]
     if items.len() > 1 && threads() > 1 {
         use rayon::iter::{IntoParallelIterator, ParallelIterator};
-        let asked = interrupt::current();
+        let request = interrupt::current();
         return items
             .into_par_iter()
-            .try_for_each(|item| interrupt::within(asked.as_ref(), || work(item)));
+            .try_for_each(|item| interrupt::within(request.as_ref(), || work(item)));
     }
     items.into_iter().try_for_each(work)
 }
@@ -97,10 +97,10 @@ pub fn map<I: Send, O: Send>(
     #[cfg(feature = "rayon")]
     if items.len() > 1 && threads() > 1 {
         use rayon::iter::{IntoParallelIterator, ParallelIterator};
-        let asked = interrupt::current();
+        let request = interrupt::current();
         return items
             .into_par_iter()
-            .map(|item| interrupt::within(asked.as_ref(), || work(item)))
+            .map(|item| interrupt::within(request.as_ref(), || work(item)))
             .collect();
     }
     items.into_iter().map(work).collect()
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shared_is_done_in_and_outside_of_pools() {
+    fn shared_work_is_done_in_and_outside_of_pools() {
         for threads in [1, 2, 3] {
             let pool = pool(threads);
             assert_eq!(pool.install(|| sum(0..1000)), 499_500);
@@ -179,10 +179,10 @@ mod tests {
     }
 
     #[test]
-    fn errors_panics_and_requests_are_heard_in_both_halves() {
+    fn errors_panics_and_requests_are_reported_from_both_halves() {
         let refused = || Err(Error::Interrupted);
         let check = super::super::interrupt::check;
-        let heard = || {
+        let check_both_halves = || {
             assert_eq!(share(refused, || Ok(())), refused());
             assert_eq!(share(|| Ok(()), refused), refused());
             let panics = || panic!("on purpose");
@@ -194,7 +194,7 @@ mod tests {
             assert_eq!(interrupt.during(|| share(|| Ok(()), check)), refused());
             assert_eq!(interrupt.during(|| share(check, || Ok(()))), refused());
         };
-        heard();
-        pool(2).install(heard);
+        check_both_halves();
+        pool(2).install(check_both_halves);
     }
 }

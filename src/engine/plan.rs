@@ -1,4 +1,4 @@
-//! How a question is answered, and how much it takes: decided once, before anything is computed.
+//! The choice of a method for a question, and its cost. Both are determined before any force is computed.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -16,20 +16,20 @@ use crate::pile::System;
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::Rows;
 
-/// The most spheres of a row that are answered from one tree.
+/// The maximum number of spheres of a row that share a tree.
 pub(crate) const CHUNK: i128 = 1024;
 
-/// In what the numbers of a sweep are kept.
+/// The representation of the numbers in a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Keeping {
-    /// In the limbs of the exact engine, as many as a proved bound asks for.
+    /// In limbs, whose number follows from the proved bound.
     Limbs,
-    /// Each in so many words of 64 bits.
+    /// In the given number of 64-bit words for each value.
     Words(usize),
 }
 
 impl Keeping {
-    /// Returns how a sweep keeps the numerators of a scalar.
+    /// Returns the representation of the numerators of a scalar in a sweep.
     pub(crate) fn of<T: Algebra>() -> Self {
         match T::EXACTNESS {
             Exactness::Exact => Self::Limbs,
@@ -38,7 +38,7 @@ impl Keeping {
     }
 }
 
-/// The method for a part of a pile, and what it takes.
+/// The method for a part of a pile, and its cost.
 ///
 /// # Examples
 /// ```
@@ -61,39 +61,40 @@ impl Keeping {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Plan {
-    /// How forces are found.
+    /// The method by which the forces are found.
     pub method: Method,
-    /// The runs of steps above the lowest layer asked for: a sweep jumps each of them, a tree has a level for each.
+    /// The number of runs above the lowest layer of the question. A sweep makes a pass for each run, and a tree has a
+    /// level for each.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub runs: usize,
-    /// The spheres whose forces are worked out or looked up, at most.
+    /// The maximum number of spheres whose forces are computed or looked up.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub visited: BigUint,
-    /// Those of them that forces are turned on, across a change of sign, at most.
+    /// The maximum number of spheres whose forces are transferred across a sign change.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub turned: BigUint,
-    /// The runs, or parts of one, that a sweep goes through at once, at most; 0 for the other methods.
+    /// The maximum number of passes of a sweep, each through a run or a part of one. 0 for the other methods.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub passes: BigUint,
-    /// How many numbers a sweep keeps; 0 for the other methods.
+    /// The number of values that a sweep stores. 0 for the other methods.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub numbers: BigUint,
-    /// The bits that exact numerators may need, by the proved bound; 0 where numbers grow as they must.
+    /// The bits that exact numerators may need, by the proved bound. 0 for methods whose numbers grow as required.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub bits: u64,
-    /// The bits that a sweep reserves for them.
+    /// The bits that a sweep reserves for each value.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub reserved: u64,
-    /// The `i64` limbs of each of them.
+    /// The number of `i64` limbs of each value.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub planes: usize,
-    /// The square roots that are taken, at most.
+    /// The maximum number of square roots.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub roots: u64,
-    /// How many answers there are.
+    /// The number of rows in the answer.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub rows: BigUint,
-    /// The memory that a sweep keeps its numbers in.
+    /// The memory for the numbers of a sweep, in bytes.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub bytes: BigUint,
 }
@@ -113,14 +114,15 @@ impl fmt::Display for Plan {
     }
 }
 
-/// Whether the trees above `above` spheres cost less than a sweep over `sweep` spheres.
+/// Returns whether the trees with `above` spheres cost less than a sweep over `sweep` spheres.
 pub(crate) fn trees_are_cheaper(above: &BigUint, sweep: &BigUint) -> bool {
-    /// What the tree of one sphere costs, in spheres that a sweep passes.
+    /// The cost of the tree of one sphere, as a number of spheres of a sweep.
     const COST_OF_A_TREE: u32 = 16;
     above * COST_OF_A_TREE < *sweep
 }
 
-/// Returns what one method answers, or another where that is too large; where both are, what the first was refused for.
+/// Returns the answer of the first method, or that of the other one if the first is too large. If both are, returns the
+/// error of the first.
 pub(crate) fn unless_too_large<A>(
     first: impl FnOnce() -> Result<A, Error>,
     other: impl FnOnce() -> Result<A, Error>,
@@ -138,7 +140,7 @@ pub(crate) fn unless_too_large<A>(
 }
 
 impl System<'_> {
-    /// Errors if a method does not apply to the pile.
+    /// Returns an error if a method does not apply to the pile.
     pub(crate) fn check_method(&self, method: Method) -> Result<(), Error> {
         let applies = match method {
             Method::Closed => self.is_straight(),
@@ -152,21 +154,23 @@ impl System<'_> {
         }
     }
 
-    /// Returns the width of the numbers of an exact sweep down to layer `last`, the change of sign there included.
+    /// Returns the width of the numbers of an exact sweep down to layer `last`, including a sign change there.
     pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
         let changes = self.shape.changes_above(last + 1);
         Size::new(&self.bound_of_sweep(last), changes)
     }
 
-    /// Returns a bound no less than 2√3·B·D on the numbers of an exact sweep down to layer `last`, before changes of
-    /// sign triple them.
+    /// Returns an upper bound of 2√3·B·D for an exact sweep down to layer `last`, before sign changes triple the
+    /// numbers.
     pub(crate) fn bound_of_sweep(&self, last: i128) -> BigInt {
         let [ordinary, extras] = self.magnitudes();
         let spheres = self.shape.spheres_in(0..last + 1);
         bound(last + 1, &spheres, &ordinary, &extras)
     }
 
-    /// Returns how a question about the spheres in `rows` is answered by numbers kept in this way, and what it takes.
+    /// Returns the method and its cost for a question about the spheres in `rows`, with numbers in the given
+    /// representation.
+    ///
     ///
     /// # Errors
     /// [`Error::NoSuchMethod`], [`Error::NotOnFloor`], [`Error::TooLarge`].
@@ -214,10 +218,10 @@ impl System<'_> {
             Some(Method::Tree) => self.plan_trees(&mut plan, rows)?,
             Some(Method::Sweep) => self.plan_sweep(&mut plan, rows, keeping)?,
             None if rows.one().is_some() => {
-                // The one sphere is left to a sweep where its tree is too large.
+                // A single sphere falls back to a sweep if its tree is too large.
                 if let Err(too_large) = self.plan_trees(&mut plan, rows) {
                     let growing = match keeping {
-                        // In integers that grow, each with its digits elsewhere.
+                        // This sweep uses big integers, whose digits are stored elsewhere.
                         Keeping::Limbs => {
                             let digits = self.size_of_sweep(last).planes;
                             Keeping::Words(digits + size_of::<BigInt>().div_ceil(size_of::<i64>()))
@@ -230,7 +234,7 @@ impl System<'_> {
             }
             None => {
                 let swept = self.plan_sweep(&mut plan, rows, keeping);
-                // What does not fit in memory is streamed by rows.
+                // An answer that does not fit in memory is streamed by rows.
                 swept.or_else(|_| self.plan_trees(&mut plan, rows))?;
             }
         }
@@ -245,7 +249,7 @@ impl System<'_> {
         }
     }
 
-    /// Plans trees, each of a piece of a row.
+    /// Plans a tree for each piece of a row.
     fn plan_trees(&self, plan: &mut Plan, rows: &Rows<'_>) -> Result<(), Error> {
         let last = last_of(rows);
         let sites = rows.site_count();
@@ -257,7 +261,7 @@ impl System<'_> {
             pieces = BigUint::from(layers) * (height.unsigned_abs() + 1);
             pieces += &sites / CHUNK.unsigned_abs();
         }
-        // At a change of sign, three for each below, and no more than there are.
+        // At a sign change, each sphere below needs at most three, and the layer limits their number.
         let most = BigUint::from(MAX_NODES);
         let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());
         let mut above = BigUint::zero();
@@ -269,7 +273,7 @@ impl System<'_> {
             run = run.filter(|run| run.index > 0);
         }
         if above > most {
-            // It may be less, and is more for none.
+            // This bound may be too large, so the trees are counted. None of them may exceed `most`.
             match rows.one() {
                 Some(Site { i, j, k }) => check_tree(self.shape, k, &[[i, j]])?,
                 None => self.sample_trees(last)?,
@@ -283,8 +287,8 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Errors if a tree of layer `k` is too large: of four sample pieces. Others may still be refused when they are asked
-    /// for.
+    /// Returns an error if a tree of layer `k` is too large, judged by four sample pieces. Other pieces may still be
+    /// refused when they are computed.
     fn sample_trees(&self, k: i128) -> Result<(), Error> {
         let mut pieces = samples(&self.shape.layer(k)?);
         pieces.try_for_each(|piece| check_tree(self.shape, k, &piece))
@@ -316,7 +320,7 @@ impl System<'_> {
     }
 }
 
-/// Returns four pieces of rows that one tree may answer, in the middle of the rows and of the corners.
+/// Returns four pieces of rows, each for one tree: at the middle of the rows, and at the mean of the corners.
 fn samples(region: &Region) -> impl Iterator<Item = Vec<[i128; 2]>> + use<> {
     let corners = region.corners();
     let mean = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<i128>() / 6;
@@ -330,7 +334,7 @@ fn samples(region: &Region) -> impl Iterator<Item = Vec<[i128; 2]>> + use<> {
     })
 }
 
-/// Returns the lowest layer that rows are of.
+/// Returns the lowest layer of some rows.
 pub(crate) fn last_of(rows: &Rows<'_>) -> i128 {
     let last = match rows.one() {
         Some(site) => site.k,
@@ -350,9 +354,9 @@ mod tests {
         assert!(!are_cheaper(10, 160) && !are_cheaper(10, 159) && !are_cheaper(1000, 1000));
     }
 
-    /// And nothing else is: what was interrupted has ended.
+    /// The other method replaces one that is too large, but not one that was interrupted.
     #[test]
-    fn what_is_too_large_is_answered_otherwise() {
+    fn a_method_that_is_too_large_is_replaced() {
         let too_large = |quantity| crate::error::refuse_beyond(quantity, 2_u32, 1, "take less");
         let both = unless_too_large(|| too_large("a tree"), || too_large("a sweep"));
         assert_eq!(both, too_large("a tree"));
@@ -371,8 +375,8 @@ mod tests {
         i.map(|i| [i, j]).collect()
     }
 
-    /// Rows 0 … 30 of 5000, 4999, … places; the corners (0, 0) and (4999, 0) twice, (4969, 30) and (0, 30) are at
-    /// (2494, 10) in the mean.
+    /// The rows 0 … 30 have 5000, 4999, … sites. The corners are (0, 0) twice, (4999, 0) twice, (4969, 30) and (0, 30),
+    /// with the mean (2494, 10).
     #[test]
     fn sample_pieces_are_in_the_middle() {
         let region = Region::new(0..=4999, 0..=30, 0..=4999).unwrap();
@@ -380,7 +384,7 @@ mod tests {
         let middle = [row(1980..3004, 15), row(1982..3006, 15)];
         let mean = [row(1982..3006, 10), row(1982..3006, 10)];
         assert_eq!(pieces, [middle, mean].concat());
-        // A row that is shorter is its own piece.
+        // A shorter row is one piece.
         let low = Region::triangle(4).unwrap();
         assert!(samples(&low).all(|piece| piece == row(0..3, 1)));
     }

@@ -10,7 +10,7 @@ use crate::formula;
 #[derive(Clone, Debug)]
 pub(super) struct Plane<V>(pub(super) [Vec<V>; 3]);
 
-/// The increments of a pass on a line: `ramps[direction][n]` for n spheres.
+/// The increments that a pass adds to a line: `ramps[direction][n]` for n spheres.
 pub(super) struct Ramps<V>(pub(super) [Vec<V>; 3]);
 
 impl<V: Clone + PartialEq> Ramps<V> {

@@ -1,9 +1,9 @@
-//! What can be asked of a pile, and by which method.
+//! Questions about a pile: the spheres, the quantity and the method.
 
 use crate::error::named;
 use crate::shape::Selection;
 
-/// How forces are found.
+/// A method to compute forces.
 ///
 /// # Examples
 /// ```
@@ -16,12 +16,12 @@ use crate::shape::Selection;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Method {
-    /// By counting the spheres on three lines: O(1) a force. For stackings without a change of sign.
+    /// Counts the spheres on three lines: O(1) for each force. Applies to stackings without a sign change.
     Closed,
-    /// From the lines above one sphere, which begin at the changes of sign: the cost follows the changes, not the
-    /// layers.
+    /// Follows the lines above one sphere to the sign changes. The cost depends on the number of sign changes, not on
+    /// the number of layers.
     Tree,
-    /// Layer after layer from the top, a run at a time, with one layer in memory.
+    /// Advances from the top, layer by layer or a run at a time, with one layer in memory.
     Sweep,
 }
 
@@ -41,7 +41,7 @@ named!(
     "a method: closed, tree or sweep"
 );
 
-/// What is wanted of the spheres asked about.
+/// A quantity that a question requests of each sphere.
 ///
 /// # Examples
 /// ```
@@ -59,17 +59,18 @@ named!(
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
-    /// The forces to the spheres below, in f₀: [`Forces::contacts`](crate::Forces::contacts).
+    /// The forces on the supports, in f₀: [`Forces::contacts`](crate::Forces::contacts).
     ContactMultiples,
-    /// The same in SI, without vectors: [`Packing::contact_forces`](crate::Packing::contact_forces).
+    /// The same forces in newtons, without vectors: [`Packing::contact_forces`](crate::Packing::contact_forces).
     ContactForces,
-    /// The contact forces in SI, with vectors and contact points: [`Packing::contacts`](crate::Packing::contacts).
+    /// The contact forces in SI units, with vectors and contact points:
+    /// [`Packing::contacts`](crate::Packing::contacts).
     ContactVectors,
     /// The forces on the floor, in mg and mg·tanθ: [`Forces::base`](crate::Forces::base).
     FloorMultiples,
-    /// The forces on the floor in SI: [`Packing::base`](crate::Packing::base).
+    /// The forces on the floor in newtons: [`Packing::base`](crate::Packing::base).
     FloorForces,
-    /// Where the centres are, in SI: [`Packing::position`](crate::Packing::position).
+    /// The positions of the centres, in metres: [`Packing::position`](crate::Packing::position).
     Positions,
 }
 
@@ -94,15 +95,16 @@ impl Quantity {
         }
     }
 
-    /// The square roots that it takes, at most: of 1/cos²θ; of tan²θ; of sin²θ and cos²θ; and of 4cos²φ, wherever there
-    /// is a component along y.
+    /// Returns the maximum number of square roots that the quantity needs.
+    ///
+    /// The radicands are 1/cos²θ, tan²θ, sin²θ and cos²θ. Components along y add 4cos²φ.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::Quantity;
     ///
     /// assert_eq!(Quantity::FloorMultiples.roots(), 0);
-    /// // Of tan²θ and of 4cos²φ.
+    /// // The radicands tan²θ and 4cos²φ.
     /// assert_eq!(Quantity::FloorForces.roots(), 2);
     /// ```
     #[must_use]
@@ -116,7 +118,7 @@ impl Quantity {
         }
     }
 
-    /// Whether it is of contacts, between spheres.
+    /// Returns whether the quantity describes contacts between spheres.
     ///
     /// # Examples
     /// ```
@@ -140,9 +142,10 @@ named!(
     "a quantity: contact multiples, contact forces, contact vectors, floor multiples, floor forces or positions"
 );
 
-/// A question: which spheres, what of them, and by which method, if not the cheapest.
+/// A question: the spheres, the quantity, and optionally the method.
 ///
-/// Of a [`Selection`] alone it is the multiples: on the floor for the base, of the contacts for any other.
+/// A [`Selection`] alone converts to a question for multiples: on the floor for the base, and of the contacts for any
+/// other part.
 ///
 /// # Examples
 /// ```
@@ -157,11 +160,11 @@ named!(
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Question {
-    /// Which spheres.
+    /// The spheres.
     pub part: Selection,
-    /// What of them.
+    /// The quantity requested of them.
     pub quantity: Quantity,
-    /// The method, or `None` for the cheapest.
+    /// The method, or `None` for the cheapest one.
     pub method: Option<Method>,
 }
 
@@ -185,7 +188,7 @@ impl Question {
         }
     }
 
-    /// Returns the question with a method in place of the cheapest.
+    /// Returns the question with a given method instead of the cheapest one.
     ///
     /// # Examples
     /// ```

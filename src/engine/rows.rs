@@ -14,7 +14,7 @@ use super::plan::{CHUNK, Plan, last_of};
 use super::question::Method;
 use super::single::{by_tree, plain_sweep, received};
 use super::sweep::Descent;
-use super::thirds::are_thirds_alike;
+use super::thirds::has_threefold_symmetry;
 use super::tree::Wanted;
 use crate::Error;
 use crate::lattice::Row;
@@ -194,7 +194,7 @@ pub(crate) fn shortest_exact_sweep<'p>(
     system: &System<'_>,
     last: i128,
 ) -> Result<Descent<'p, BigRational, Planes>, Error> {
-    if !are_thirds_alike(system) {
+    if !has_threefold_symmetry(system) {
         return exact_sweep(lines, system, last);
     }
     let grid = Grid::of_thirds(lines.shape, last, system.size_of_sweep(last).planes)?;

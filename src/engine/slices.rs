@@ -11,7 +11,7 @@ use crate::lattice::{Region, Row};
 /// The least number of spheres that justifies a thread.
 const WORTH_A_THREAD: usize = 1 << 12;
 
-const AS_LONG: &str = "slices are as long as the layer has spheres";
+const LENGTH_INVARIANT: &str = "slices are as long as the layer has spheres";
 
 /// Splits the first `n` elements off each slice.
 ///
@@ -63,7 +63,7 @@ fn fill_parts<V: Send>(
     };
     if let Some((border, spheres)) = (parts > 1).then(cut).flatten() {
         let half = parts / 2;
-        let spheres = usize::try_from(spheres).map_err(|_| bug(AS_LONG))?;
+        let spheres = usize::try_from(spheres).map_err(|_| bug(LENGTH_INVARIANT))?;
         let before = split_front(&mut slices, spheres)?;
         return parallel::share(
             || fill_parts(half, (layer, k), rows.start..border, before, write),
@@ -78,7 +78,7 @@ fn fill_parts<V: Send>(
     if slices.iter().all(|slice| slice.is_empty()) {
         Ok(())
     } else {
-        Err(bug(AS_LONG))
+        Err(bug(LENGTH_INVARIANT))
     }
 }
 
@@ -154,7 +154,7 @@ mod tests {
 
     /// An error in any row is returned.
     #[test]
-    fn errors_of_any_part_are_heard() {
+    fn an_error_of_any_part_is_returned() {
         let layer = Region::triangle(9).unwrap();
         for parts in 1..6 {
             let rows = *layer.y().start()..layer.y().end() + 1;

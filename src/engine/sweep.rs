@@ -266,13 +266,15 @@ mod tests {
     }
 
     #[test]
-    fn to_a_layer_above_it_does_not_go() {
+    fn a_sweep_never_goes_back_up() {
         let pile = pile();
         let system = pile.system();
         let lines = Lines::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
-        for (asked, at) in [(4, 4), (1, 4), (4, 4), (5, 5)] {
-            sweep.advance(asked, crate::engine::Meter::NONE).unwrap();
+        for (requested, at) in [(4, 4), (1, 4), (4, 4), (5, 5)] {
+            sweep
+                .advance(requested, crate::engine::Meter::NONE)
+                .unwrap();
             assert_eq!(sweep.k(), at);
         }
     }

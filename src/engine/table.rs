@@ -58,8 +58,8 @@ impl<V> Table<V> {
         value: impl Fn(i128, usize) -> Result<V, Error>,
     ) -> Result<Option<Self>, Error> {
         let shape = system.shape;
-        let few = system.is_straight() && system.is_even() && system.fills_its_layers();
-        if !few || most > MOST {
+        let applies = system.is_straight() && system.is_even() && system.fills_its_layers();
+        if !applies || most > MOST {
             return Ok(None);
         }
         let table = |line: usize| {
@@ -153,7 +153,7 @@ impl<V: Clone + Send + Sync> Table<V> {
             Some(sign) => sign,
             // In a single layer no sphere is above another, so either sign will do.
             None if shape.layers() == 1 => Sign::Plus,
-            None => return Err(bug("a layer of a pile rests on another, or is rested on")),
+            None => return Err(bug("each of several layers has a step above or below it")),
         };
         let counts = region.row_counts([row.i.start, row.j], sign, row.k);
         for ((count, table), slice) in counts.into_iter().zip(&self.tables).zip(slices) {

@@ -1,10 +1,10 @@
 //! Sweeps that store a third of each layer, for piles with threefold symmetry.
 //!
 //! # The rotation
-//! Let a layer have the bounds x₀ ≤ i, j ≤ x₁ and s − x₁ ≤ i+j ≤ s − x₀. The rotation by 120° maps it onto itself: (i,
-//! j) → (j, s−i−j). It maps α to γ, γ to β and β to α. A + step adds 1 to s, and a − step subtracts 1 from it. So the
-//! rotation maps the layer below onto itself as well. If all spheres weigh the same, and the three
-//! increments are equal, the forces have the same symmetry.
+//! Let a layer have the bounds x₀ ≤ i, j ≤ x₁ and s − x₁ ≤ i+j ≤ s − x₀. The rotation by 120° maps it onto itself:
+//! (i, j) → (j, s−i−j). It maps α to γ, γ to β and β to α. A + step adds 1 to s, and a − step subtracts 1 from it. So
+//! the rotation maps the layer below onto itself as well. If all spheres weigh the same, and the three increments are
+//! equal, the forces have the same symmetry.
 //!
 //! # The stored part
 //! With a = s−i−j the rotation maps (i, j, a) to (j, a, i). The differences of three numbers from their mean sum to
@@ -23,14 +23,14 @@
 //! The rotation maps # at (2, 0) to the corners (0, 2) and (0, 0), and # at (1, 1) to (1, 0) and (0, 1).
 //!
 //! # Windows
-//! A sphere receives forces from the layer n steps further up. After + steps they come from (i, j), (i−n, j) and (i,
-//! j−n). After − steps they come from (i, j), (i+n, j) and (i, j+n). So the stored part of a layer follows from that of
-//! a layer above, if the corner of the latter is lower by one for each + step between them.
+//! A sphere receives forces from the layer n steps further up. After + steps they come from (i, j), (i−n, j) and
+//! (i, j−n). After − steps they come from (i, j), (i+n, j) and (i, j+n). So the stored part of a layer follows from
+//! that of a layer above, if the corner of the latter is lower by one for each + step between them.
 //!
-//! Further up, such parts are larger than a third. So the sweep is divided into *windows* of a few runs. The cells of a window are named by
-//! its last layer. They cover the stored part of that layer, widened by the distance that lines move in the window.
-//! Below it the next window begins. Its first layer stores more than the last one of the window above. The additional
-//! numbers are copied from their images.
+//! Further up, such parts are larger than a third. So the sweep is divided into *windows* of a few runs. The cells of a
+//! window are named by its last layer. They cover the stored part of that layer, widened by the distance that lines
+//! move in the window. Below it the next window begins. Its first layer stores more than the last one of the window
+//! above. The additional numbers are copied from their images.
 
 use super::grid::{Grid, Moves, Piece, cut};
 use crate::Error;
@@ -46,7 +46,7 @@ use crate::shape::Shape;
 const LAYERS: i128 = 9;
 
 /// Returns whether the forces of a pile have threefold symmetry.
-pub(crate) fn are_thirds_alike(system: &System<'_>) -> bool {
+pub(crate) fn has_threefold_symmetry(system: &System<'_>) -> bool {
     let [a, b, c] = &system.increments;
     let even = a == b && b == c && system.fills_its_layers();
     // If the rotation maps the base or the top onto itself, it does so with all layers.
@@ -149,10 +149,10 @@ impl<'p> Grid<'p> {
     /// Returns the moves of the numbers to the next window.
     fn moves_to(&self, next: &Self) -> Result<Moves, Error> {
         let k = self.last;
-        let (had, wanted) = (self.part(k)?, next.part(k)?);
+        let (available, needed) = (self.part(k)?, next.part(k)?);
         let mut moves = Moves::default();
-        for row in wanted.rows(k) {
-            let same = had.row_within(row.j);
+        for row in needed.rows(k) {
+            let same = available.row_within(row.j);
             let same = if same.is_empty() {
                 row.i.start..row.i.start
             } else {
@@ -237,7 +237,7 @@ mod tests {
     /// Compares all spheres, and the smallest numbers, in every `stops`-th layer.
     fn compare(pile: &Pile, stops: i128) {
         let (system, last) = (pile.system(), pile.layers() - 1);
-        assert!(are_thirds_alike(&system));
+        assert!(has_threefold_symmetry(&system));
         let lines = Lines::<BigRational>::new(&system);
         let mut whole = exact_sweep(&lines, &system, last).unwrap();
         let mut third = shortest_exact_sweep(&lines, &system, last).unwrap();
@@ -261,7 +261,7 @@ mod tests {
 
     /// Some layers at a time and all at once, with several windows, and with a run longer than a window.
     #[test]
-    fn a_third_of_a_small_pile_is_the_whole() {
+    fn thirds_of_a_small_pile_give_the_same_numbers() {
         for (top, stacking) in [
             (Region::SITE, "+-+--+-+-+++-"),
             (Region::hexagon(2, 3).unwrap(), "-+-++-+-+-+-"),
@@ -276,7 +276,7 @@ mod tests {
 
     /// Windows work the same with any representation of the numbers.
     #[test]
-    fn a_third_in_plain_numbers_is_the_whole() {
+    fn thirds_in_plain_numbers_give_the_same_numbers() {
         let pile = Pile::under(Region::SITE, "+-+--+-+-+++-+".parse().unwrap()).unwrap();
         let (system, last) = (pile.system(), pile.layers() - 1);
         let lines = Lines::<BigRational>::new(&system);
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_third_is_the_whole() {
+    fn thirds_give_the_same_numbers_as_whole_layers() {
         for pile in piles() {
             // Layer by layer, and in steps large enough to defer passes.
             for stops in [1, 2, 7, pile.layers() - 1] {
@@ -310,7 +310,7 @@ mod tests {
 
     /// Returns whether in every window each stored part contains an image of every site, and every sphere that the next
     /// part receives from. The corners are raised by `higher`.
-    fn are_parts_enough(pile: &Pile, higher: i128) -> bool {
+    fn parts_suffice(pile: &Pile, higher: i128) -> bool {
         let shape = pile.shape();
         let mut grid = Grid::of_thirds(shape, shape.layers() - 1, 1).unwrap();
         let mut k = 0;
@@ -352,22 +352,22 @@ mod tests {
     }
 
     #[test]
-    fn parts_follow_from_each_other_and_narrower_ones_do_not() {
+    fn stored_parts_suffice_and_narrower_ones_do_not() {
         let mut narrower = 0;
         for pile in piles() {
-            assert!(are_parts_enough(&pile, 0), "{}", pile.shape().stacking());
-            narrower += usize::from(!are_parts_enough(&pile, 1));
+            assert!(parts_suffice(&pile, 0), "{}", pile.shape().stacking());
+            narrower += usize::from(!parts_suffice(&pile, 1));
         }
         assert_eq!(narrower, piles().len());
     }
 
     #[test]
-    fn what_is_not_symmetric_is_swept_whole() {
+    fn a_pile_without_symmetry_is_swept_whole() {
         let pile = |top| Pile::under(top, "+-+".parse().unwrap()).unwrap();
         let hexagon = Region::hexagon(3, 2).unwrap();
         let top = *pile(hexagon).shape().sites().next().as_ref().unwrap();
         let one = BigRational::from_integer(1.into());
-        assert!(are_thirds_alike(&pile(hexagon).weightless().system()));
+        assert!(has_threefold_symmetry(&pile(hexagon).weightless().system()));
         for pile in [
             pile(hexagon).with_load(top, one).unwrap(),
             pile(Region::new(0..=2, 0..=2, 0..=4).unwrap()),
@@ -375,7 +375,7 @@ mod tests {
             Pile::discs(4).unwrap(),
             Pile::isosceles(4, BigRational::new(1.into(), 3.into())).unwrap(),
         ] {
-            assert!(!are_thirds_alike(&pile.system()));
+            assert!(!has_threefold_symmetry(&pile.system()));
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The method *tree*: memoised recursion on the dependency cone of a sphere.
 //!
-//! A force depends on few other forces. Within a run a line only counts, so the recursion skips the run. It continues
-//! only where a line crosses a sign change. There it needs the three forces on the sphere at the change, so a node may need
-//! three nodes of the next level.
+//! A force depends on few other forces. Within a run the force on a line is proportional to a count of spheres, so the
+//! recursion skips the run. It continues only where a line crosses a sign change. There it needs the three forces on
+//! the sphere at the change, so a node may need three nodes of the next level.
 //!
 //! Plain recursion would visit 3^d nodes below d sign changes. But many branches meet. Let the sign change in every
 //! layer, and take a sphere at (0, 0):
