@@ -35,7 +35,7 @@ struct Factor {
     negative: bool,
 }
 
-/// The three results of a sphere as combinations of its line forces x: n_k = Σ_m combination[k][m]·x_m + own[k], in
+/// The three results of a sphere as combinations of its line forces x: `n_k = Σ_m combination[k][m]·x_m + own[k]`, in
 /// units.
 #[derive(Clone, Debug)]
 pub(crate) struct Readout {
