@@ -213,7 +213,7 @@ def draws_and_picks(browser):
     # By keyboard: the sphere in the middle of the picture, then its right neighbour.
     shown.run("document.getElementById('picture').focus()")
     browser.press("Escape")
-    check(shown.heading() == "Nothing chosen", shown.heading())
+    check(shown.heading() == "No selection", shown.heading())
     browser.press("Enter")
     first = shown.run("cannonpile.view.chosen.sphere")
     judge_sphere(shown.chosen(), exact, newtons)
@@ -305,7 +305,7 @@ def cut_takes_layers_off(browser):
     browser.picture(folder / "cut.png")
     check(near(pixel(), ground, 3), "the apex is still there")
     browser.click(x, y)
-    check(shown.heading() == "Nothing chosen", "what was cut off is picked")
+    check(shown.heading() == "No selection", "what was cut off is picked")
     # Selecting a hidden sphere by number shows its layer. Keys change the visible layers too.
     shown.run("document.getElementById('sphere').value = '1'; document.getElementById('find').requestSubmit()")
     check(shown.run("cannonpile.view.layers[0]") == 0 and not near(pixel(), ground, 20), "not shown again")
