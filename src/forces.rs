@@ -1,8 +1,9 @@
-//! The one thing to ask: the forces of a pile, in any scalar, in pile units.
+//! The forces of a pile, in any scalar and in pile units.
 //!
-//! Pile units: contact forces in f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base and
-//! mg/(2 cosθ) for discs; forces on the floor in mg, mg·tanθ and 2cosφ·mg·tanθ. In them every answer
-//! is rational, and neither spacing nor mass is needed. [`Packing`](crate::Packing) gives SI.
+//! Pile units measure contact forces in f₀ = mg/(W cosθ). This is mg/(3 cosθ) on an equilateral base and mg/(2 cosθ)
+//! for discs. On the floor, normal forces are in mg, shears along x in mg·tanθ, and shears along y in 2cosφ·mg·tanθ. In
+//! these units every force is rational and depends on neither spacing nor mass. [`Packing`](crate::Packing) returns
+//! forces in SI units.
 
 mod base;
 mod contacts;
@@ -42,7 +43,7 @@ use walk::Walk;
 
 /// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
 ///
-/// | I want | ask |
+/// | to get | use |
 /// |---|---|
 /// | the force of one contact | [`contact`](Self::contact) |
 /// | the force of one sphere on the floor | [`on_floor`](Self::on_floor) |
@@ -51,17 +52,18 @@ use walk::Walk;
 /// | many forces into slices, fast | [`layers`](Self::layers) |
 /// | any of these in newtons and metres | a [`Packing`](crate::Packing) |
 ///
-/// How they are found is decided by a plan ([`Pile::plan`]): of a straight stacking each by closed form, O(1), whatever
-/// the number of layers; of any other from the lines above a sphere, or for many spheres in a sweep.
+/// A plan selects the method ([`Pile::plan`]). In a straight stacking, a closed form gives each force in O(1), whatever
+/// the number of layers. In other stackings, a single force comes from the lines above its sphere. Many forces come
+/// from a layer-by-layer sweep.
 ///
-/// Exact scalars give exact answers. Of rounded ones, contact forces and normal forces of a straight stacking are a few
-/// units in the last place off; shear, resultants and positions are differences, and a few units of the greatest term
-/// off, max(N)·f₀, which is all there is where they cancel. A change of sign subtracts too, and amplifies nothing in the
-/// sum of squares over a layer: [`Layer::error_bound`] says how far a force is off at most. A number that the scalar
-/// cannot hold is [`Error::Overflow`], never a wrong value.
+/// Exact scalars give exact results. With rounded scalars, contact forces and normal forces of a straight stacking have
+/// errors of a few units in the last place. Shears, resultants and positions are differences. Their errors are a few
+/// units in the last place of the largest term, max(N)·f₀, so all digits may be lost where the terms cancel. A sign
+/// change also subtracts, but it does not amplify the sum of squared errors over a layer. [`Layer::error_bound`] bounds
+/// the error of a force. A value that the scalar cannot hold is [`Error::Overflow`], never a wrong value.
 ///
-/// Inside, formulas run on the scalar's numerators: for rationals on integers over a
-/// denominator known beforehand, reduced once at the end.
+/// Internally, the formulas run on numerators of the scalar. For rationals these are integers over a denominator known
+/// in advance, and each result is reduced once at the end.
 ///
 /// # Examples
 /// ```
@@ -78,7 +80,7 @@ use walk::Walk;
 pub struct Forces<'p, T: Algebra> {
     pile: &'p Pile,
     terms: Terms<'p, T>,
-    /// The method asked for, if it is not the cheapest.
+    /// The requested method, or `None` for the cheapest.
     method: Option<Method>,
     meter: Meter<'p>,
 }
@@ -86,8 +88,8 @@ pub struct Forces<'p, T: Algebra> {
 impl Pile {
     /// Returns the forces of the pile, in the scalar `T`.
     ///
-    /// Name the scalar, `pile.forces::<f64>()`, or give the type of an answer: without either rustc reports E0283, "type
-    /// annotations needed".
+    /// Name the scalar, as in `pile.forces::<f64>()`, or annotate the type of a result. Otherwise rustc reports E0283,
+    /// "type annotations needed".
     ///
     /// # Examples
     /// One pile in two scalars:
@@ -113,15 +115,16 @@ impl Pile {
         }
     }
 
-    /// Returns how a question is answered exactly, and how much it takes at most.
+    /// Returns the method that answers `question` exactly, with an upper bound on its cost.
     ///
-    /// One sphere by the lines above it; a layer or more by a sweep, or row by row where that would not fit in
-    /// memory. Of a straight stacking everything is closed. A [`Counters`](crate::Counters) tells what it took.
+    /// Straight stackings use closed forms. In other stackings, a single sphere uses the lines above it, and a layer or
+    /// more uses a sweep. If the sweep does not fit in memory, the rows are computed one by one. A
+    /// [`Counters`](crate::Counters) counts the actual work.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::NotOnFloor`] if forces on the floor are asked of a
-    /// sphere that is not there; [`Error::TooLarge`] if a layer neither fits in memory nor has few enough spheres at the
-    /// changes of sign above it; [`Error::NoSuchMethod`] if one is asked for that does not apply.
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::NotOnFloor`] for forces on the floor of spheres
+    /// above the bottom layer; [`Error::TooLarge`] if a layer does not fit in memory and depends on too many spheres at
+    /// the sign changes above it; [`Error::NoSuchMethod`] if the requested method does not apply.
     ///
     /// # Examples
     /// ```
@@ -150,12 +153,14 @@ impl Pile {
         self.system().plan(&rows, quantity, method, Keeping::Limbs)
     }
 
-    /// Returns how many spheres at changes of sign the force of a contact depends on: the nodes that its tree visits.
+    /// Returns the number of spheres at sign changes that the force of a contact depends on. They are the nodes of its
+    /// tree.
     ///
-    /// At most (3^d − 1)/2 for d changes of sign above the contact, and at most the spheres above it at those changes.
+    /// For d sign changes above the contact, the number is at most (3^d − 1)/2. It is also at most the number of
+    /// spheres above the contact at these sign changes.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::OnFloor`]; [`Error::TooLarge`] beyond 4 million.
+    /// [`Error::SiteOutside`]; [`Error::OnFloor`]; [`Error::TooLarge`] for more than 4 million spheres.
     ///
     /// # Examples
     /// ```
@@ -164,10 +169,10 @@ impl Pile {
     ///
     /// let layers = 10_i128.pow(30);
     /// let pile = Pile::under(Region::SITE, format!("(2,1,{layers})").parse()?)?;
-    /// // A line that begins at the surface of the last run, far below the changes of sign.
+    /// // A line that begins at the surface of the last run, far below the sign changes.
     /// let low = Site { i: 5, j: 7, k: pile.layers() - 2 };
     /// assert_eq!(pile.tree_size(low, Direction::Alpha)?, 0);
-    /// // And one that passes through both changes.
+    /// // A line that crosses both sign changes.
     /// assert_eq!(pile.tree_size(Site { i: 1, j: 0, ..low }, Direction::Alpha)?, 4);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -205,11 +210,12 @@ impl<'p, T: Algebra> Forces<'p, T> {
         }
     }
 
-    /// Returns the forces by this method, whether it is the cheapest or not: for comparison. Exact answers do not depend on it.
+    /// Selects the method that computes the forces, for a comparison of methods. Exact results do not depend on the
+    /// method.
     ///
     /// # Errors
-    /// [`Error::NoSuchMethod`] for a closed form of a stacking that is not straight, or a sweep of discs. What does not
-    /// fit in memory is an error of the answers.
+    /// [`Error::NoSuchMethod`] for a closed form of a stacking with sign changes, or for a sweep of discs. A query that
+    /// does not fit in memory fails later, when it is made.
     ///
     /// # Examples
     /// ```
@@ -233,7 +239,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         })
     }
 
-    /// The method asked for, or `None` for the cheapest.
+    /// Returns the requested method, or `None` for the cheapest.
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.method
@@ -243,14 +249,14 @@ impl<'p, T: Algebra> Forces<'p, T> {
         self.meter
     }
 
-    /// Returns the pile that is asked.
+    /// Returns the pile of these forces.
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.pile
     }
 
-    /// W, the unit mg/W in which a contact's vertical force is a sum of increments: 3 on an equilateral
-    /// base, 2(1+s) on an isosceles one, 2 for discs.
+    /// Returns W, the sum of the increments along the three directions: 3 on an equilateral base, 2(1+s) on an
+    /// isosceles one, 2 for discs. In the unit mg/W, the vertical force of a contact is a sum of increments.
     ///
     /// # Errors
     /// [`Error::Overflow`] if the scalar cannot hold it.
@@ -267,12 +273,13 @@ impl<'p, T: Algebra> Forces<'p, T> {
         self.terms.increment_sum()
     }
 
-    /// The forces from the spheres above on `site`, by direction, in f₀; zero where there is none.
+    /// Returns the forces on `site` from the spheres above, by direction, in f₀. The force is zero where no sphere lies
+    /// above.
     ///
     /// Paper, (10): (k−i−j, i, j)·f₀ on an equilateral base.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::Overflow`] if the scalar cannot hold the answer.
+    /// [`Error::SiteOutside`]; [`Error::Overflow`] if the scalar cannot hold a force.
     ///
     /// # Examples
     /// ```
@@ -288,12 +295,13 @@ impl<'p, T: Algebra> Forces<'p, T> {
         self.terms.contacts(self.received(site, Wanted::All)?)
     }
 
-    /// Returns the forces to the spheres below `site`, by direction, in f₀; zero along γ for discs.
+    /// Returns the forces from `site` on the spheres below, by direction, in f₀. The force along γ is zero for discs.
     ///
-    /// Paper, (8): one increment more than comes from above along each line, which crosses no change of sign there.
+    /// Paper, (8): where the sign does not change at the sphere, the force below exceeds the force above by one
+    /// increment on each line.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::OnFloor`]; [`Error::Overflow`] if the scalar cannot hold the answer.
+    /// [`Error::SiteOutside`]; [`Error::OnFloor`]; [`Error::Overflow`] if the scalar cannot hold a force.
     ///
     /// # Examples
     /// ```
@@ -310,10 +318,9 @@ impl<'p, T: Algebra> Forces<'p, T> {
 
     /// Returns the force of a bottom sphere on the floor.
     ///
-    /// Normal mg(L+2)/3 under every sphere on an equilateral base (paper, (13)), and
-    /// mg[1 + ((L−1−j) + 2sj)/(2(1+s))] in general. Shear −mg·tanθ/3·((L−1−3j)/2, √3/2·(L−1−2i−j)) on an
-    /// equilateral base (paper, (14)).
-    ///
+    /// In a straight pile under one sphere, the normal force is mg[1 + ((L−1−j) + 2sj)/(2(1+s))]. On an equilateral
+    /// base this is mg(L+2)/3 under every sphere (paper, (13)), and the shear is −mg·tanθ/3·((L−1−3j)/2,
+    /// √3/2·(L−1−2i−j)) (paper, (14)).
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NotOnFloor`] for a sphere of another layer; [`Error::Overflow`].
     ///
@@ -336,12 +343,12 @@ impl<'p, T: Algebra> Forces<'p, T> {
         self.terms.floor(site, &self.received(site, Wanted::All)?)
     }
 
-    /// Returns the contact forces of a part of the pile, each sphere's with the spheres below it, one by one in row
-    /// order, in f₀. Spheres on the floor have none.
+    /// Iterates over the contact forces of a part of the pile in row order, in f₀. Each sphere is listed with its
+    /// contacts below, so spheres on the floor have none.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer neither fits in memory nor has few
-    /// enough spheres at the changes of sign above it.
+    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer does not fit in memory and
+    /// depends on too many spheres at the sign changes above it.
     ///
     /// # Examples
     /// ```
@@ -363,10 +370,10 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Answers::new(self, rows, asked, Walk::contacts_in)
     }
 
-    /// Returns the forces of bottom spheres on the floor, one by one in row order.
+    /// Iterates over the forces of bottom spheres on the floor, in row order.
     ///
     /// # Errors
-    /// [`Error::NotOnFloor`] for a part that is not of the bottom layer; else as for [`contacts`](Self::contacts).
+    /// [`Error::NotOnFloor`] for a part outside the bottom layer; otherwise as for [`contacts`](Self::contacts).
     ///
     /// # Examples
     /// ```
@@ -384,8 +391,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Answers::new(self, rows, (Quantity::FloorMultiples, 1), Walk::on_floor_in)
     }
 
-    /// Walks down the layers of `part`. Each layer writes its contact forces, in f₀, into slices of yours. The fastest way to
-    /// many forces.
+    /// Iterates over the layers of `part`, from the top. Each layer writes its contact forces, in f₀, into
+    /// caller-provided slices. This is the fastest way to compute many forces.
     ///
     /// # Errors
     /// As for [`contacts`](Self::contacts).
@@ -408,7 +415,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     ///     layer.fill([alpha, beta, gamma])?;
     ///     total += forces.concat().iter().sum::<f64>();
     /// }
-    /// // Three for the weight of each sphere above: of 1, 1 + 3 and 1 + 3 + 6.
+    /// // The contacts below a layer sum to 3 f₀ for each sphere down to it: 1, 1 + 3 and 1 + 3 + 6.
     /// assert!((total - 45.0).abs() < 1e-12);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -416,10 +423,11 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Layers::new(self, part)
     }
 
-    /// Returns the force between the sphere at `site` and the one below it along `direction`, in units of f₀ = mg/(W cos θ),
-    /// which is mg/(3 cos θ) on an equilateral base.
+    /// Returns the force between the sphere at `site` and the one below it along `direction`, in units of f₀ =
+    /// mg/(3 cos θ).
     ///
-    /// Positive: they push. Negative: they would have to pull, and the pile does not stand.
+    /// Positive: compression. Negative: the contact would be tensile, and the pile is unstable. The unit is mg/(2(1+s)
+    /// cos θ) on an isosceles base and mg/(2 cos θ) for discs.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::OnFloor`] for a sphere of the bottom layer;
@@ -439,8 +447,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
         edge("a contact force", force, &self.terms.lines.scale(changes))
     }
 
-    /// Returns the contact force on the upper sphere as a vector, in f₀ and the symbolic basis: f·ê. The lower sphere feels
-    /// the opposite.
+    /// Returns the contact force on the upper sphere as a vector, f·ê, in f₀ and the symbolic basis. The force on the
+    /// lower sphere is the opposite vector.
     ///
     /// # Errors
     /// As for [`contact`](Self::contact).
@@ -463,8 +471,9 @@ impl<'p, T: Algebra> Forces<'p, T> {
             .vector("a contact force", along.scaled(&force), changes)
     }
 
-    /// Returns the direction of the contact between `site` and the sphere below it, ê or, under a − step, ê turned about
-    /// the vertical, in the symbolic basis.
+    /// Returns the direction of the contact between `site` and the sphere below it, in the symbolic basis. It points
+    /// from the lower sphere to the upper one. It is ê under a + step, and ê turned by half a turn about the vertical
+    /// under a − step.
     ///
     /// # Errors
     /// As for [`contact`](Self::contact).
@@ -488,7 +497,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Ok(Vector { x, y, z })
     }
 
-    /// Returns a contact force as a numerator, and the changes of sign down to it.
+    /// Returns a contact force as a numerator, and the number of sign changes down to the contact.
     fn contact_numerator(
         &self,
         site: Site,
@@ -505,20 +514,20 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Ok((of_direction(forces, direction), changes))
     }
 
-    /// Returns the forces from above on a sphere of the pile, on the lines that are wanted.
+    /// Returns the forces on a sphere from above, along the wanted lines.
     fn received(&self, site: Site, wanted: Wanted) -> Result<Received<T>, Error> {
         let Terms { lines, system, .. } = &self.terms;
         received((lines, system), (site, wanted), self.method, self.meter)
     }
 
-    /// Returns the forces to the spheres below.
+    /// Returns the forces of a sphere on the spheres below.
     fn transmitted(&self, site: Site) -> Result<Received<T>, Error> {
         self.check_off_the_floor(site)?;
         let above = self.received(site, Wanted::All)?;
         Ok(self.terms.lines.to_below(site, above, self.meter))
     }
 
-    /// Errors unless the pile has the site and it rests on spheres.
+    /// Returns an error unless the pile has the site above its bottom layer.
     fn check_off_the_floor(&self, site: Site) -> Result<(), Error> {
         let site = self.pile.shape().check(site)?;
         if site.k == self.floor() {
@@ -527,7 +536,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Ok(())
     }
 
-    /// Errors unless there is a sphere below `site` in a direction.
+    /// Returns an error unless a sphere lies below `site` in `direction`.
     fn check_contact(&self, site: Site, direction: Direction) -> Result<(), Error> {
         self.check_off_the_floor(site)?;
         if self.pile.dimension().directions().contains(&direction) {
@@ -537,13 +546,13 @@ impl<'p, T: Algebra> Forces<'p, T> {
         }
     }
 
-    /// Returns how a question about some rows is answered in this scalar.
+    /// Returns the plan for some rows in this scalar.
     fn plan(&self, rows: &Rows<'_>, quantity: Quantity) -> Result<Plan, Error> {
         let system = &self.terms.system;
         system.plan(rows, quantity, self.method, Keeping::of::<T>())
     }
 
-    /// ê of a direction under + steps, in the symbolic basis.
+    /// Returns the unit vector ê of a direction under + steps, in the symbolic basis.
     ///
     /// # Errors
     /// [`Error::Overflow`] if the scalar cannot hold it.
@@ -565,9 +574,9 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Ok(Vector { x, y, z })
     }
 
-    /// The sum of the forces from above on `site`, in f₀ and the symbolic basis.
+    /// Returns the sum of the forces from above on `site`, in f₀ and the symbolic basis.
     ///
-    /// On an equilateral base it is the central force mg/(6R cosθ)·r, see [`paper`](crate::paper#closed-form).
+    /// On an equilateral base the sum is the central force mg/(6R cosθ)·r, see [`paper`](crate::paper#closed-form).
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::Overflow`].
@@ -589,8 +598,10 @@ impl<'p, T: Algebra> Forces<'p, T> {
         self.terms.vector("a resultant force", force, changes)
     }
 
-    /// The position of a sphere, in 2R and the symbolic basis, z down from the top layer: from the apex; of a pile grown
-    /// from a base, horizontally from site (0, 0) of the base, else from that of the top layer, occupied or not.
+    /// Returns the position of a sphere, in 2R and the symbolic basis, with z down from the top layer.
+    ///
+    /// The horizontal origin is site (0, 0) of the top layer, which is the apex in a pile under one sphere. In a pile
+    /// grown from a base, it is site (0, 0) of the base. This site need not be occupied.
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::Overflow`].
@@ -612,7 +623,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Ok(Vector { x, y, z })
     }
 
-    /// As [`position`](Self::position), over the scale of directions.
+    /// Returns [`position`](Self::position) as numerators over the scale of directions.
     pub(crate) fn position_numerators(&self, site: Site) -> Result<Vector<T::Numerator>, Error> {
         let Site { i, j, k } = self.pile.shape().check(site)?;
         let across = self.pile.shape().shift_from_origin(k);
@@ -624,7 +635,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         })
     }
 
-    /// As [`contact_direction`](Self::contact_direction), over the scale of directions.
+    /// Returns [`contact_direction`](Self::contact_direction) as numerators over the scale of directions.
     pub(crate) fn contact_direction_numerators(
         &self,
         site: Site,
@@ -634,13 +645,14 @@ impl<'p, T: Algebra> Forces<'p, T> {
         Ok(of_direction(self.terms.directions_below(site.k), direction))
     }
 
-    /// What the numerators of directions and positions are over.
+    /// Returns the denominator of the numerators of directions and positions.
     pub(crate) fn direction_scale(&self) -> &T::Numerator {
         &self.terms.direction_scale
     }
 
-    /// What is left over of all forces on a sphere, in f₀: the zero vector in an exact scalar. A bottom
-    /// sphere is held by the floor, which pushes back with what it receives.
+    /// Returns the sum of all forces on a sphere, its weight included, in f₀. It is the zero vector in an exact scalar.
+    ///
+    /// A bottom sphere is refused, because the floor balances the forces on it.
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::OnFloor`], [`Error::Overflow`].
@@ -673,7 +685,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         terms.vector("a resultant force", unbalanced, changes)
     }
 
-    /// Returns the layer on the floor.
+    /// Returns the index of the bottom layer.
     fn floor(&self) -> i128 {
         self.pile.layers() - 1
     }

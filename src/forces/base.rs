@@ -9,8 +9,8 @@ use crate::lattice::Site;
 
 /// The force of one bottom sphere on the floor.
 ///
-/// Paper, (13) and (14). In the units below from [`Forces`](crate::Forces); from a [`Packing`](crate::Packing) all three in units of
-/// force.
+/// Paper, (13) and (14). The units below are those of [`Forces`](crate::Forces). From a [`Packing`](crate::Packing),
+/// all three components are in units of force.
 ///
 /// # Examples
 /// ```
@@ -18,7 +18,7 @@ use crate::lattice::Site;
 /// use cannonpile::{FloorForce, Pile};
 ///
 /// let pile = Pile::triangular(10)?;
-/// // In the middle of the base there is no shear.
+/// // The shear is zero in the middle of the base.
 /// let site = Site { i: 3, j: 3, k: 9 };
 /// let force = pile.forces::<f64>().on_floor(site)?;
 /// assert_eq!(force, FloorForce { site, normal: 4.0, shear_x: 0.0, shear_y: 0.0 });
@@ -33,13 +33,13 @@ use crate::lattice::Site;
 pub struct FloorForce<T> {
     /// The bottom sphere.
     pub site: Site,
-    /// The normal force, in mg, downwards.
+    /// The normal force, in mg. It points downwards.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub normal: T,
     /// The shear along x, in mg·tanθ.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub shear_x: T,
-    /// The shear along y, in 2cosφ·mg·tanθ (√3·mg·tanθ on an equilateral base); zero for discs.
+    /// The shear along y, in 2cosφ·mg·tanθ, which is √3·mg·tanθ on an equilateral base. It is zero for discs.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub shear_y: T,
 }
@@ -67,7 +67,7 @@ impl<T> FloorForce<T> {
 }
 
 impl<T: fmt::Display> fmt::Display for FloorForce<T> {
-    /// Prints `(3,3,9): normal 4, shear (0, 0)`; a sign and a precision are those of the components.
+    /// Prints `(3,3,9): normal 4, shear (0, 0)`. A sign and a precision apply to the components.
     ///
     /// # Examples
     /// ```
@@ -87,7 +87,7 @@ impl<T: fmt::Display> fmt::Display for FloorForce<T> {
     }
 }
 
-/// The forces of bottom spheres on the floor, one by one in row order.
+/// An iterator over the forces of bottom spheres on the floor, in row order.
 ///
 /// Made by [`Forces::base`](crate::Forces::base). An item is an error if the scalar overflows.
 ///

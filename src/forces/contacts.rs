@@ -7,7 +7,7 @@ use exact_surd::layout::{padded, part};
 use super::Answers;
 use crate::lattice::{Direction, Site};
 
-/// The force of contact between a sphere and the one below it.
+/// The force between a sphere and the one below it.
 ///
 /// # Examples
 /// ```
@@ -30,15 +30,15 @@ use crate::lattice::{Direction, Site};
 pub struct ContactForce<T> {
     /// The upper sphere.
     pub site: Site,
-    /// The direction in which the lower one lies.
+    /// The direction from the upper sphere to the lower one.
     pub direction: Direction,
-    /// The force, in f₀. Positive: they push. Negative: they would have to pull.
+    /// The force, in f₀. Positive: compression. Negative: the contact would be tensile.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub force: T,
 }
 
 impl<T: fmt::Display> fmt::Display for ContactForce<T> {
-    /// Prints `(0,0,0) alpha: 1`; a sign and a precision are those of the force.
+    /// Prints `(0,0,0) alpha: 1`. A sign and a precision apply to the force.
     ///
     /// # Examples
     /// ```
@@ -60,7 +60,8 @@ impl<T: fmt::Display> fmt::Display for ContactForce<T> {
     }
 }
 
-/// The contact forces of a part of a pile, one by one in row order: of each sphere those with the spheres below it.
+/// An iterator over the contact forces of a part of a pile, in row order. Each sphere is listed with its contacts
+/// below.
 ///
 /// Made by [`Forces::contacts`](crate::Forces::contacts). An item is an error if the scalar overflows.
 ///

@@ -15,13 +15,15 @@ use crate::lattice::Site;
 use crate::shape::Selection;
 
 impl Forces<'_, BigRational> {
-    /// Shows the forces of bottom spheres on the floor as integers (shear_x, shear_y, normal), and returns the
-    /// denominator of all of them: of the corners of a straight pile under one sphere; of those spheres between which
-    /// the forces are linear, where they are far fewer; or of every bottom sphere, but those whose floats tell that others
-    /// are more extreme. `across` is 4cos²φ.
+    /// Calls `meet` with the forces of some bottom spheres on the floor, as integers (shear_x, shear_y, normal).
+    /// Returns their common denominator. `across` is 4cos²φ.
+    ///
+    /// The extremes over the base are among these spheres. In a straight pile under one sphere they are the corners. In
+    /// other piles they are the spheres between which the forces are linear, if these are far fewer than all. Otherwise
+    /// they are all bottom spheres whose floats do not exclude them.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for more than 10⁸ of them.
+    /// [`Error::TooLarge`] for more than 10⁸ spheres.
     pub(crate) fn ends_of_base(
         &self,
         across: &BigRational,
@@ -61,11 +63,11 @@ impl Forces<'_, BigRational> {
             if plan.method == Method::Sweep {
                 let mut sweep = shortest_exact_sweep(lines, &terms.system, floor)?;
                 sweep.advance(floor, Meter::NONE)?;
-                // Images have the same normal force, and as great a shear.
+                // Image spheres have the same normal force and the same magnitude of shear.
                 let part = sweep.part()?;
                 let mut screen = Screen::new((terms, &sweep), across);
                 if let Some(screen) = &mut screen {
-                    // Some rows first, so that few spheres are more extreme than those before them.
+                    // A sample of rows comes first, so that later rows exceed few of its extremes.
                     for row in part.rows(floor).step_by(16) {
                         screen.candidates(row)?;
                     }
@@ -77,7 +79,7 @@ impl Forces<'_, BigRational> {
                         None => row.into_iter().collect(),
                     };
                     for site in sites {
-                        // Of an even base most are extreme.
+                        // In a symmetric base most spheres can be extreme.
                         let alike = match last {
                             Some(last) => sweep.are_alike([last, site])?,
                             None => false,

@@ -1,4 +1,4 @@
-//! The forces of whole layers, written into slices: the fast way to many of them.
+//! The forces of whole layers, written into slices. This is the fastest way to compute many forces.
 
 mod below;
 mod layer;
@@ -27,7 +27,7 @@ use crate::pile::System;
 use crate::scalar::{Algebra, Exactness, Ring};
 use crate::shape::{Selection, Shape};
 
-/// A way down through the layers of a part of a pile, made by [`Forces::layers`].
+/// The layers of a part of a pile, from the top, made by [`Forces::layers`].
 ///
 /// # Examples
 /// ```
@@ -45,15 +45,15 @@ use crate::shape::{Selection, Shape};
 pub struct Layers<'p, T: Algebra> {
     pub(super) terms: Terms<'p, T>,
     walk: Walk<'p, T>,
-    /// The distinct forces of a straight pile, which are copied.
+    /// The distinct forces of a straight pile, which are copied into the slices.
     pub(super) table: Option<Table<T>>,
-    /// The layers still to come.
+    /// The remaining layers.
     ahead: Range<i128>,
-    /// The layer that was reached.
+    /// The current layer.
     at: Option<i128>,
-    /// How many layers were stopped at.
+    /// The number of layers at which the sweep has stopped.
     stops: usize,
-    /// Whether a number of a sweep may be too great for the scalar.
+    /// True if a value of the sweep may overflow the scalar.
     may_overflow: bool,
     meter: Meter<'p>,
 }
@@ -67,7 +67,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
         };
         let rows = pile.rows(part)?;
         let ahead = rows.layers();
-        // Of the contacts there is nothing on the floor; what leads to it is the same.
+        // The bottom layer has no contacts below it. The layers above it need the same plan.
         let plan = forces.plan(&rows, Quantity::ContactMultiples)?;
         Ok(Self {
             walk: Walk::new(&plan, &rows, &terms)?,
@@ -81,10 +81,10 @@ impl<'p, T: Algebra> Layers<'p, T> {
         })
     }
 
-    /// Goes down to the next layer of the part and returns it, or `None` below the last one.
+    /// Advances to the next layer of the part and returns it, or `None` after the last layer.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for a layer that no memory holds.
+    /// [`Error::TooLarge`] for a layer that does not fit in memory.
     ///
     /// # Examples
     /// ```
@@ -123,10 +123,10 @@ impl<'p, T: Algebra> Layers<'p, T> {
         }))
     }
 
-    /// Goes down to layer `k` of the part, if it is not the one that was reached.
+    /// Advances to layer `k` of the part, unless it is the current layer.
     ///
     /// # Errors
-    /// [`Error::OtherLayer`] for a layer above the one that was reached, or of which nothing is asked.
+    /// [`Error::OtherLayer`] for a layer above the current one or outside the part.
     pub(super) fn go_down_to(&mut self, k: i128) -> Result<(), Error> {
         if self.at == Some(k) {
             return Ok(());
@@ -144,18 +144,18 @@ impl<'p, T: Algebra> Layers<'p, T> {
         Ok(())
     }
 
-    /// Returns the length that each of the three slices of [`fill`](Self::fill) must have: one entry for each sphere still
-    /// to come that is not on the floor.
+    /// Returns the length of each of the three slices of [`fill`](Self::fill): the number of spheres in the remaining
+    /// layers above the floor.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if no memory could hold as many.
+    /// [`Error::TooLarge`] for more entries than any memory can hold.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
     /// use cannonpile::shape::Selection;
     ///
-    /// // Of the 220 spheres 55 are on the floor.
+    /// // 55 of the 220 spheres are on the floor.
     /// let pile = Pile::triangular(10)?;
     /// assert_eq!(pile.forces::<f64>().layers(Selection::All)?.slice_len()?, 220 - 55);
     /// # Ok::<(), cannonpile::Error>(())
@@ -170,11 +170,14 @@ impl<'p, T: Algebra> Layers<'p, T> {
         ))
     }
 
-    /// Writes the contact forces of all layers still to come into slices, one for each direction, layer after layer, in f₀;
-    /// with the feature `rayon` on all cores, but for exact numbers after changes of sign, which one thread writes.
+    /// Writes the contact forces of all remaining layers into slices, one slice for each direction, layer after layer,
+    /// in f₀.
+    ///
+    /// With the feature `rayon` the work runs on all cores. Only exact numbers below sign changes are written by one
+    /// thread.
     ///
     /// # Errors
-    /// [`Error::Length`] for a slice that is not as long as there are [`slice_len`](Self::slice_len); else as for
+    /// [`Error::Length`] for a slice whose length is not [`slice_len`](Self::slice_len); otherwise as for
     /// [`Layer::fill`].
     ///
     /// # Examples
@@ -197,7 +200,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
         self.fill_each(slices, |layer, [a, b, c]| layer.fill([a, b, c]))
     }
 
-    /// Has each layer still to come that is above the floor written into its part of the slices.
+    /// Calls `fill` for each remaining layer above the floor, with its part of the slices.
     pub(super) fn fill_each<V>(
         &mut self,
         slices: [&mut [V]; 3],
@@ -213,7 +216,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
         Ok(())
     }
 
-    /// Writes what a table says of all layers still to come into slices.
+    /// Writes the forces of all remaining layers into slices, from a table.
     pub(super) fn fill_from_table<V: Clone + Send + Sync>(
         &self,
         table: &Table<V>,
@@ -223,7 +226,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
         table.fill(self.above_the_floor(), slices)
     }
 
-    /// The most increments that a contact force of the part is.
+    /// Returns the largest number of increments in a contact force of the part.
     pub(super) fn most_increments(&self) -> i128 {
         most_increments(self.shape(), self.ahead.end - 1)
     }
@@ -238,8 +241,10 @@ impl<'p, T: Algebra> Layers<'p, T> {
     }
 }
 
-/// Whether a number of a sweep down to layer `last` may be too great for the scalar: not if it holds twice the bound on all of
-/// them. With 24 bits or more roundings would reach as far after half a million passes, of which no layer fits in memory.
+/// Returns whether a value in a sweep down to layer `last` may overflow the scalar.
+///
+/// A scalar that holds twice the bound on all values does not overflow. With 24 bits or more, rounding errors exceed
+/// this margin only after half a million passes. A layer so far down does not fit in memory.
 fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
     let is_fine = matches!(T::EXACTNESS, Exactness::Rounded { bits: 24.. });
     if !is_fine || triples::<T>() {
@@ -249,7 +254,7 @@ fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
     !T::from_rational(&twice).is_defined()
 }
 
-/// Errors unless each slice has as many elements as are needed.
+/// Returns an error unless each slice has `needed` elements.
 pub(crate) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
     match slices.iter().find(|slice| slice.len() != needed) {
         Some(slice) => Err(Error::length(needed, slice.len())),
@@ -257,7 +262,7 @@ pub(crate) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<
     }
 }
 
-/// Returns the distinct forces of a straight pile down to layer `last`, if they are few.
+/// Returns the table of distinct forces of a straight pile down to layer `last`, if it is small.
 fn table<T: Algebra>(
     plan: &Plan,
     Terms { lines, system, .. }: &Terms<'_, T>,
@@ -273,23 +278,23 @@ fn table<T: Algebra>(
     })
 }
 
-/// The most increments on a line of contacts down to layer `last`.
+/// Returns the largest number of increments on a line of contacts down to layer `last`.
 fn most_increments(shape: &Shape, last: i128) -> i128 {
     (last + 1).min(shape.layers() - 1)
 }
 
 impl<'p> Layers<'p, BigRational> {
-    /// Returns the denominator of forces below so many changes of sign.
+    /// Returns the denominator of the forces below `changes` sign changes.
     pub(super) fn denominator(&self, changes: usize) -> BigInt {
         self.terms.lines.scale(changes)
     }
 
-    /// Returns the denominator of the forces below the lowest layer that is still to come and not on the floor.
+    /// Returns the denominator of the forces below the lowest remaining layer above the floor.
     pub(super) fn lowest_denominator(&self) -> BigInt {
         self.denominator(self.shape().changes_above(self.above_the_floor().end))
     }
 
-    /// Returns the forces from above on consecutive spheres of a row of the layer that was reached.
+    /// Returns the forces from above on consecutive spheres of a row of the current layer.
     pub(super) fn received_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
         let (terms, engine) = self.exact()?;
         let system = (&terms.lines, &terms.system);
@@ -297,7 +302,7 @@ impl<'p> Layers<'p, BigRational> {
         received.into_iter().collect()
     }
 
-    /// Returns the forces to the spheres below consecutive ones of a row of the layer that was reached.
+    /// Returns the forces of consecutive spheres of a row of the current layer on the spheres below.
     pub(super) fn transmitted_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
         let (terms, engine) = self.exact()?;
         let system = (&terms.lines, &terms.system);
@@ -312,7 +317,7 @@ impl<'p> Layers<'p, BigRational> {
         }
     }
 
-    /// Returns the sweep in limbs, if there is one.
+    /// Returns the exact sweep, which works on limbs, if there is one.
     pub(super) fn exact_sweep(&self) -> Option<&Descent<'p, BigRational, Planes>> {
         match &self.walk {
             Walk::Exact(_, Engine::Sweep(sweep)) => Some(sweep),

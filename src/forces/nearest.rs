@@ -1,4 +1,4 @@
-//! The forces of whole layers as the nearest floats, in the units of a packing or of the pile.
+//! The forces of whole layers, correctly rounded, in the units of a packing or of the pile.
 
 mod source;
 
@@ -20,9 +20,9 @@ use crate::error::bug;
 use crate::lattice::{Row, Site};
 use crate::scalar::{CorrectlyRounded, Surd};
 
-/// A way down through the layers of a part of a pile, in the floats `F` nearest to the exact forces.
+/// The layers of a part of a pile, from the top, with forces correctly rounded to the floats `F`.
 ///
-/// Made by [`Layers::nearest`], in pile units, and by [`Packing::layers`](crate::Packing::layers), in SI.
+/// Made by [`Layers::nearest`], in pile units, and by [`Packing::layers`](crate::Packing::layers), in SI units.
 ///
 /// # Examples
 /// ```
@@ -44,11 +44,11 @@ pub struct NearestLayers<'p, F> {
     units: Units,
     /// The distinct forces of a straight pile.
     table: Option<Table<F>>,
-    /// What rows were asked for last, and the layer that they are in.
+    /// The sources of the last requests, each with its quantity and layer.
     prepared: Vec<(Asked, i128, Source<F>)>,
 }
 
-/// One layer of a pile, with its forces at hand as nearest floats.
+/// One layer of a pile and its forces, correctly rounded.
 pub struct NearestLayer<'l, 'p, F> {
     layer: Layer<'l, 'p, BigRational>,
     units: &'l Units,
@@ -56,10 +56,10 @@ pub struct NearestLayer<'l, 'p, F> {
 }
 
 impl<'p> Layers<'p, BigRational> {
-    /// Returns the layers in the floats nearest to the exact forces, in pile units.
+    /// Returns the layers with correctly rounded forces, in pile units.
     ///
     /// # Errors
-    /// [`Error::Overflow`] for a force beyond the floats.
+    /// [`Error::Overflow`] for a force beyond the range of the floats.
     ///
     /// # Examples
     /// ```
@@ -86,7 +86,7 @@ impl<'p> Layers<'p, BigRational> {
         self.nearest_in(units)
     }
 
-    /// Returns the layers in the floats nearest to the exact forces times units.
+    /// Returns the layers with the forces times `units`, correctly rounded.
     pub(crate) fn nearest_in<F: CorrectlyRounded>(
         self,
         units: Units,
@@ -110,7 +110,7 @@ impl<'p> Layers<'p, BigRational> {
 }
 
 impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
-    /// Goes down to the next layer of the part and returns it, or `None` below the last one.
+    /// Advances to the next layer of the part and returns it, or `None` after the last layer.
     ///
     /// # Errors
     /// As for [`Layers::next_layer`].
@@ -139,7 +139,7 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         }))
     }
 
-    /// Returns how many spheres of the layers still to come rest on others: the length of each slice of
+    /// Returns the number of spheres in the remaining layers above the floor, which is the length of each slice of
     /// [`fill`](Self::fill).
     ///
     /// # Errors
@@ -160,8 +160,8 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         self.layers.slice_len()
     }
 
-    /// Writes the contact forces of all layers still to come into slices, one for each direction, layer after layer; on
-    /// all cores with the feature `rayon`.
+    /// Writes the contact forces of all remaining layers into slices, one slice for each direction, layer after layer.
+    /// With the feature `rayon` the work runs on all cores.
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::Overflow`].
@@ -189,12 +189,15 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         })
     }
 
-    /// Writes the forces below consecutive spheres of a row into slices, one for each direction: for what is larger than
-    /// memory. Rows come in their order; layers without one may be left out.
+    /// Writes the forces below consecutive spheres of a row into slices, one slice for each direction. Use it for
+    /// results that are larger than memory.
+    ///
+    /// The rows must come from the top down. Layers may be skipped.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`], [`Error::OnFloor`]; [`Error::OtherLayer`] for a row above one that was written, or not of the part;
-    /// [`Error::Length`], [`Error::Overflow`]; [`Error::TooLarge`] for a row that no memory holds.
+    /// [`Error::SiteOutside`], [`Error::OnFloor`]; [`Error::OtherLayer`] for a row above the last one written, or
+    /// outside the part; [`Error::Length`], [`Error::Overflow`]; [`Error::TooLarge`] for a row that does not fit in
+    /// memory.
     ///
     /// # Examples
     /// ```
@@ -216,8 +219,10 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         self.write(Asked::Contacts, row, slices)
     }
 
-    /// Whether it is certain that every contact force but zero is rounded to a normal float, with all its digits: each is an
-    /// integer multiple of the unit over a denominator, which may be less than any of them.
+    /// Returns whether every nonzero contact force is certain to be rounded to a normal float, with full precision.
+    ///
+    /// Each force is an integer multiple of the unit over a denominator. This smallest possible force is checked. The
+    /// result may be `false` although every actual force is larger.
     ///
     /// # Examples
     /// ```
@@ -239,8 +244,8 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         least.exceeds_power_of_two(normal)
     }
 
-    /// Writes the forces of consecutive spheres' contacts on the upper sphere as vectors into slices: x, y and z, each by
-    /// direction; in pile units as [`contact_vector`](crate::Forces::contact_vector).
+    /// Writes the contact forces on consecutive upper spheres as vectors into slices: x, y and z, each by direction.
+    /// Pile units are those of [`contact_vector`](crate::Forces::contact_vector).
     ///
     /// # Errors
     /// As for [`fill_row`](Self::fill_row).
@@ -275,7 +280,7 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
     /// Writes the forces of consecutive bottom spheres on the floor into slices: normal, shear along x, shear along y.
     ///
     /// # Errors
-    /// [`Error::NotOnFloor`]; as for [`fill_row`](Self::fill_row).
+    /// [`Error::NotOnFloor`]; otherwise as for [`fill_row`](Self::fill_row).
     ///
     /// # Examples
     /// ```
@@ -332,11 +337,11 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
 }
 
 impl<F: CorrectlyRounded> NearestLayer<'_, '_, F> {
-    /// Writes the forces below the layer into slices, one for each direction, row after row, each the float nearest to the
-    /// exact force; zero along γ for discs.
+    /// Writes the forces below the layer into slices, one slice for each direction, row after row. Each value is
+    /// correctly rounded. The forces along γ are zero for discs.
     ///
     /// # Errors
-    /// [`Error::Length`], [`Error::OnFloor`]; [`Error::Overflow`] for a force beyond the floats.
+    /// [`Error::Length`], [`Error::OnFloor`]; [`Error::Overflow`] for a force beyond the range of the floats.
     ///
     /// # Examples
     /// ```
@@ -362,10 +367,10 @@ impl<F: CorrectlyRounded> NearestLayer<'_, '_, F> {
     }
 
     /// Writes the forces of the bottom layer on the floor into slices, row after row: normal, shear along x and shear
-    /// along y, each the float nearest to the exact one.
+    /// along y. Each value is correctly rounded.
     ///
     /// # Errors
-    /// [`Error::Length`]; [`Error::NotOnFloor`] for a layer above it; [`Error::Overflow`].
+    /// [`Error::Length`]; [`Error::NotOnFloor`] for another layer; [`Error::Overflow`].
     ///
     /// # Examples
     /// ```

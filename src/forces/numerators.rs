@@ -11,10 +11,10 @@ use super::layers::{Layer, Layers};
 use crate::Error;
 use crate::engine::Table;
 
-/// A way down through the layers of a part of a pile, in integers `V` over a denominator that a layer shares.
+/// The layers of a part of a pile, from the top, with forces as integers `V` over one denominator for each layer.
 ///
-/// Made by [`Layers::numerators`]. The denominator is D·3^d below d changes of sign, D that of increments, weights and
-/// loads: 1 below a straight stacking on an equilateral base without loads.
+/// Made by [`Layers::numerators`]. The denominator below d sign changes is D·3^d, where D is the common denominator of
+/// increments, weights and loads. D is 1 for an equilateral base without loads.
 ///
 /// # Examples
 /// ```
@@ -38,17 +38,17 @@ pub struct NumeratorLayers<'p, V> {
     table: Option<Table<V>>,
 }
 
-/// One layer of a pile, with the numerators of its forces at hand.
+/// One layer of a pile and the numerators of its forces.
 pub struct NumeratorLayer<'l, 'p, V> {
     layer: Layer<'l, 'p, BigRational>,
     table: Option<&'l Table<V>>,
 }
 
 impl<'p> Layers<'p, BigRational> {
-    /// Returns the layers in exact integers over a denominator that each layer shares.
+    /// Returns the layers with forces as exact integers over one denominator for each layer.
     ///
     /// # Errors
-    /// [`Error::Overflow`] for a numerator beyond `V`.
+    /// [`Error::Overflow`] for a numerator beyond the range of `V`.
     ///
     /// # Examples
     /// ```
@@ -66,7 +66,7 @@ impl<'p> Layers<'p, BigRational> {
     /// ```
     pub fn numerators<V: TryFrom<BigInt>>(self) -> Result<NumeratorLayers<'p, V>, Error> {
         let scale = self.denominator(0);
-        // An integer: the scale is a multiple of all denominators.
+        // An integer, because the scale is a multiple of all denominators.
         let whole = |multiple: &BigRational| numerator((multiple * &scale).to_integer());
         Ok(NumeratorLayers {
             table: self
@@ -80,7 +80,7 @@ impl<'p> Layers<'p, BigRational> {
 }
 
 impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayers<'p, V> {
-    /// Goes down to the next layer of the part and returns it, or `None` below the last one.
+    /// Advances to the next layer of the part and returns it, or `None` after the last layer.
     ///
     /// # Errors
     /// As for [`Layers::next_layer`].
@@ -108,7 +108,7 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayers<'p, V> {
         }))
     }
 
-    /// Returns how many spheres of the layers still to come rest on others: the length of each slice of
+    /// Returns the number of spheres in the remaining layers above the floor, which is the length of each slice of
     /// [`fill`](Self::fill).
     ///
     /// # Errors
@@ -129,8 +129,8 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayers<'p, V> {
         self.layers.slice_len()
     }
 
-    /// Writes the numerators of the contact forces of all layers still to come into slices, one for each direction, layer
-    /// after layer, and returns their denominator: that of the lowest layer, to which all are brought.
+    /// Writes the numerators of the contact forces of all remaining layers into slices, one slice for each direction,
+    /// layer after layer. Returns their common denominator, which is that of the lowest layer.
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::Overflow`].
@@ -181,11 +181,11 @@ impl<V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayer<'_, '_, V> {
         self.layer.denominator()
     }
 
-    /// Writes the numerators of the forces below the layer into slices, one for each direction, row after row; zero along γ
-    /// for discs.
+    /// Writes the numerators of the forces below the layer into slices, one slice for each direction, row after row.
+    /// The numerators along γ are zero for discs.
     ///
     /// # Errors
-    /// [`Error::Length`], [`Error::OnFloor`]; [`Error::Overflow`] for a numerator beyond `V`.
+    /// [`Error::Length`], [`Error::OnFloor`]; [`Error::Overflow`] for a numerator beyond the range of `V`.
     ///
     /// # Examples
     /// ```
@@ -217,7 +217,7 @@ impl<'l, 'p, V> Deref for NumeratorLayer<'l, 'p, V> {
     }
 }
 
-/// Writes the numerators over a multiple of the denominator of a layer.
+/// Writes the numerators over `denominator`, a multiple of the denominator of the layer.
 fn fill_over<V: TryFrom<BigInt>>(
     layer: &Layer<'_, '_, BigRational>,
     denominator: &BigInt,

@@ -1,9 +1,10 @@
-//! Forces one by one on all cores: [`Forces::contacts`] and [`Forces::base`] as parallel iterators of
-//! [rayon](https://docs.rs/rayon).
+//! Parallel iterators of [rayon](https://docs.rs/rayon) over forces: [`Forces::contacts`] and [`Forces::base`] on all
+//! cores.
 //!
-//! The items are those of the serial iterators, and `collect` keeps their order. Threads take parts of the rows; a sweep
-//! goes down layer by layer, and threads take parts of each layer. A request to end ([`Interrupt`](crate::Interrupt))
-//! reaches all of them. To write many forces into slices, [`Layers::fill`](crate::Layers::fill) is faster.
+//! The items are those of the serial iterators, and `collect` keeps their order. Each thread takes a part of the rows.
+//! A sweep advances layer by layer, and each thread takes a part of each layer. A request to end
+//! ([`Interrupt`](crate::Interrupt)) ends the work of all threads. [`Layers::fill`](crate::Layers::fill) writes many
+//! forces into slices faster.
 //!
 //! # Examples
 //! ```
@@ -34,7 +35,7 @@ use crate::lattice::Row;
 use crate::scalar::Algebra;
 use crate::shape::{Part, Rows, Selection, Shape};
 
-/// Returns the contact forces of a part of the pile, as [`Forces::contacts`] does.
+/// Returns a parallel iterator over the contact forces of a part of the pile, with the items of [`Forces::contacts`].
 ///
 /// # Errors
 /// As for [`Forces::contacts`].
@@ -59,7 +60,7 @@ pub fn contacts<'p, T: Algebra>(
     Parallel::new(forces, &rows, Quantity::ContactMultiples, Walk::contacts_in)
 }
 
-/// Returns the forces of bottom spheres on the floor, as [`Forces::base`] does.
+/// Returns a parallel iterator over the forces of bottom spheres on the floor, with the items of [`Forces::base`].
 ///
 /// # Errors
 /// As for [`Forces::base`].
@@ -83,7 +84,7 @@ pub fn base<'p, T: Algebra>(
     Parallel::new(forces, &rows, Quantity::FloorMultiples, Walk::on_floor_in)
 }
 
-/// The answers on some rows, found by `answer` for a piece of a row at a time.
+/// The forces of some rows. `answer` computes them for one piece of a row at a time.
 struct Parallel<'p, T: Algebra, A> {
     walk: Walk<'p, T>,
     part: Part<'p>,
@@ -113,7 +114,7 @@ where
         })
     }
 
-    /// Answers a part; a sweep has gone down to its layer.
+    /// Computes the forces of a part. A sweep must be at its layer.
     fn share<C: UnindexedConsumer<Result<I, Error>>>(
         &self,
         part: Part<'p>,
@@ -135,7 +136,7 @@ where
         parts.drive_unindexed(consumer)
     }
 
-    /// Goes down to layer `k`, and answers a part of it.
+    /// Advances to layer `k`, and computes the forces of a part of it.
     fn layer<C>(&mut self, k: i128, part: Part<'p>, consumer: C) -> C::Result
     where
         C: UnindexedConsumer<Result<I, Error>>,
@@ -146,7 +147,8 @@ where
         }
     }
 
-    /// Answers layer after layer. Consumers are split in halves, as deep as they are by other iterators.
+    /// Computes the forces layer after layer. Consumers are split in halves, so the splits are as deep as in other
+    /// iterators.
     fn layers<C>(&mut self, shape: &'p Shape, layers: Range<i128>, consumer: C) -> C::Result
     where
         C: UnindexedConsumer<Result<I, Error>>,
@@ -208,7 +210,8 @@ mod tests {
         ])
     }
 
-    /// Compares the items of both iterators, in the methods that apply, on two threads and more.
+    /// Compares the items of the serial and the parallel iterator, for each method that applies, on two or more
+    /// threads.
     fn compare<T: Algebra>() {
         for pile in &piles() {
             let floor = pile.layers() - 1;
@@ -281,7 +284,7 @@ mod tests {
         assert_eq!(floor.count(), 0);
     }
 
-    /// More layers than a consumer could be split one after the other.
+    /// The layers are too many to split off a consumer for one after the other.
     #[test]
     fn a_first_item_of_a_sweep_is_found() {
         let pile = Pile::under(
@@ -322,7 +325,7 @@ mod tests {
             assert_eq!(interrupt.during(all), Err(Error::Interrupted));
             assert_eq!(interrupt.during(bottom), Err(Error::Interrupted));
         }
-        // It comes while the items do.
+        // The interrupt comes while items are computed.
         let (pile, interrupt) = (Pile::triangular(10_i128.pow(30)).unwrap(), Interrupt::new());
         let forces = pile.forces::<f64>();
         let asked = interrupt.during(|| {

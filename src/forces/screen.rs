@@ -1,12 +1,16 @@
-//! Which bottom spheres can be extreme: nearest floats decide, and leave few to long integers.
+//! A screen of the bottom spheres. Correctly rounded floats exclude most of them, and exact integers compare the rest.
 //!
-//! Rounding to the nearest float keeps the order, so the least normal force is among those whose float is least, and the
-//! greatest likewise. Of the squared ratio of shear to normal force, r = (x² + c·y²)/n² with c = 4cos²φ, the float r′ has
-//! ten roundings on its way, numbers that come in twice counted twice: with u = 2^−53, |r′ − r| ≤ 11u·r + 2^−796, where
-//! 2^−100 ≤ |n| < 2^200, |x| and |y| < 2^200, and 2^−100 ≤ c ≤ 4. The second term is what squares below 2^−1000 may lose,
-//! over n² ≥ 2^−200. If r is the greatest of all and m the greatest float, r′ ≥ (1 − 11u)/(1 + 11u)·m − 2^−795, which is
-//! more than (1 − 32u)·m for m ≥ 2^−700. What is beyond these bounds is left to long integers, and so are spheres that
-//! weigh more than others. All that holds with the extremes of those met so far in place of the extremes of all.
+//! Correct rounding keeps the order. So the smallest normal force is among the forces with the smallest float, and the
+//! largest likewise.
+//!
+//! Let r = (x² + c·y²)/n² be the squared ratio of shear to normal force, with c = 4cos²φ. Its float r′ has ten
+//! roundings, where repeated numbers count twice. With u = 2^−53, |r′ − r| ≤ 11u·r + 2^−796. This needs 2^−100 ≤ |n| <
+//! 2^200, |x| and |y| < 2^200, and 2^−100 ≤ c ≤ 4. The second term is the loss of squares below 2^−1000, divided by n²
+//! ≥ 2^−200.
+//!
+//! Let r be the largest ratio and m the largest float. Then r′ ≥ (1 − 11u)/(1 + 11u)·m − 2^−795, which exceeds
+//! (1 − 32u)·m for m ≥ 2^−700. Values beyond these bounds are compared as exact integers, and so are spheres with extra
+//! weight. The same inequalities hold with the extremes found so far in place of the extremes of all.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -21,31 +25,31 @@ use crate::error::bug;
 use crate::lattice::{Row, Site};
 use crate::scalar::{Ring, Surd};
 
-/// 2^−700, 2^−100 and 2^200.
+/// The bounds 2^−700, 2^−100 and 2^200.
 const TINY: f64 = f64::from_bits(323 << 52);
 const SMALL: f64 = f64::from_bits(923 << 52);
 const GREAT: f64 = f64::from_bits(1223 << 52);
 
-/// The extremes of the floats met so far, to which those of a sphere are held.
+/// The extremes of the floats found so far, for comparison with the floats of each sphere.
 pub(super) struct Screen<'s, 'p> {
     sweep: &'s Descent<'p, BigRational, Planes>,
     readout: Readout,
     units: [Unit; 3],
     /// 4cos²φ.
     across: f64,
-    /// Spheres that weigh more than others.
+    /// The spheres with loads or with a weight of their own.
     extras: BTreeSet<Site>,
     least: f64,
     most: f64,
-    /// The greatest squared ratio.
+    /// The largest squared ratio.
     ratio: f64,
 }
 
-/// The float of a normal force, and the squared ratio where its error is known.
+/// The float of a normal force, and the squared ratio if its error is bounded.
 type Floats = (f64, Option<f64>);
 
 impl<'s, 'p> Screen<'s, 'p> {
-    /// Returns the screen of a base that a sweep is at, unless its floats are not to be had.
+    /// Returns the screen for the base that a sweep has reached, or `None` if its floats are not available.
     pub(super) fn new(
         (terms, sweep): (
             &Terms<'_, BigRational>,
@@ -67,7 +71,7 @@ impl<'s, 'p> Screen<'s, 'p> {
         })
     }
 
-    /// Returns the spheres of a row that can be extreme among all that were met.
+    /// Returns the spheres of a row that may be extreme among all spheres so far.
     ///
     /// # Errors
     /// [`Error::Bug`].

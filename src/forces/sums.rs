@@ -1,7 +1,7 @@
-//! Sums of forces over layers, without looking at single spheres.
+//! Sums of forces over layers, without a loop over spheres.
 //!
-//! Every line goes on to the next layer, so the forces of a layer on the next one sum to what that layer receives. Adding
-//! increments and turning act on sums as on the forces of one sphere.
+//! Every line continues into the next layer. So the forces below a layer sum to the forces that the next layer
+//! receives. The increments and the half-turn act on these sums as on the forces of one sphere.
 
 use alloc::collections::BTreeMap;
 use core::ops::Range;
@@ -18,16 +18,16 @@ use crate::formula;
 use crate::formula::{force, half_turn, transmitted};
 use crate::shape::{Selection, Stretch};
 
-/// The most layers that are summed one by one.
+/// The largest number of layers that are summed one by one.
 const MAX_SUMMED_LAYERS: u64 = 10_000_000;
 
 impl Forces<'_, BigRational> {
-    /// Returns the sum of all contact forces that [`contacts`](Self::contacts) gives of a part, in f₀. Takes as long as the
-    /// part has layers, and the pile changes of sign, loads and weights of its own.
+    /// Returns the sum of all contact forces of a part, in f₀: the sum of the items of [`contacts`](Self::contacts).
+    /// The cost is linear in the layers of the part, and in the sign changes, loads and special weights of the pile.
     ///
     /// # Errors
-    /// [`Error::LayerOutside`], [`Error::SiteOutside`]; [`Error::TooLarge`] for more than ten million layers, or one sphere
-    /// too far below too many changes of sign.
+    /// [`Error::LayerOutside`], [`Error::SiteOutside`]; [`Error::TooLarge`] for more than ten million layers, or for
+    /// one sphere too far below too many sign changes.
     ///
     /// # Examples
     /// ```
@@ -38,7 +38,7 @@ impl Forces<'_, BigRational> {
     ///
     /// let pile = Pile::under(Region::SITE, "++-".parse()?)?;
     /// let sum = pile.forces::<BigRational>().sum_of_contacts(Selection::All)?;
-    /// // Three for the weight of each sphere above: of 1, 1 + 3 and 1 + 3 + 6.
+    /// // The contacts below a layer sum to 3 f₀ for each sphere down to it: 1, 1 + 3 and 1 + 3 + 6.
     /// assert_eq!(sum, BigRational::from_integer(45.into()));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -63,7 +63,7 @@ impl Forces<'_, BigRational> {
             MAX_SUMMED_LAYERS,
             "ask for single layers",
         )?;
-        // By the number of changes above them, whose sums have one denominator.
+        // The sums by the number of sign changes above them. Sums with the same number share a denominator.
         let mut sums: BTreeMap<usize, BigInt> = BTreeMap::new();
         let add = |[a, b, c]: &[BigInt; 3], changes| {
             *sums.entry(changes).or_default() += a + b + c;
@@ -77,12 +77,13 @@ impl Forces<'_, BigRational> {
         Ok(total)
     }
 
-    /// Returns the sums of the forces that [`base`](Self::base) gives of a part: normal in mg, shear_x in mg·tanθ, shear_y in
-    /// 2cosφ·mg·tanθ. Of the whole base they are the weight of the pile with its loads, and nothing.
+    /// Returns the sums of the forces of a part on the floor: normal in mg, shear_x in mg·tanθ, shear_y in
+    /// 2cosφ·mg·tanθ. The items are those of [`base`](Self::base). Over the whole base, the normal force is the weight
+    /// of the pile with its loads, and the shears are zero.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::NotOnFloor`] for a part that is not of the base;
-    /// [`Error::TooLarge`] for one sphere too far below too many changes of sign.
+    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::NotOnFloor`] for a part outside the base;
+    /// [`Error::TooLarge`] for one sphere too far below too many sign changes.
     ///
     /// # Examples
     /// ```
@@ -119,8 +120,9 @@ impl Forces<'_, BigRational> {
 }
 
 impl Terms<'_, BigRational> {
-    /// Shows what each of some layers passes on in all, by direction and as integers over the scale of so many changes of
-    /// sign, and returns it for the layer above their end.
+    /// Calls `show` with the total force that each of some layers transmits, by direction, and with the number of sign
+    /// changes. The totals are integers over the scale of that number. Returns the total of the last layer above the
+    /// end of `layers`.
     fn pass_layers_on(
         &self,
         layers: Range<i128>,
@@ -144,7 +146,7 @@ impl Terms<'_, BigRational> {
         (sums, changes)
     }
 
-    /// Adds what the spheres of some layers of a run add to their lines, by direction.
+    /// Adds the increments of some layers of a run to the sums, by direction.
     fn with_own(&self, sums: [BigInt; 3], run: &Stretch, layers: Range<i128>) -> [BigInt; 3] {
         let spheres = BigInt::from(self.system.shape.spheres_in(layers.clone()));
         let ordinary = self.lines.increments_after(run.index);

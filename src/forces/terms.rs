@@ -1,4 +1,4 @@
-//! What forces are made of, as numerators over known denominators.
+//! The constants of the forces, as numerators over known denominators.
 
 use core::array;
 
@@ -15,7 +15,7 @@ use crate::lattice::{Direction, Sign, Site};
 use crate::pile::System;
 use crate::scalar::{Algebra, Ring, Surd};
 
-/// A system of equations in the numerators of a scalar: what spheres add to their lines, and the lines' directions.
+/// A system of equations in the numerators of a scalar: the increments of spheres and the directions of lines.
 #[derive(Clone, Debug)]
 pub(super) struct Terms<'p, T: Algebra> {
     pub(super) system: System<'p>,
@@ -52,13 +52,13 @@ impl<'p, T: Algebra> Terms<'p, T> {
         edge("the sum of increments", sum, &self.sum_scale)
     }
 
-    /// Returns contact forces in f₀.
+    /// Converts numerators into contact forces in f₀.
     pub(super) fn contacts(&self, numerators: Received<T>) -> Result<[T; 3], Error> {
         let Received { forces, changes } = numerators;
         edge_all("a contact force", forces, &self.lines.scale(changes))
     }
 
-    /// Returns a vector in f₀, from numerators of increments times directions.
+    /// Converts numerators of increments times directions into a vector in f₀.
     pub(super) fn vector(
         &self,
         quantity: &'static str,
@@ -70,7 +70,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         Ok(Vector { x, y, z })
     }
 
-    /// Returns what a bottom sphere hands on to the floor.
+    /// Returns the force of a bottom sphere on the floor.
     pub(super) fn floor(&self, site: Site, above: &Received<T>) -> Result<FloorForce<T>, Error> {
         let (force, unit) = self.floor_numerators(site, above);
         let force = edge_all("a force on the floor", force.into_array(), &unit)?;
@@ -83,7 +83,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         })
     }
 
-    /// Returns what a bottom sphere hands on to the floor as numerators of (shear_x, shear_y, normal), and their
+    /// Returns the force of a bottom sphere on the floor as numerators of (shear_x, shear_y, normal), and their
     /// denominator.
     pub(super) fn floor_numerators(
         &self,
@@ -96,8 +96,8 @@ impl<'p, T: Algebra> Terms<'p, T> {
         (force.scaled(&self.sum_scale), self.floor_unit(*changes))
     }
 
-    /// Returns what the numerators of [`floor_numerators`](Self::floor_numerators) of an ordinary sphere are made of: the
-    /// factor of each force from above, and what the weight comes to.
+    /// Returns the coefficients of [`floor_numerators`](Self::floor_numerators) for an ordinary sphere: the factor of
+    /// each force from above, and the contribution of the weight.
     fn floor_factors(
         &self,
         k: i128,
@@ -118,22 +118,22 @@ impl<'p, T: Algebra> Terms<'p, T> {
         (factors, support_load([&zero; 3], &weight))
     }
 
-    /// Returns the denominator of forces on the floor: mg is W of the unit of forces along lines.
+    /// Returns the denominator of forces on the floor. One mg is W times the unit of forces along lines.
     pub(super) fn floor_unit(&self, changes: usize) -> T::Numerator {
         self.lines.scale(changes) * &self.direction_scale * &self.increment_sum
     }
 
-    /// Returns weight and load of a sphere, in the scale of forces along directions.
+    /// Returns the sum of weight and load of a sphere, in the scale of forces along directions.
     pub(super) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
         self.lines.weight(site, changes) * &self.direction_scale
     }
 
-    /// Returns the unit vectors along the contacts above layer `k`; those of a + step above the top, where there are none.
+    /// Returns the unit vectors along the contacts above layer `k`. Above the top layer they are those of a + step.
     pub(super) fn directions_above(&self, k: i128) -> [Vector<T::Numerator>; 3] {
         self.directions_under(self.system.shape.sign_below(k - 1))
     }
 
-    /// Returns the unit vectors along the contacts below layer `k`; those of a + step below the floor, where there are none.
+    /// Returns the unit vectors along the contacts below layer `k`. Below the bottom layer they are those of a + step.
     pub(super) fn directions_below(&self, k: i128) -> [Vector<T::Numerator>; 3] {
         self.directions_under(self.system.shape.sign_below(k))
     }
@@ -148,14 +148,15 @@ impl<'p, T: Algebra> Terms<'p, T> {
 }
 
 impl Terms<'_, BigRational> {
-    /// Returns what normal force, shear along x and shear along y under an ordinary bottom sphere are made of, unless the
-    /// factors are long.
+    /// Returns the readout of normal force, shear along x and shear along y under an ordinary bottom sphere, or `None`
+    /// if a factor is too long.
     pub(super) fn floor_readout(&self) -> Option<Readout> {
         let (floor, changes) = self.floor_and_changes();
         readout(&self.floor_factors(floor, changes))
     }
 
-    /// Returns the same of the numbers of increments on the lines, that of the sphere itself among them, in a straight pile.
+    /// Returns the same readout from the numbers of increments on the lines of a straight pile, the sphere's own one
+    /// included.
     pub(super) fn floor_readout_of_counts(&self) -> Option<Readout> {
         let (floor, changes) = self.floor_and_changes();
         let (lines, mut own) = self.floor_factors(floor, changes);
@@ -164,21 +165,21 @@ impl Terms<'_, BigRational> {
         for line in [&a, &b, &c] {
             own = own - line;
         }
-        // In one limb.
+        // The numbers must fit in one limb.
         let is_short = |x: &BigInt| x.bits() < 62;
         let short = is_short(&own.x) && is_short(&own.y) && is_short(&own.z);
         readout(&([a, b, c], own)).filter(|_| short)
     }
 
-    /// Returns the units of normal force, shear along x and shear along y, from those of shear along x and y and of normal
-    /// force.
+    /// Returns the units of normal force, shear along x and shear along y. The argument has the units of shear along x,
+    /// shear along y and normal force.
     pub(super) fn floor_units(&self, [x, y, normal]: &[Surd; 3]) -> [Unit; 3] {
         let (_, changes) = self.floor_and_changes();
         let denominator = self.floor_unit(changes);
         [normal, x, y].map(|unit| Unit::new(unit.clone(), denominator.clone()))
     }
 
-    /// Returns the bottom layer, and the changes of sign above it.
+    /// Returns the bottom layer, and the number of sign changes above it.
     fn floor_and_changes(&self) -> (i128, usize) {
         let shape = self.system.shape;
         let floor = shape.layers() - 1;
@@ -186,7 +187,8 @@ impl Terms<'_, BigRational> {
     }
 }
 
-/// Returns what makes normal force, shear along x and shear along y of the factor of each line and what is added.
+/// Returns the readout of normal force, shear along x and shear along y, from the factor of each line and the constant
+/// term.
 fn readout((lines, own): &([Vector<BigInt>; 3], Vector<BigInt>)) -> Option<Readout> {
     let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
         let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
@@ -198,7 +200,7 @@ fn readout((lines, own): &([Vector<BigInt>; 3], Vector<BigInt>)) -> Option<Reado
     })
 }
 
-/// Returns the one of three that belongs to a direction.
+/// Returns the value that belongs to a direction.
 pub(super) fn of_direction<V>([alpha, beta, gamma]: [V; 3], direction: Direction) -> V {
     match direction {
         Direction::Alpha => alpha,
@@ -207,7 +209,7 @@ pub(super) fn of_direction<V>([alpha, beta, gamma]: [V; 3], direction: Direction
     }
 }
 
-/// Returns `n / d`, unless that is no number.
+/// Returns `n / d`, or an error if the scalar cannot hold it.
 pub(super) fn edge<T: Algebra>(
     quantity: &'static str,
     n: T::Numerator,
@@ -217,7 +219,7 @@ pub(super) fn edge<T: Algebra>(
     value.ok_or(Error::overflow(quantity, T::NAME))
 }
 
-/// Returns each of `n` over `d`, unless one of them is no number.
+/// Returns each of `n` over `d`, or an error if the scalar cannot hold one of them.
 pub(super) fn edge_all<T: Algebra>(
     quantity: &'static str,
     n: [T::Numerator; 3],

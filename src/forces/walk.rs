@@ -1,4 +1,4 @@
-//! The forces of sphere after sphere, from the engine that a plan has chosen.
+//! The forces of consecutive spheres, from the engine that a plan selects.
 
 use alloc::boxed::Box;
 use alloc::vec::{IntoIter, Vec};
@@ -14,12 +14,12 @@ use crate::lattice::Row;
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::{Rows, exact_hint};
 
-/// A way down through some rows of a pile.
+/// A walk down through some rows of a pile.
 #[derive(Clone, Debug)]
 pub(super) enum Walk<'p, T: Algebra> {
-    /// In the numerators of the scalar.
+    /// The engine on numerators of the scalar.
     Plain(Box<Terms<'p, T>>, Engine<'p, T, Cells<T::Numerator>>),
-    /// In the integers of the exact engine, for a scalar that is exact itself.
+    /// The exact engine on integers, for a scalar that is exact itself.
     Exact(Box<Terms<'p, BigRational>>, Engine<'p, BigRational, Planes>),
 }
 
@@ -41,7 +41,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
         }
     }
 
-    /// Returns how many spheres of a row are best computed at once.
+    /// Returns the best number of spheres of a row to compute at once.
     pub(super) const fn sites_at_once(&self) -> i128 {
         match self {
             Self::Plain(_, engine) => engine.sites_at_once(),
@@ -49,7 +49,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
         }
     }
 
-    /// Goes down to layer `k`, if this is a sweep and the layer is further down.
+    /// Advances a sweep to layer `k`, unless it is already there. Other engines do nothing.
     pub(super) fn go_down_to(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
         match self {
             Self::Plain(_, engine) => engine.go_down_to(k, meter),
@@ -57,7 +57,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
         }
     }
 
-    /// Returns the contact forces of each sphere of a piece of a row with the spheres below it; a sweep has gone down to its
+    /// Returns the contact forces of each sphere of a piece of a row with the spheres below it. A sweep must be at its
     /// layer.
     pub(super) fn contacts_in(
         &self,
@@ -88,8 +88,8 @@ impl<'p, T: Algebra> Walk<'p, T> {
         contacts
     }
 
-    /// Returns the forces to the spheres below each sphere of a piece of a row, which is not on the floor; a sweep has gone
-    /// down to its layer.
+    /// Returns the forces of each sphere of a piece of a row on the spheres below. The row must be above the floor, and
+    /// a sweep must be at its layer.
     pub(super) fn transmitted_in(
         &self,
         piece: &Row,
@@ -110,7 +110,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
         }
     }
 
-    /// Returns the force on the floor of each sphere of a piece of a bottom row; a sweep has gone down to its layer.
+    /// Returns the force on the floor of each sphere of a piece of a bottom row. A sweep must be at its layer.
     pub(super) fn on_floor_in(
         &self,
         piece: &Row,
@@ -134,22 +134,22 @@ impl<'p, T: Algebra> Walk<'p, T> {
     }
 }
 
-/// A function that returns the answers of a piece of a row, sphere by sphere.
+/// A function that computes the forces of a piece of a row, sphere by sphere.
 type Compute<'p, T, A> = fn(&Walk<'p, T>, &Row, Meter<'_>) -> Vec<Result<A, Error>>;
 
-/// The forces of a part of a pile, one by one in row order: of contacts ([`Contacts`](crate::Contacts)) or on the floor
-/// ([`FloorForces`](crate::FloorForces)).
+/// An iterator over the forces of a part of a pile, in row order: contact forces ([`Contacts`](crate::Contacts)) or
+/// forces on the floor ([`FloorForces`](crate::FloorForces)).
 ///
-/// An item is an error if the scalar overflows. Some spheres of a row are computed at once.
+/// An item is an error if the scalar overflows. Several spheres of a row are computed at once.
 #[derive(Clone, Debug)]
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Answers<'p, T: Algebra, A> {
     plan: Plan,
     walk: Walk<'p, T>,
     rows: Rows<'p>,
-    /// The rest of the row that was reached.
+    /// The rest of the current row.
     row: Option<Row>,
-    /// The number of answers for each sphere.
+    /// The number of items for each sphere.
     by_site: usize,
     compute: Compute<'p, T, A>,
     computed: IntoIter<Result<A, Error>>,
@@ -176,7 +176,7 @@ impl<'p, T: Algebra, A> Answers<'p, T, A> {
         })
     }
 
-    /// Returns how the forces are found, and what that takes at most.
+    /// Returns the plan of the forces: the method, and an upper bound on its cost.
     ///
     /// # Examples
     /// ```
@@ -193,7 +193,7 @@ impl<'p, T: Algebra, A> Answers<'p, T, A> {
         &self.plan
     }
 
-    /// Returns the answers of a piece of a row, or as many errors.
+    /// Returns the items of a piece of a row, or an error in place of each item.
     fn answers(&mut self, piece: &Row) -> Vec<Result<A, Error>> {
         match self.walk.go_down_to(piece.k, self.meter) {
             Ok(()) => (self.compute)(&self.walk, piece, self.meter),

@@ -1,24 +1,24 @@
-//! What lines carry, as the forces below the spheres of a row.
+//! Conversion of the forces that lines carry into contact forces below the spheres of a row.
 
 use crate::formula::{half_turn, transmitted};
 use crate::scalar::Algebra;
 
-/// What turns the numbers that lines carry into forces below a layer.
+/// Converts the forces that lines carry into contact forces below a layer.
 pub(super) struct Below<T: Algebra> {
-    /// What an ordinary sphere of the layer adds.
+    /// The increments of an ordinary sphere of the layer.
     pub(super) own: [T::Numerator; 3],
-    /// The denominator.
+    /// The denominator of the forces.
     pub(super) scale: T::Numerator,
-    /// Whether the sign changes at the layer, and what is carried is not turned yet.
+    /// True if the sign changes at the layer and the carried forces are not turned yet.
     pub(super) turns: bool,
-    /// Whether a force may be too great for the scalar.
+    /// True if a force may overflow the scalar.
     pub(super) may_overflow: bool,
 }
 
 impl<T: Algebra> Below<T> {
-    /// Writes the forces below a row, and returns whether all are numbers.
+    /// Writes the forces below a row, and returns whether all of them are defined.
     pub(super) fn write(&self, carried: [&[T::Numerator]; 3], out: [&mut [T]; 3]) -> bool {
-        // In loops of their own: looking at each number takes half as long again.
+        // Separate loops, because the check of each value makes a loop take half as long again.
         match (self.turns, self.may_overflow) {
             (false, false) => self.write_checked(carried, out, |_| true),
             (false, true) => self.write_checked(carried, out, T::is_defined),

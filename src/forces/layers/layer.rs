@@ -1,4 +1,4 @@
-//! One layer with its forces.
+//! One layer of a pile and its forces.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -20,7 +20,7 @@ use crate::scalar::{Algebra, Exactness};
 use crate::shape::Shape;
 use crate::{Error, FloorForce};
 
-/// One layer of a pile, with its forces at hand.
+/// One layer of a pile and its forces, from [`Layers::next_layer`].
 pub struct Layer<'l, 'p, T: Algebra> {
     pub(in crate::forces) layers: &'l Layers<'p, T>,
     pub(super) k: i128,
@@ -35,7 +35,7 @@ impl Layer<'_, '_, BigRational> {
             .denominator(self.shape().changes_above(self.k + 1))
     }
 
-    /// Writes what becomes of the numerators of the forces below each sphere.
+    /// Applies `value` to the numerators of the forces below each sphere, and writes the results into slices.
     pub(in crate::forces) fn fill_numerators<V>(
         &self,
         slices: [&mut [V]; 3],
@@ -63,19 +63,20 @@ impl<T: Algebra> Layer<'_, '_, T> {
         self.k
     }
 
-    /// Returns the number of spheres of the layer: the length of each slice to fill.
+    /// Returns the number of spheres in the layer, which is the length of each slice to fill.
     #[must_use]
     pub fn sphere_count(&self) -> usize {
         self.spheres
     }
 
-    /// Whether the layer is the one on the floor, which has no contacts below it.
+    /// Returns whether the layer is the bottom layer, which has no contacts below it.
     #[must_use]
     pub fn is_floor(&self) -> bool {
         self.k == self.shape().layers() - 1
     }
 
-    /// Returns the forces of a sphere of this layer to the spheres below, by direction, in f₀; zero along γ for discs.
+    /// Returns the forces of a sphere of this layer on the spheres below, by direction, in f₀. The force along γ is
+    /// zero for discs.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::OtherLayer`] for a sphere of another layer; [`Error::OnFloor`];
@@ -103,7 +104,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         self.transmitted(site)
     }
 
-    /// Returns the force of a sphere of this layer, the one on the floor, on the floor.
+    /// Returns the force on the floor of a sphere of this layer, which must be the bottom layer.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NotOnFloor`]; [`Error::Overflow`].
@@ -130,12 +131,12 @@ impl<T: Algebra> Layer<'_, '_, T> {
         one(walk.on_floor_in(&row_of(site), *meter))
     }
 
-    /// Writes the forces below the layer into slices, one for each direction, row after row, in f₀; zero along γ for
-    /// discs.
+    /// Writes the forces below the layer into slices, one slice for each direction, row after row, in f₀. The forces
+    /// along γ are zero for discs.
     ///
     /// # Errors
-    /// [`Error::Length`] for a slice that is not as long as the layer has [`sphere_count`](Self::sphere_count); [`Error::OnFloor`];
-    /// [`Error::Overflow`] if the scalar cannot hold a force, after the slices were written to.
+    /// [`Error::Length`] for a slice whose length is not [`sphere_count`](Self::sphere_count); [`Error::OnFloor`];
+    /// [`Error::Overflow`] if the scalar cannot hold a force. After an overflow the slices may be partly written.
     ///
     /// # Examples
     /// ```
@@ -148,7 +149,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// let layer = layers.next_layer()?.expect("layer 1 is asked for");
     /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
     /// layer.fill([&mut alpha, &mut beta, &mut gamma])?;
-    /// // Each of the three passes the weight of the apex on: 2/3, 2/3 and −1/3, and its own.
+    /// // Each of the three transmits the weight of the apex as 2/3, 2/3 and −1/3, and adds 1.
     /// assert!((alpha[0] - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -167,7 +168,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         self.fill_by_rows(slices, |row| walk.transmitted_in(row, *meter))
     }
 
-    /// Writes the answers of each row into slices.
+    /// Writes the forces of each row, from `answers`, into slices.
     fn fill_by_rows(
         &self,
         [a, b, c]: [&mut [T]; 3],
@@ -183,7 +184,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         Ok(())
     }
 
-    /// Writes the values of a sphere into slices that go over the layer.
+    /// Writes the values of one sphere into slices over the layer.
     pub(in crate::forces) fn put_at<V>(
         &self,
         site: Site,
@@ -194,13 +195,13 @@ impl<T: Algebra> Layer<'_, '_, T> {
         let place = place.filter(|place| *place < self.spheres);
         let place = place.ok_or_else(|| bug("a loaded sphere has a place in its layer"))?;
         for (slice, value) in slices.into_iter().zip(values) {
-            // As long as the layer.
+            // In bounds, because the slices are as long as the layer.
             slice[place] = value;
         }
         Ok(())
     }
 
-    /// Writes what a table says of the layer into slices.
+    /// Writes the forces of the layer into slices, from a table.
     pub(in crate::forces) fn fill_from_table<V: Clone + Send + Sync>(
         &self,
         table: &Table<V>,
@@ -215,7 +216,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// shear_y in 2cosφ·mg·tanθ.
     ///
     /// # Errors
-    /// [`Error::Length`]; [`Error::NotOnFloor`] for a layer above it; [`Error::Overflow`].
+    /// [`Error::Length`]; [`Error::NotOnFloor`] for another layer; [`Error::Overflow`].
     ///
     /// # Examples
     /// ```
@@ -244,14 +245,16 @@ impl<T: Algebra> Layer<'_, '_, T> {
         })
     }
 
-    /// Returns a bound on how far a contact force below the layer can be from the exact one, in f₀: 0 in an exact scalar,
-    /// `None` where the scalar promises no precision or the bound would be useless, and where all forces are so small that
-    /// what underflows is as great as what is rounded.
+    /// Returns a bound on the rounding error of the contact forces below the layer, in f₀. The bound is 0 in an exact
+    /// scalar.
     ///
-    /// Every operation of a sweep is off by at most one unit in the last place, no sum on the way to 3G g is greater than
-    /// 2√3·‖g‖, and the transfer amplifies nothing: with n passes and sums on the way, 13·n units in the last place of the
-    /// bound on all forces. A 64th of that is added for what operations lose by underflow: 2⁻¹⁶ of such a unit is not zero in
-    /// the scalar, so that the least numbers it has are less than that.
+    /// Returns `None` if the scalar promises no precision or the bound would be useless. It also returns `None` for
+    /// forces so small that errors from underflow are as large as errors from rounding.
+    ///
+    /// Each operation of a sweep has an error of at most one unit in the last place. No partial sum of 3G g exceeds
+    /// 2√3·‖g‖, and the transfer does not amplify errors. For n passes and sums, the error is at most 13·n units in the
+    /// last place of the bound on all forces. A 64th of this is added for losses by underflow. This suffices, because
+    /// 2⁻¹⁶ of such a unit is not zero in the scalar, so the smallest positive value of the scalar is below it.
     ///
     /// # Examples
     /// ```
@@ -277,7 +280,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         let system = &self.layers.terms.system;
         let changes = self.shape().changes_above(self.k + 1) + 1;
         let extras = self.layers.terms.lines.extras_in(0..self.k + 1).count();
-        // As many passes as runs, and as layers stopped at; one more for what a sphere adds itself.
+        // The passes of the runs, the stops and the extras, and one more for the increments of the sphere itself.
         let steps = BigInt::from(self.layers.stops + changes + extras + 1);
         let unit = BigRational::new(steps * 13, BigInt::one() << bits);
         // 2√3·B·D is at least 3·B·D.
@@ -292,7 +295,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         self.layers.shape()
     }
 
-    /// Errors if the layer is the one on the floor.
+    /// Returns an error for the bottom layer.
     pub(in crate::forces) fn check_above_the_floor(&self) -> Result<(), Error> {
         if self.is_floor() {
             return Err(Error::OnFloor { site: self.first() });
@@ -300,7 +303,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         Ok(())
     }
 
-    /// Errors if the layer is not the one on the floor.
+    /// Returns an error for a layer above the bottom layer.
     pub(in crate::forces) fn check_on_the_floor(&self) -> Result<(), Error> {
         if self.is_floor() {
             return Ok(());
@@ -329,13 +332,13 @@ impl<T: Algebra> Layer<'_, '_, T> {
         }
     }
 
-    /// Returns what a sphere of this layer, above the floor, passes on.
+    /// Returns the forces that a sphere of this layer, above the floor, transmits to the spheres below.
     fn transmitted(&self, site: Site) -> Result<[T; 3], Error> {
         let Layers { walk, meter, .. } = self.layers;
         one(walk.transmitted_in(&row_of(site), *meter))
     }
 
-    /// Fills slices from the cells of a sweep, row by row.
+    /// Fills slices row by row from the cells of a sweep.
     fn fill_from(
         &self,
         sweep: &Descent<'_, T, Cells<T::Numerator>>,
@@ -359,7 +362,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
             }
             Ok(())
         })?;
-        // Spheres that weigh more or less than the others, or carry loads.
+        // Spheres with loads or with a weight of their own.
         for site in lines.extras_in(self.k..self.k + 1) {
             check_interrupt()?;
             let forces = self
@@ -376,12 +379,12 @@ impl<T: Algebra> Layer<'_, '_, T> {
     }
 }
 
-/// The row of one sphere.
+/// Returns the row of one sphere.
 fn row_of(Site { i, j, k }: Site) -> Row {
     Row { k, j, i: i..i + 1 }
 }
 
-/// The one answer of a row of one sphere.
+/// Returns the single result of a row of one sphere.
 fn one<A>(mut answers: Vec<Result<A, Error>>) -> Result<A, Error> {
     let answer = answers.pop();
     answer.unwrap_or_else(|| Err(bug("a row of one sphere has an answer")))

@@ -1,4 +1,4 @@
-//! How nearest floats are found along the rows of a layer.
+//! The sources of correctly rounded forces along the rows of a layer.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -17,38 +17,38 @@ use crate::geometry::Vector;
 use crate::lattice::{Row, Site};
 use crate::scalar::{CorrectlyRounded, Surd};
 
-/// The units of forces in layers: what an exact multiple is multiplied by before it is rounded, once.
+/// The units of the forces in layers. An exact multiple of a unit is rounded once.
 #[derive(Clone, Debug)]
 pub(crate) struct Units {
     pub(crate) contact: Surd,
-    /// Of a contact force as a vector on the upper sphere: along x, y and z.
+    /// The units of a contact force as a vector on the upper sphere: along x, y and z.
     pub(crate) vector: [Surd; 3],
-    /// Of shear along x, shear along y, and the normal force.
+    /// The units of shear along x, shear along y, and the normal force.
     pub(crate) floor: [Surd; 3],
 }
 
-/// What is written of spheres, three numbers of each.
+/// The quantity that is written for each sphere, as three numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Asked {
-    /// By direction.
+    /// The contact forces, by direction.
     Contacts,
-    /// By direction, the components along one axis.
+    /// The components of the contact forces along one axis, by direction.
     Along(usize),
-    /// Normal, shear along x, shear along y.
+    /// The force on the floor: normal, shear along x, shear along y.
     Floor,
 }
 
-/// How it is found along the rows of a layer.
+/// The source of a quantity along the rows of a layer.
 pub(super) enum Source<F> {
-    /// From the distinct forces of a straight pile.
+    /// The distinct forces of a straight pile.
     Table(Table<F>),
-    /// From the numbers of increments on the lines that lead to the floor of a straight pile.
+    /// The numbers of increments on the lines that lead to the floor of a straight pile.
     Counts {
         table: Table<i64>,
         readout: Readout,
         units: Box<[Unit; 3]>,
     },
-    /// From what the lines carry, of which limbs are read as they are.
+    /// The forces that the lines carry. Limbs are read without conversion.
     Lines {
         units: Box<[Unit; 3]>,
         readout: Option<Readout>,
@@ -56,7 +56,7 @@ pub(super) enum Source<F> {
 }
 
 impl Layers<'_, BigRational> {
-    /// Returns how something is found in layer `k`, which was reached.
+    /// Returns the source of a quantity in layer `k`, the current layer.
     pub(super) fn source<F: CorrectlyRounded>(
         &self,
         units: &Units,
@@ -110,12 +110,12 @@ impl Layers<'_, BigRational> {
         })
     }
 
-    /// Returns what the forces below an ordinary sphere are made of, below so many changes of sign.
+    /// Returns the combination that gives the forces below an ordinary sphere, below `changes` sign changes.
     fn contacts_readout(&self, changes: usize) -> Option<Readout> {
         let (terms, sweep) = (&self.terms, self.exact_sweep()?);
         let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
         Some(Readout {
-            // 3G is symmetric: its columns are its rows.
+            // 3G is symmetric, so its columns equal its rows.
             combination: if sweep.turned_already() < changes {
                 lines.each_ref().map(tripled_half_turn)
             } else {
@@ -125,7 +125,7 @@ impl Layers<'_, BigRational> {
         })
     }
 
-    /// Writes what was asked for along consecutive spheres of a row of the layer that was reached.
+    /// Writes the quantity `asked` for consecutive spheres of a row of the current layer.
     pub(super) fn write_row<F: CorrectlyRounded>(
         &self,
         (asked, source): (Asked, &Source<F>),
@@ -152,7 +152,8 @@ impl Layers<'_, BigRational> {
                 };
             }
         };
-        // Where a sphere has no float as an ordinary one, it may have one as what it is.
+        // This pass treats every sphere as ordinary. If a float is undefined in it, the sphere's own force may still be
+        // defined.
         if let (Some(readout), Some(sweep)) = (readout, self.exact_sweep())
             && sweep.nearest_row(row, (readout, units), [&mut *a, &mut *b, &mut *c])?
         {
@@ -171,7 +172,7 @@ impl Layers<'_, BigRational> {
         Ok(())
     }
 
-    /// Returns what was asked for of a sphere that weighs more or less than the others, or carries loads.
+    /// Returns the quantity `asked` for a sphere with loads or with a weight of its own.
     fn at_extra<F: CorrectlyRounded>(
         &self,
         (asked, units): (Asked, &[Unit; 3]),
@@ -183,7 +184,7 @@ impl Layers<'_, BigRational> {
         nearest((asked, units), &numbers)
     }
 
-    /// Returns the integers that are rounded for consecutive spheres.
+    /// Returns the integers of consecutive spheres, before rounding.
     fn numbers(&self, asked: Asked, row: &Row) -> Result<Vec<[BigInt; 3]>, Error> {
         if asked != Asked::Floor {
             let below = self.transmitted_in(row)?.into_iter();
@@ -210,7 +211,7 @@ impl Layer<'_, '_, BigRational> {
         self.write((asked, &source), slices)
     }
 
-    /// Writes what was asked for into slices as long as the layer, row after row.
+    /// Writes the quantity `asked` into slices over the layer, row after row.
     fn write<F: CorrectlyRounded>(
         &self,
         (asked, source): (Asked, &Source<F>),
@@ -218,7 +219,7 @@ impl Layer<'_, '_, BigRational> {
     ) -> Result<(), Error> {
         let (layers, k) = (self.layers, self.k());
         let [a, b, c] = slices;
-        // As limbs, on all cores; if all of them have floats as ordinary spheres.
+        // From limbs, on all cores, if every sphere has defined floats when it is treated as ordinary.
         if let Source::Lines {
             units,
             readout: Some(readout),
@@ -250,7 +251,7 @@ impl Layer<'_, '_, BigRational> {
     }
 }
 
-/// Returns the floats nearest to the numbers of a sphere.
+/// Returns the numbers of a sphere times their units, correctly rounded.
 fn nearest<F: CorrectlyRounded>(
     (asked, units): (Asked, &[Unit; 3]),
     [x, y, z]: &[BigInt; 3],
@@ -264,7 +265,7 @@ fn nearest<F: CorrectlyRounded>(
     ])
 }
 
-/// A number of increments in a table, which has not more than a million of them.
+/// Converts a number of increments of a table, which is at most a million.
 fn small(n: i128) -> Result<i64, Error> {
     i64::try_from(n).map_err(|_| bug("a table has few increments"))
 }
