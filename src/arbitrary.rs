@@ -10,7 +10,7 @@
 //! | a small pile, region or stacking; a site, sign or direction | `u.arbitrary()?`, by their [`Arbitrary`] |
 //! | signs of a stacking | [`signs`], [`signs_of`] |
 //! | a region | [`small_region`], [`region`] of any size, [`bounds`] that may be invalid |
-//! | a position at the edge of a region, inside or outside | [`position_near`] |
+//! | a position near the boundary of a region, inside or outside | [`position_near`] |
 //! | a small pile and the data it is built from | [`description`], [`light_description`], [`tiny_description`] |
 //! | a small pile with moderate weights and loads, for tests with floats | [`moderate_pile`] |
 //! | a pile of one straight stacking under one sphere, with any sin φ | [`regular_pile`] |

@@ -1,4 +1,4 @@
-//! A pile with a size and a weight: exact answers in SI.
+//! A pile with radius, mass and gravity: exact results in SI units.
 
 mod places;
 mod rows;
@@ -17,16 +17,20 @@ use crate::lattice::{Direction, Site};
 use crate::scalar::{Ring, Surd, product};
 use crate::{Error, FloorForce, Forces, Pile};
 
-/// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
+/// A pile whose spheres have a spacing, a radius and a mass, under a given gravity.
 ///
-/// Checked for overlap when it is made. Every answer is an exact [`Surd`]; [`Surd::nearest`] rounds it
-/// correctly.
+/// [`Packing::new`] checks that the spheres do not overlap. Every result is an exact [`Surd`], and [`Surd::nearest`]
+/// rounds it correctly.
 ///
-/// The frame: x and y are the paper's, z points **up**, and z = 0 is the height of the centres of the bottom layer;
-/// x = y = 0 under site (0, 0) of the top layer, the apex, or at that of the base if the pile was grown from there.
-/// (Turning z alone makes a left-handed frame of a right-handed one; the mirror α ↔ β, y → −y, leads back, and leaves
-/// all forces as they are.) Lengths are in the unit of the radius, forces in the unit of mass times gravity: with kg, m
-/// and m/s², in N.
+/// The axes x and y are those of the paper. The axis z points **up**, and z = 0 is the height of the centres of the
+/// bottom layer. The origin of x and y is site (0, 0) of the top layer, which is the apex in a pile under one sphere.
+/// In a pile grown from a base, it is site (0, 0) of the base.
+///
+/// The reversal of z alone changes the orientation of the frame. The reflection α ↔ β, y → −y restores it and leaves
+/// all forces unchanged.
+///
+/// Lengths are in the unit of the radius, and forces in the unit of mass times gravity. With kg, m and m/s², forces are
+/// in N.
 ///
 /// # Examples
 /// ```
@@ -57,18 +61,18 @@ pub struct Packing<'p> {
     radius: BigRational,
     mass: BigRational,
     gravity: BigRational,
-    /// mg/W, kept because every force has it as a factor.
+    /// mg/W, a factor of every force.
     weight_per_sum: BigRational,
     /// f₀.
     unit_force: Surd,
 }
 
 impl<'p> Packing<'p> {
-    /// The packing with R = m = g = 1.
+    /// Returns the packing with R = m = g = 1.
     ///
     /// # Errors
-    /// [`Error::Overlap`], [`Error::TooFlat`] or [`Error::NoSpacing`] if the spheres have no room;
-    /// [`Error::NotTouching`] if neighbours of a layer push each other and do not touch.
+    /// [`Error::Overlap`], [`Error::TooFlat`] or [`Error::NoSpacing`] if the spacing does not suit the spheres;
+    /// [`Error::NotTouching`] if the pile has horizontal forces and neighbours in a layer do not touch.
     ///
     /// # Examples
     /// ```
@@ -135,7 +139,7 @@ impl<'p> Packing<'p> {
         }
     }
 
-    /// Returns the packing whose forces are found by this method, whether it is the cheapest or not: for comparison.
+    /// Selects the method that computes the forces, for a comparison of methods.
     ///
     /// # Errors
     /// As for [`Forces::with_method`].
@@ -163,7 +167,7 @@ impl<'p> Packing<'p> {
     /// Returns the packing with spheres of this radius.
     ///
     /// # Errors
-    /// [`Error::NotPositive`] unless it is positive.
+    /// [`Error::NotPositive`] unless the radius is positive.
     ///
     /// # Examples
     /// ```
@@ -187,7 +191,7 @@ impl<'p> Packing<'p> {
     /// Returns the packing with spheres of this mass.
     ///
     /// # Errors
-    /// [`Error::NotPositive`] unless it is positive.
+    /// [`Error::NotPositive`] unless the mass is positive.
     ///
     /// # Examples
     /// ```
@@ -207,10 +211,10 @@ impl<'p> Packing<'p> {
         Ok(Self { mass, ..self }.weighed())
     }
 
-    /// Returns the packing in this gravity.
+    /// Returns the packing with this gravity.
     ///
     /// # Errors
-    /// [`Error::NotPositive`] unless it is positive.
+    /// [`Error::NotPositive`] unless the gravity is positive.
     ///
     /// # Examples
     /// ```
@@ -230,31 +234,31 @@ impl<'p> Packing<'p> {
         Ok(Self { gravity, ..self }.weighed())
     }
 
-    /// The method asked for, or `None` for the cheapest.
+    /// Returns the requested method, or `None` for the cheapest.
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.forces.method()
     }
 
-    /// The forces in pile units, exactly.
+    /// Returns the exact forces in pile units.
     #[must_use]
     pub fn forces(&self) -> &Forces<'p, BigRational> {
         &self.forces
     }
 
-    /// The pile that is packed.
+    /// Returns the pile of this packing.
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.forces.pile()
     }
 
-    /// The radius R.
+    /// Returns the radius R.
     #[must_use]
     pub fn radius(&self) -> &BigRational {
         &self.radius
     }
 
-    /// The mass of a sphere: m, unless it was given another weight.
+    /// Returns the mass of a sphere. It is m, unless [`Pile::with_weight`] changed the weight of the sphere.
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
@@ -277,19 +281,19 @@ impl<'p> Packing<'p> {
         Ok(self.pile().sphere_weight(site)? * &self.mass)
     }
 
-    /// The mass m of one sphere.
+    /// Returns the mass m of an ordinary sphere.
     #[must_use]
     pub fn mass(&self) -> &BigRational {
         &self.mass
     }
 
-    /// The gravity g.
+    /// Returns the gravity g.
     #[must_use]
     pub fn gravity(&self) -> &BigRational {
         &self.gravity
     }
 
-    /// The angle θ of the contacts with the vertical.
+    /// Returns the angle θ between the contacts and the vertical.
     ///
     /// # Examples
     /// ```
@@ -308,8 +312,8 @@ impl<'p> Packing<'p> {
         &self.inclination
     }
 
-    /// Which spheres touch beside the contacts α, β, γ, without a force being known there: none
-    /// strictly between the bounds of [`Clearance`](crate::geometry::Clearance).
+    /// Returns the pairs of spheres that touch in addition to the contacts α, β, γ. The forces between them are
+    /// unknown. Strictly between the bounds of [`Clearance`](crate::geometry::Clearance) no such spheres touch.
     ///
     /// # Examples
     /// ```
@@ -328,7 +332,7 @@ impl<'p> Packing<'p> {
         &self.touching
     }
 
-    /// The weight mg of one sphere.
+    /// Returns the weight mg of an ordinary sphere.
     ///
     /// # Examples
     /// ```
@@ -349,7 +353,7 @@ impl<'p> Packing<'p> {
         &self.mass * &self.gravity
     }
 
-    /// f₀ = mg/(W cosθ), the unit of contact forces: mg/(3 cosθ) on an equilateral base.
+    /// Returns the unit of contact forces, f₀ = mg/(W cosθ). It is mg/(3 cosθ) on an equilateral base.
     ///
     /// # Examples
     /// ```
@@ -368,9 +372,10 @@ impl<'p> Packing<'p> {
         self.unit_force.clone()
     }
 
-    /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
-    /// a sphere sum to this times its position from the apex ([`paper`](crate::paper#closed-form)). In general f₀/(2R), and a
-    /// central force only where all directions are alike.
+    /// Returns the constant of the central force, f₀/(2R). It is mg/(6R cosθ) on an equilateral base.
+    ///
+    /// On an equilateral base, the three forces from above on a sphere sum to this constant times the position from the
+    /// apex ([`paper`](crate::paper#closed-form)). On other bases the sum is not a central force.
     ///
     /// # Examples
     /// ```
@@ -389,8 +394,8 @@ impl<'p> Packing<'p> {
         self.unit_force.scaled(&self.diameter().recip())
     }
 
-    /// Returns the force between the sphere at `site` and the one below it along `direction`: positive if they push,
-    /// negative if they would have to pull.
+    /// Returns the force between the sphere at `site` and the one below it along `direction`. Positive: compression.
+    /// Negative: the contact would be tensile.
     ///
     /// # Errors
     /// As for [`Forces::contact`].
@@ -413,7 +418,7 @@ impl<'p> Packing<'p> {
         Ok(self.magnitude(&self.forces.contact(site, direction)?))
     }
 
-    /// Returns the contact force between `site` and the sphere below it as a vector, x, y and z (up), on the upper sphere.
+    /// Returns the contact force on the upper sphere as a vector (x, y, z), with z up.
     ///
     /// # Errors
     /// As for [`Forces::contact`].
@@ -436,7 +441,7 @@ impl<'p> Packing<'p> {
         self.vector(site, direction, &multiple)
     }
 
-    /// Where `site` touches the sphere below it: halfway between the centres.
+    /// Returns the point where `site` touches the sphere below it, halfway between the centres.
     ///
     /// # Errors
     /// As for [`Forces::contact`].
@@ -460,7 +465,7 @@ impl<'p> Packing<'p> {
         Ok(on_basis(self.roots.lengths(), &point, &self.diameter()))
     }
 
-    /// The centre of a sphere.
+    /// Returns the centre of a sphere.
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
@@ -487,7 +492,7 @@ impl<'p> Packing<'p> {
         ))
     }
 
-    /// The force of a bottom sphere on the floor: normal downwards, shear along x and y.
+    /// Returns the force of a bottom sphere on the floor: normal downwards, shear along x and y.
     ///
     /// # Errors
     /// As for [`Forces::on_floor`].
@@ -510,7 +515,7 @@ impl<'p> Packing<'p> {
         Ok(self.floor_force_in_si(self.forces.on_floor(site)?))
     }
 
-    /// Returns a force on the floor in SI, from its multiples of mg and mg·tanθ.
+    /// Returns a force on the floor in SI units, from its multiples of mg and mg·tanθ.
     ///
     /// # Examples
     /// ```
@@ -544,12 +549,12 @@ impl<'p> Packing<'p> {
         }
     }
 
-    /// A contact force, from its multiple of f₀.
+    /// Returns a contact force in SI units, from its multiple of f₀.
     pub(crate) fn magnitude(&self, multiple: &BigRational) -> Surd {
         self.unit_force.scaled(multiple)
     }
 
-    /// A contact force as a vector on the upper sphere, from its multiple of f₀.
+    /// Returns a contact force as a vector on the upper sphere, from its multiple of f₀.
     pub(crate) fn vector(
         &self,
         site: Site,
@@ -561,7 +566,7 @@ impl<'p> Packing<'p> {
         Ok(on_basis(self.roots.forces(), &along, &unit))
     }
 
-    /// The centre of a sphere, in 2R and the symbolic basis, z up from the bottom layer.
+    /// Returns the centre of a sphere, in 2R and the symbolic basis, with z up from the bottom layer.
     fn centre(&self, site: Site) -> Result<Vector<BigRational>, Error> {
         let mut centre = upwards(self.forces.position(site)?);
         centre.z += BigRational::from_i128(self.pile().layers() - 1);
@@ -572,7 +577,7 @@ impl<'p> Packing<'p> {
         &self.radius + &self.radius
     }
 
-    /// The packing with the weights that its mass and gravity make.
+    /// Returns the packing with forces that match its mass and gravity.
     fn weighed(mut self) -> Self {
         self.weight_per_sum = self.sphere_weight() / &self.increment_sum;
         self.unit_force = self.roots.secant.scaled(&self.weight_per_sum);
@@ -580,7 +585,7 @@ impl<'p> Packing<'p> {
     }
 }
 
-/// What geometry brings into answers, besides rational factors.
+/// The irrational factors of results, from the geometry.
 #[derive(Clone, Debug)]
 struct Roots {
     /// 1/cosθ.
@@ -612,7 +617,7 @@ impl Roots {
     }
 }
 
-/// `value`, if it is positive.
+/// Returns `value`, if it is positive.
 fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
     if value.is_positive() {
         Ok(value)
@@ -621,12 +626,12 @@ fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, E
     }
 }
 
-/// The vector with z turned up; x and y stay.
+/// Returns the vector with the sign of z reversed.
 fn upwards(v: Vector<BigRational>) -> Vector<BigRational> {
     Vector { z: -v.z, ..v }
 }
 
-/// The components of a vector in the symbolic basis times a rational unit, as numbers.
+/// Returns the components of a vector in the symbolic basis, times a rational unit, as exact numbers.
 fn on_basis(basis: [&Surd; 3], v: &Vector<BigRational>, unit: &BigRational) -> [Surd; 3] {
     let [sin, across, cos] = basis;
     [

@@ -1,4 +1,4 @@
-//! A pile that exists only validated.
+//! A validated pile.
 
 mod display;
 mod loading;
@@ -19,10 +19,10 @@ use crate::scalar::{Algebra, Ring, sum_of};
 use crate::shape::{Numbering, Rows, Selection, Shape, Sites};
 use crate::stacking::Stacking;
 
-/// A pile: which sites it has, how they are stacked, what they weigh, and sin φ.
+/// A pile: its sites, its stacking, its weights and loads, and sin φ.
 ///
-/// All that forces in pile units depend on. Spacing, radius, mass and gravity come in with a
-/// [`Packing`](crate::Packing), and only there are they checked.
+/// These data determine the forces in pile units. Spacing, radius, mass and gravity belong to a
+/// [`Packing`](crate::Packing), which checks them.
 ///
 /// # Examples
 /// ```
@@ -30,7 +30,7 @@ use crate::stacking::Stacking;
 /// use cannonpile::lattice::Site;
 /// use num_rational::BigRational;
 ///
-/// // 10³⁰ layers cost what 10 do.
+/// // 10³⁰ layers cost as little as 10.
 /// let pile = Pile::triangular(10_i128.pow(30))?;
 /// let forces = pile.forces::<BigRational>();
 /// let force = forces.on_floor(Site { i: 5, j: 7, k: pile.layers() - 1 })?;
@@ -40,13 +40,13 @@ use crate::stacking::Stacking;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Pile {
     shape: Shape,
-    /// 0 for discs: the s → 0 limit of the isosceles pile, whose γ lines carry nothing.
+    /// sin φ. It is 0 for discs: the limit s → 0 of the isosceles pile, whose γ lines carry no force.
     sin_phi: BigRational,
     loading: Loading,
 }
 
 impl Pile {
-    /// The paper's pile: an equilateral base, φ = π/6.
+    /// Returns the paper's pile: an equilateral base, φ = π/6.
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
@@ -59,8 +59,8 @@ impl Pile {
     /// assert!(matches!(Pile::triangular(0), Err(Error::Layers { .. })));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    /// Layers are counted in an `i128`. From a `u32` or an `i64` comes `layers.into()`; a `usize` takes `try_into`, which fails
-    /// on no machine of today:
+    /// Layers are counted in an `i128`. Convert a `u32` or an `i64` with `layers.into()`. A `usize` needs `try_into`,
+    /// which does not fail on today's machines:
     /// ```
     /// use cannonpile::Pile;
     ///
@@ -72,7 +72,7 @@ impl Pile {
         Self::isosceles(layers, BigRational::new(1.into(), 2.into()))
     }
 
-    /// A pile on an isosceles triangle of general φ, by the sine of φ.
+    /// Returns the pile on an isosceles base triangle of general φ, from sin φ.
     ///
     /// # Errors
     /// [`Error::SinPhi`] unless 0 < sin φ < 1; [`Error::Layers`] as for [`triangular`](Self::triangular).
@@ -94,7 +94,7 @@ impl Pile {
         }
     }
 
-    /// The pile of discs (the paper's ref. hong93): layers of 1, 2, 3, … in a plane.
+    /// Returns the pile of discs (the paper's ref. hong93): layers of 1, 2, 3, … in a plane.
     ///
     /// # Errors
     /// [`Error::Layers`] as for [`triangular`](Self::triangular).
@@ -111,10 +111,11 @@ impl Pile {
         Ok(Self::new(shape, BigRational::zero()))
     }
 
-    /// The pile of any stacking grown down from a top layer: each layer all supports of the one above.
+    /// Returns the pile of any stacking grown down from a top layer. Each layer has all sites that support the layer
+    /// above.
     ///
     /// # Errors
-    /// [`Error::RegionTooLarge`] if a layer leaves ±10³⁶.
+    /// [`Error::RegionTooLarge`] if a coordinate of a layer is beyond ±10³⁶.
     ///
     /// # Examples
     /// ```
@@ -124,7 +125,7 @@ impl Pile {
     /// use num_rational::BigRational;
     ///
     /// let pile = Pile::under(Region::SITE, Stacking::hcp(4)?)?;
-    /// // In the third layer of HCP a sphere stands straight under the apex.
+    /// // In the third layer of HCP a sphere lies vertically below the apex.
     /// let below = Site { i: 0, j: 0, k: 2 };
     /// let forces = pile.forces::<BigRational>().from_above(below)?;
     /// assert_eq!(forces.map(|force| force.to_string()), ["2/3"; 3]);
@@ -134,11 +135,11 @@ impl Pile {
         Ok(Self::new(Shape::under(top, stacking)?, half()))
     }
 
-    /// The pile of any stacking grown up from a base: each layer all sites whose three supports are there. The
+    /// Returns the pile of any stacking grown up from a base. Each layer has all sites whose three supports exist. The
     /// stacking is read from the top.
     ///
     /// # Errors
-    /// [`Error::TooHigh`] if the base does not carry that many layers.
+    /// [`Error::TooHigh`] if the base does not support that many layers.
     ///
     /// # Examples
     /// ```
@@ -162,7 +163,7 @@ impl Pile {
         }
     }
 
-    /// Returns the pile with one more vertical load on one sphere, in mg.
+    /// Returns the pile with a further vertical load on one sphere, in mg.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
@@ -183,7 +184,7 @@ impl Pile {
         Ok(self)
     }
 
-    /// Returns the pile with another weight of one sphere, in mg.
+    /// Returns the pile with a new weight of one sphere, in mg.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
@@ -203,7 +204,7 @@ impl Pile {
         Ok(self)
     }
 
-    /// Returns the pile with spheres that weigh nothing: its response to its loads alone.
+    /// Returns the pile with spheres without weight. Its forces are the response to its loads alone.
     ///
     /// # Examples
     /// ```
@@ -213,7 +214,7 @@ impl Pile {
     ///
     /// let pile = Pile::triangular(10)?.weightless();
     /// let pile = pile.with_load(Site::APEX, BigRational::from_integer(1.into()))?;
-    /// // One of three contacts of 1/3 at each depth; what lies off its line feels nothing.
+    /// // The load of 1 mg stays on the three lines of the apex, with 1 f₀ each.
     /// let forces = pile.forces::<f64>();
     /// assert_eq!(forces.contact(Site { i: 0, j: 0, k: 5 }, Direction::Alpha)?, 1.0);
     /// assert_eq!(forces.contact(Site { i: 1, j: 1, k: 5 }, Direction::Alpha)?, 0.0);
@@ -225,31 +226,31 @@ impl Pile {
         self
     }
 
-    /// The sites of the pile, and how they are stacked.
+    /// Returns the sites of the pile and its stacking.
     #[must_use]
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
-    /// The number L of layers.
+    /// Returns the number L of layers.
     #[must_use]
     pub fn layers(&self) -> i128 {
         self.shape.layers()
     }
 
-    /// Discs or spheres.
+    /// Returns the dimension: discs or spheres.
     #[must_use]
     pub fn dimension(&self) -> Dimension {
         self.shape.dimension()
     }
 
-    /// sin φ: ½ on an equilateral base, 0 for discs.
+    /// Returns sin φ: ½ on an equilateral base, 0 for discs.
     #[must_use]
     pub fn sin_phi(&self) -> &BigRational {
         &self.sin_phi
     }
 
-    /// Whether all directions are alike: an equilateral base, or discs.
+    /// Returns whether all directions are alike: on an equilateral base, or in a pile of discs.
     ///
     /// # Examples
     /// ```
@@ -265,7 +266,7 @@ impl Pile {
         self.dimension() == Dimension::Two || self.sin_phi == BigRational::new(1.into(), 2.into())
     }
 
-    /// The spheres of the pile, of any number.
+    /// Returns the number of spheres.
     ///
     /// # Examples
     /// ```
@@ -282,7 +283,7 @@ impl Pile {
         self.shape.sphere_count()
     }
 
-    /// The weight of all spheres and the loads on them, in mg: what the floor carries.
+    /// Returns the weight of all spheres and the loads on them, in mg. This is the total load on the floor.
     ///
     /// # Examples
     /// ```
@@ -299,7 +300,8 @@ impl Pile {
         ordinary + sum_of(extras)
     }
 
-    /// The weight of one sphere, without the load on it, in mg: 1 unless it was given another.
+    /// Returns the weight of one sphere without its load, in mg. It is 1 unless [`with_weight`](Self::with_weight)
+    /// changed it.
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
@@ -317,13 +319,13 @@ impl Pile {
         Ok(self.loading.weight(self.shape.check(site)?))
     }
 
-    /// Whether the spheres weigh nothing, so that only the loads act.
+    /// Returns whether the spheres have no weight, so that only the loads act.
     #[must_use]
     pub fn is_weightless(&self) -> bool {
         self.loading.is_weightless()
     }
 
-    /// The contacts between spheres; the floor is not one.
+    /// Returns the number of contacts between spheres. Contacts with the floor are not counted.
     ///
     /// # Examples
     /// ```
@@ -340,7 +342,7 @@ impl Pile {
         self.shape.spheres_in(0..self.layers() - 1) * self.dimension().number()
     }
 
-    /// The spheres of the bottom layer.
+    /// Returns the number of spheres in the bottom layer.
     ///
     /// # Examples
     /// ```
@@ -354,10 +356,10 @@ impl Pile {
         self.shape.base().site_count()
     }
 
-    /// The contacts of one direction whose force is `n` increments: (L−n)(L−n+1)/2 for spheres, in a straight pile
-    /// under one sphere without loads.
+    /// Returns the number of contacts of one direction with a force of `n` increments. In a straight pile under one
+    /// sphere without loads, it is (L−n)(L−n+1)/2 for spheres.
     ///
-    /// Zero unless 1 ≤ `n` < L, and of any other pile.
+    /// The number is zero unless 1 ≤ `n` < L. It is also zero for any other pile.
     ///
     /// # Examples
     /// ```
@@ -378,7 +380,7 @@ impl Pile {
     }
 
     fn count(&self, formula: impl FnOnce(BigRational, u32) -> BigRational) -> BigUint {
-        // A count: an integer, and not negative.
+        // The number of objects, so an integer that is not negative.
         let layers = BigRational::from_i128(self.layers());
         formula(layers, self.dimension().number())
             .to_integer()
@@ -386,7 +388,7 @@ impl Pile {
             .1
     }
 
-    /// The spacings that leave room for the spheres of this pile.
+    /// Returns the range of spacings at which the spheres of this pile do not overlap.
     ///
     /// # Examples
     /// ```
@@ -401,10 +403,10 @@ impl Pile {
         Clearance::new(&self.shape, &self.sin_phi)
     }
 
-    /// The rows of a part of the pile, from the top.
+    /// Returns the rows of a part of the pile, from the top.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the selection names what is not there.
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the pile does not have the selected site or layer.
     ///
     /// # Examples
     /// ```
@@ -441,7 +443,7 @@ impl Pile {
         Ok(self.rows(selection)?.sites())
     }
 
-    /// The numbers of all spheres, both ways: [`Shape::numbering`].
+    /// Returns the numbering of all spheres, in both directions: [`Shape::numbering`].
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10¹¹ spheres.
@@ -457,10 +459,10 @@ impl Pile {
         self.shape.numbering()
     }
 
-    /// Returns ê_a, ê_b, ê_c in the symbolic basis, from the lower sphere to the upper one, under a + step; under a −
-    /// step their horizontal parts change sign.
+    /// Returns ê_a, ê_b, ê_c in the symbolic basis, from the lower sphere to the upper one, under a + step. Under a −
+    /// step, their horizontal parts have the opposite sign.
     ///
-    /// Paper, (1): [`directions`] of sin φ, [`disc_directions`] of discs.
+    /// Paper, (1). The vectors are [`directions`] of sin φ for spheres, and [`disc_directions`] for discs.
     ///
     /// # Examples
     /// ```
@@ -479,7 +481,7 @@ impl Pile {
         }
     }
 
-    /// Returns the spheres that carry a load of their own, with the load, in mg.
+    /// Returns the spheres with a load, and the loads, in mg.
     ///
     /// # Examples
     /// ```
@@ -497,8 +499,8 @@ impl Pile {
         self.loading.loads()
     }
 
-    /// Returns the spheres that were given another weight than mg, with the weight, in mg; none once the pile is
-    /// [`weightless`](Self::weightless).
+    /// Returns the spheres whose weight was changed, with their weights, in mg. A [`weightless`](Self::weightless) pile
+    /// has none.
     ///
     /// # Examples
     /// ```
@@ -516,7 +518,7 @@ impl Pile {
         weights.into_iter().flatten()
     }
 
-    /// Returns the load on a sphere, in mg: 0 on most.
+    /// Returns the load on a sphere, in mg. It is 0 unless [`with_load`](Self::with_load) set it.
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
@@ -533,14 +535,14 @@ impl Pile {
         Ok(self.loading.load(self.shape.check(site)?))
     }
 
-    /// Returns the pile with a force in a horizontal contact, in f₀, added to what was there; sloping contacts then bear what
-    /// balances it.
+    /// Returns the pile with an additional force in a horizontal contact, in f₀. The sloping contacts balance it.
     ///
-    /// Where neighbours of a layer touch, at a = R, a pile has many states of balance, one for each choice of these forces:
-    /// [`paper`](crate::paper#horizontal-contacts). A contact of the bottom layer has no effect and is refused.
+    /// If neighbours in a layer touch, at a = R, a pile has many states of equilibrium, one for each choice of these
+    /// forces: [`paper`](crate::paper#horizontal-contacts). A force between bottom spheres has no effect and is
+    /// refused.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] of either sphere; [`Error::OnFloor`]; [`Error::NegativeLoad`] of a pull;
+    /// [`Error::SiteOutside`] for either sphere; [`Error::OnFloor`]; [`Error::NegativeLoad`] for a tensile force;
     /// [`Error::NoHorizontalContacts`] unless sin φ = 1/2.
     ///
     /// # Examples
@@ -553,7 +555,7 @@ impl Pile {
     /// let contact = HorizontalContact { site, axis: Axis::AlphaBeta };
     /// let pile = Pile::triangular(3)?.with_horizontal_force(contact, BigRational::from_integer(1.into()))?;
     /// let forces = pile.forces::<BigRational>();
-    /// // More where the neighbour pushes to, less on its side.
+    /// // The force is larger on the side away from the neighbour, and smaller on its side.
     /// assert_eq!(forces.contact(site, Direction::Alpha)?.to_string(), "3");
     /// assert_eq!(forces.contact(site, Direction::Beta)?.to_string(), "0");
     /// # Ok::<(), cannonpile::Error>(())
@@ -572,7 +574,7 @@ impl Pile {
         Ok(self)
     }
 
-    /// Returns the horizontal contacts that were given a force, with it, in f₀; in the order of tables.
+    /// Returns the horizontal contacts with a given force, and the forces, in f₀, in the order of tables.
     ///
     /// # Examples
     /// See [`with_horizontal_force`](Self::with_horizontal_force).
@@ -589,7 +591,7 @@ impl Pile {
         self.loading.horizontal()
     }
 
-    /// Returns the force that a horizontal contact was given, in f₀: 0 in most.
+    /// Returns the given force of a horizontal contact, in f₀. It is 0 unless it was set.
     ///
     /// # Examples
     /// ```
@@ -605,7 +607,7 @@ impl Pile {
         self.loading.horizontal_force(contact)
     }
 
-    /// Returns the pile without the forces that horizontal contacts were given.
+    /// Returns the pile without the given forces of horizontal contacts.
     ///
     /// # Examples
     /// ```
@@ -621,7 +623,7 @@ impl Pile {
         self
     }
 
-    /// Checks that neighbours in a layer touch at a = R, and in no other way.
+    /// Checks that all neighbours in a layer touch at a = R.
     ///
     /// # Errors
     /// [`Error::NoHorizontalContacts`].
@@ -640,7 +642,7 @@ impl Pile {
         &self.loading
     }
 
-    /// Returns what an engine needs to know of the pile.
+    /// Returns the data of the pile for an engine.
     pub(crate) fn system(&self) -> System<'_> {
         System {
             shape: &self.shape,
@@ -650,21 +652,21 @@ impl Pile {
         }
     }
 
-    /// Returns whether every sphere has the weight mg, and nothing else acts on any.
+    /// Returns whether every sphere has the weight mg and no other force acts on any.
     #[doc(hidden)]
     #[must_use]
     pub fn is_uniform(&self) -> bool {
         self.system().is_even()
     }
 
-    /// Returns the weight of a sphere and the load on it, in mg.
+    /// Returns the sum of weight and load of a sphere, in mg.
     #[doc(hidden)]
     #[must_use]
     pub fn total_load(&self, site: Site) -> BigRational {
         self.loading.total(site)
     }
 
-    /// Returns whether it is the paper's pile: straight, under one sphere, every sphere of weight mg.
+    /// Returns whether this is the paper's pile: straight, under one sphere, every sphere of weight mg.
     #[doc(hidden)]
     #[must_use]
     pub fn is_paper_pile(&self) -> bool {

@@ -1,13 +1,15 @@
-//! Which piles stand.
+//! Stability of piles.
 //!
-//! Spheres push, they do not pull. Where α, β and γ are the only contacts, the forces are unique: one that is negative
-//! means that no frictionless equilibrium exists, and the pile cannot stand ([`paper`](crate::paper#tension)). A force of zero
-//! stands. Where further spheres touch (q = 1, q = 9/4 with a change of sign, q = 8/3 without), forces that are nowhere
-//! negative still prove that it stands, and a negative one proves nothing; at q = 1 `Pile::equilibrium` decides (feature
-//! `horizontal`).
+//! Contacts transmit compressive forces only. If α, β and γ are the only contacts, the forces are unique. A negative
+//! force then means that no frictionless equilibrium exists, so the pile is unstable ([`paper`](crate::paper#tension)).
+//! A force of zero is allowed.
 //!
-//! Within a run a line only grows, since no weight is negative. So the least force is where a line begins: at a
-//! surface, or at a change of sign; and only the layers where the sign changes need a look.
+//! At some spacings further spheres touch: at q = (a/R)² = 1, at q = 9/4 with a sign change, and at q = 8/3 without
+//! one. There, nonnegative forces still prove stability, but a negative force proves nothing. At q = 1 the function
+//! `equilibrium` of the crate `cannonpile-horizontal` decides.
+//!
+//! Within a run the force along a line never decreases, because no weight is negative. So the smallest force is where a
+//! line begins: at a surface or at a sign change. Only the layers at sign changes need a search.
 
 mod base;
 
@@ -33,7 +35,7 @@ use crate::pile::System;
 use crate::shape::{Selection, Shape};
 use crate::{ContactForce, Error, Packing, Pile};
 
-/// Whether a pile stands.
+/// The verdict on the stability of a pile.
 ///
 /// # Examples
 /// ```
@@ -44,13 +46,14 @@ use crate::{ContactForce, Error, Packing, Pile};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
-    /// No contact has to pull.
+    /// The pile is stable: no contact needs a tensile force.
     Yes,
-    /// A contact would have to pull, and there is no other way to balance the forces; with given horizontal forces, none with
-    /// these.
+    /// The pile is unstable: a contact needs a tensile force, and no other forces balance the pile. Given horizontal
+    /// forces are kept as they are.
     No,
-    /// A contact would have to pull, but further contacts may take its part. If they are neighbours of a layer, a = R,
-    /// `Pile::equilibrium` decides (feature `horizontal`); spheres two or three layers apart are not gone into.
+    /// A contact needs a tensile force, but further contacts may replace it. For contacts between neighbours in a
+    /// layer, a = R, the function `equilibrium` of the crate `cannonpile-horizontal` decides. Contacts across two or
+    /// three layers are not analysed.
     Undetermined,
 }
 
@@ -61,7 +64,7 @@ named!(
 );
 
 impl Verdict {
-    /// `yes`, `no`, `undetermined`.
+    /// Returns the name: `yes`, `no`, `undetermined`.
     ///
     /// # Examples
     /// ```
@@ -79,14 +82,14 @@ impl Verdict {
     }
 }
 
-/// The least contact force of a pile, and what follows from it. Exact.
+/// The smallest contact force of a pile and its consequence for stability, exactly.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::lattice::Region;
 /// use cannonpile::Pile;
 ///
-/// // Five layers of HCP stand, six do not.
+/// // Five layers of HCP are stable, six are not.
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
 /// let standing = pile.standing()?;
 /// let least = standing.least.unwrap();
@@ -99,18 +102,23 @@ impl Verdict {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Standing {
-    /// The contact with the least force, the first of them in the order of tables; none of a single layer, and none where
-    /// a pile fails near the top and more than 10⁹ numbers would have to be looked at below.
+    /// The contact with the smallest force. Of equal forces it is the first in the order of tables.
+    ///
+    /// It is `None` for a single layer. It is also `None` for a pile that fails near the top, if a search below would
+    /// need more than 10⁹ numbers.
     pub least: Option<ContactForce<BigRational>>,
-    /// The first layer (from 0 at the top) in which some contact would have to pull. The layers above it stand on their own.
+    /// The first layer, counted from 0 at the top, with a contact that would need a tensile force. The layers above
+    /// it are stable on their own.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub first_failure: Option<i128>,
 }
 
 impl Standing {
-    /// Whether the pile stands, at a spacing at which the spheres `touching` touch beside the contacts α, β, γ: none of
-    /// them between the bounds of [`Clearance`](crate::geometry::Clearance). These forces are the sloping ones, of α, β
-    /// and γ alone; with those of horizontal contacts `Pile::equilibrium` answers.
+    /// Returns the verdict for a spacing at which the spheres `touching` touch in addition to the contacts α, β, γ.
+    /// Strictly between the bounds of [`Clearance`](crate::geometry::Clearance), no such spheres touch.
+    ///
+    /// The verdict considers the forces of α, β and γ only. For horizontal contacts, use the function `equilibrium` of
+    /// the crate `cannonpile-horizontal`.
     ///
     /// # Examples
     /// ```
@@ -132,7 +140,8 @@ impl Standing {
         }
     }
 
-    /// Takes in a contact, if its force is less, or as little and it comes before.
+    /// Updates the result with a contact. The contact replaces the current one if its force is smaller, or equal and
+    /// earlier in the order.
     fn meet(&mut self, contact: ContactForce<BigRational>) {
         if contact.force.is_negative() {
             let k = contact.site.k;
@@ -152,13 +161,13 @@ impl Standing {
 }
 
 impl Pile {
-    /// The least contact force of the pile, where it is, and the first layer at which the stacking fails.
+    /// Returns the smallest contact force of the pile, its contact, and the first unstable layer.
     ///
-    /// Takes a sweep in the exact engine from the top to the last change of sign; or, after long runs, the few spheres
-    /// of each row between which the forces are linear.
+    /// The cost is an exact sweep from the top to the last sign change. It is lower after long runs, because the forces
+    /// are linear between a few spheres of each row. Then only these spheres are computed.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if what stands above a change of sign does not fit in memory, and the forces there depend on too
+    /// [`Error::TooLarge`] if the layers above a sign change do not fit in memory, and the forces there depend on too
     /// many spheres.
     ///
     /// # Examples
@@ -184,8 +193,8 @@ impl Pile {
         Ok(standing)
     }
 
-    /// Returns whether the pile stands, at a spacing at which no spheres touch beside the contacts α, β and γ: `Yes` or
-    /// `No`. At other spacings [`Packing::stands`](crate::Packing::stands) answers.
+    /// Returns whether the pile is stable at a spacing without contacts other than α, β and γ: `Yes` or `No`. For other
+    /// spacings, use [`Packing::stands`](crate::Packing::stands).
     ///
     /// # Errors
     /// As for [`standing`](Self::standing).
@@ -195,7 +204,7 @@ impl Pile {
     /// use cannonpile::lattice::Region;
     /// use cannonpile::{Pile, Verdict};
     ///
-    /// // Five layers of HCP stand, six do not.
+    /// // Five layers of HCP are stable, six are not.
     /// let hcp = |steps: &str| Pile::under(Region::SITE, steps.parse()?);
     /// assert_eq!(hcp("+-+-")?.stands()?, Verdict::Yes);
     /// assert_eq!(hcp("+-+-+")?.stands()?, Verdict::No);
@@ -205,8 +214,8 @@ impl Pile {
         Ok(self.standing_until(true)?.verdict(&[]))
     }
 
-    /// Returns the first layer (from 0 at the top) in which some contact would have to pull. The layers above it stand on
-    /// their own, and those below it are not looked at.
+    /// Returns the first layer, counted from 0 at the top, with a contact that would need a tensile force. The layers
+    /// above it are stable on their own, and the layers below it are not computed.
     ///
     /// # Errors
     /// As for [`standing`](Self::standing).
@@ -225,14 +234,14 @@ impl Pile {
         Ok(self.standing_until(true)?.first_failure)
     }
 
-    /// The layers at which the sign changes.
+    /// Returns the layers at which the sign changes.
     fn changes(&self) -> Vec<i128> {
         let shape = self.shape();
         let runs = (1..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
         runs.map(|run| run.from).collect()
     }
 
-    /// The least contact, of all or down to the first failure.
+    /// Returns the contact with the smallest force, of the whole pile or down to the first failure.
     fn standing_until(&self, failure: bool) -> Result<Standing, Error> {
         let mut standing = Standing {
             least: None,
@@ -247,7 +256,8 @@ impl Pile {
         let changes = self.changes();
         let mut looked_at = 0;
         while looked_at < changes.len() && !(failure && standing.first_failure.is_some()) {
-            // Twice as far each time, so that a failure near the top is found there, and all is not much dearer.
+            // The range doubles each time. A failure near the top is found early, and a search of the whole pile costs
+            // little more.
             let next = if failure {
                 2 * looked_at + 4
             } else {
@@ -262,7 +272,7 @@ impl Pile {
         Ok(standing)
     }
 
-    /// The least forces where lines begin at a surface: of ordinary spheres, and of all others.
+    /// Returns the smallest forces where lines begin at a surface: of ordinary spheres, and of all others.
     fn at_surfaces(&self) -> Vec<ContactForce<BigRational>> {
         let System {
             shape,
@@ -280,7 +290,7 @@ impl Pile {
         let extras = loading.extras().map(|(site, _)| site);
         let special: BTreeSet<Site> = extras.chain(pushed.keys().copied()).collect();
         let directions = self.dimension().directions();
-        // All lines of the top begin there, and some in the first row of every layer inside a run.
+        // Every line through the top layer begins there. In each layer inside a run, lines begin in the first row.
         let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
         let inside = runs.flat_map(|run| run.from + 1..run.to);
         let layers = || {
@@ -309,7 +319,8 @@ impl Pile {
         least
     }
 
-    /// The contacts below spheres that horizontal contacts push: only there a line may have less than before within a run.
+    /// Returns the contacts below spheres with horizontal forces. Only there can the force along a line decrease within
+    /// a run.
     fn at_pushes(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
         let forces = self.forces::<BigRational>();
         let sites = self.loading().pushes().keys();
@@ -318,7 +329,7 @@ impl Pile {
         contacts.into_iter().flatten().collect()
     }
 
-    /// The least force below each of these layers, at which the sign changes.
+    /// Returns the smallest force below each of these layers, at which the sign changes.
     fn at_changes(&self, layers: &[i128]) -> Result<Vec<ContactForce<BigRational>>, Error> {
         let shape = self.shape();
         let Some(last) = layers.last() else {
@@ -331,7 +342,7 @@ impl Pile {
             ends += lines.most_ends_of_pieces(*k)?;
             sites += shape.layer(*k)?.site_count();
         }
-        // One layer more, so that the last change is behind.
+        // One layer more, so that the last sign change is included.
         let planes = system.size_of_sweep(last + 1).planes;
         let are_cheaper = trees_are_cheaper(&ends, &sites);
         let by_trees = || {
@@ -362,8 +373,8 @@ impl Pile {
 }
 
 impl Packing<'_> {
-    /// Returns whether the pile stands at this spacing: [`Verdict::Undetermined`] where a contact α, β or γ would have to pull,
-    /// but [other spheres touch](Packing::touching) that may hold the pile.
+    /// Returns whether the pile is stable at this spacing. The verdict is [`Verdict::Undetermined`] if a contact α, β
+    /// or γ needs a tensile force, but [other spheres touch](Packing::touching) and may support the pile.
     ///
     /// # Errors
     /// As for [`Pile::standing`].
@@ -384,7 +395,7 @@ impl Packing<'_> {
     }
 }
 
-/// Returns the least force below a layer where the sign changes, among the spheres between which the forces are linear.
+/// Returns the smallest force below a layer with a sign change, among the spheres between which the forces are linear.
 fn least_at_ends(
     lines: &Lines<'_, BigRational>,
     k: i128,
@@ -415,7 +426,7 @@ fn least_at_ends(
     })
 }
 
-/// Returns the least force below the layer that a sweep is at, where the sign has just changed.
+/// Returns the smallest force below the current layer of a sweep, where the sign has just changed.
 fn least_transmitted(
     sweep: &mut Descent<'_, BigRational, Planes>,
     lines: &Lines<'_, BigRational>,
@@ -424,7 +435,7 @@ fn least_transmitted(
     let (least, k) = (sweep.least()?, sweep.k());
     let changes = sweep.turned_already();
     let [i, j] = least.place;
-    // A change of sign is only where all directions are alike.
+    // Sign changes occur only in piles whose directions are all alike.
     let [own, ..] = lines.increments_after(changes);
     let force = formula::transmitted(least.numerator, &own);
     Ok(ContactForce {
@@ -434,7 +445,8 @@ fn least_transmitted(
     })
 }
 
-/// Whether the line below a site in a direction begins with it: at the top, or at a surface within a run.
+/// Returns whether the line below a site in a direction begins at the site: in the top layer, or at a surface within a
+/// run.
 fn begins(shape: &Shape, site: Site, direction: Direction) -> bool {
     let changes = shape.sign_below(site.k) != shape.sign_below(site.k - 1);
     site.k == 0 || (!changes && shape.above(site, direction).is_none())

@@ -1,4 +1,4 @@
-//! Where spheres are, and where they touch, as the nearest floats.
+//! The centres of spheres and their points of contact, correctly rounded.
 
 use core::marker::PhantomData;
 
@@ -14,9 +14,10 @@ use crate::lattice::{Direction, Row, Site};
 use crate::scalar::{CorrectlyRounded, Surd};
 use crate::{Error, Packing};
 
-/// The centres of spheres and their points of contact, in the floats `F` nearest to the exact coordinates, row by row.
+/// The centres of spheres and their points of contact, row by row, with coordinates correctly rounded to the floats
+/// `F`.
 ///
-/// Made by [`Packing::places`]. Coordinates are in the unit of the radius, as those of [`Packing::position`].
+/// Made by [`Packing::places`]. Coordinates are in the unit of the radius and in the frame of [`Packing::position`].
 ///
 /// # Examples
 /// ```
@@ -34,14 +35,15 @@ use crate::{Error, Packing};
 #[derive(Clone, Debug)]
 pub struct Places<'p, F> {
     packing: Packing<'p>,
-    /// Of half the coordinates in the symbolic basis.
+    /// The denominator of half the coordinates in the symbolic basis.
     halves: BigInt,
     units: [Unit; 3],
     floats: PhantomData<F>,
 }
 
 impl<'p> Packing<'p> {
-    /// Returns where spheres are and where they touch, as nearest floats: the fast way to many of them.
+    /// Returns the centres and the points of contact, with correctly rounded coordinates. This is the fastest way to
+    /// compute many of them.
     ///
     /// # Examples
     /// ```
@@ -59,7 +61,7 @@ impl<'p> Packing<'p> {
     /// ```
     #[must_use]
     pub fn places<F: CorrectlyRounded>(&self) -> Places<'p, F> {
-        // Coordinates are sums of the directions, those of points of contact of halves of them.
+        // A centre is a sum of directions, and a point of contact is a sum of half directions.
         let halves: BigInt = self.forces.direction_scale() * 2;
         let diameter = self.diameter();
         let unit = |root: &Surd| Unit::new(root.scaled(&diameter), halves.clone());
@@ -76,8 +78,8 @@ impl<F: CorrectlyRounded> Places<'_, F> {
     /// Writes the centres of consecutive spheres of a row into slices of x, y and z.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`], [`Error::Length`]; [`Error::Overflow`] for a coordinate beyond the floats; [`Error::TooLarge`]
-    /// for a row that no memory holds.
+    /// [`Error::SiteOutside`], [`Error::Length`]; [`Error::Overflow`] for a coordinate beyond the range of the floats;
+    /// [`Error::TooLarge`] for a row that does not fit in memory.
     ///
     /// # Examples
     /// ```
@@ -89,7 +91,7 @@ impl<F: CorrectlyRounded> Places<'_, F> {
     /// let mut places = [[0.0]; 3];
     /// let slices = places.each_mut().map(|slice| slice.as_mut_slice());
     /// packing.places::<f64>().fill_row(&Row { k: 0, j: 0, i: 0..1 }, slices)?;
-    /// // Two layers up, 2√(4 − (5/4)²).
+    /// // The height of two layers is 2√(4 − (5/4)²).
     /// assert_eq!(places[2], [3.122498999199199]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -97,10 +99,11 @@ impl<F: CorrectlyRounded> Places<'_, F> {
         self.fill(row, slices, |site| self.centre(site))
     }
 
-    /// Writes where consecutive spheres of a row touch those below them in a direction into slices of x, y and z.
+    /// Writes the points of contact of consecutive spheres with the spheres below them in a direction into slices of x,
+    /// y and z.
     ///
     /// # Errors
-    /// [`Error::OnFloor`], [`Error::NoSuchDirection`]; as for [`fill_row`](Self::fill_row).
+    /// [`Error::OnFloor`], [`Error::NoSuchDirection`]; otherwise as for [`fill_row`](Self::fill_row).
     ///
     /// # Examples
     /// ```
@@ -125,7 +128,7 @@ impl<F: CorrectlyRounded> Places<'_, F> {
         self.fill(row, slices, |site| self.point(site, direction))
     }
 
-    /// Writes coordinates that change evenly along a row.
+    /// Writes coordinates that change by a constant step along a row.
     fn fill(
         &self,
         row: &Row,
@@ -168,7 +171,7 @@ impl<F: CorrectlyRounded> Places<'_, F> {
         Ok(())
     }
 
-    /// The coordinates of a centre, over `halves`; z up from the bottom layer.
+    /// Returns the coordinates of a centre, over `halves`, with z up from the bottom layer.
     fn centre(&self, site: Site) -> Result<[BigInt; 3], Error> {
         let forces = &self.packing.forces;
         let Vector { x, y, z } = forces.position_numerators(site)?;
@@ -176,12 +179,12 @@ impl<F: CorrectlyRounded> Places<'_, F> {
         Ok([x * 2, y * 2, bottom - z * 2])
     }
 
-    /// The coordinates of the point where a sphere touches that below it.
+    /// Returns the coordinates of the point of contact between a sphere and the sphere below it.
     fn point(&self, site: Site, direction: Direction) -> Result<[BigInt; 3], Error> {
         let forces = &self.packing.forces;
         let lean = forces.contact_direction_numerators(site, direction)?;
         let [x, y, z] = self.centre(site)?;
-        // Half of the lean back, with z up.
+        // Half the contact direction back from the centre, with z up.
         Ok([x - lean.x, y - lean.y, z + lean.z])
     }
 }
@@ -191,7 +194,8 @@ fn overflow<F>() -> Error {
 }
 
 impl Packing<'_> {
-    /// Returns where a sphere touches that below it, in 2R and the symbolic basis, z up from the bottom layer.
+    /// Returns the point of contact between a sphere and the sphere below it, in 2R and the symbolic basis, with z up
+    /// from the bottom layer.
     pub(super) fn point(
         &self,
         site: Site,

@@ -1,4 +1,4 @@
-//! Many answers in SI, one after the other.
+//! Iterators over results in SI units.
 
 use super::on_basis;
 use crate::forces::{NearestLayers, Units};
@@ -22,7 +22,7 @@ use num_rational::BigRational;
 /// for contact in packing.contacts(Selection::All)? {
 ///     let contact = contact?;
 ///     assert_eq!(contact.force.to_string(), "5/39*sqrt(13)");
-///     // On the upper sphere, upwards.
+///     // The force on the upper sphere points upwards.
 ///     assert_eq!(contact.vector[2].to_string(), "1/3");
 /// }
 /// # Ok::<(), cannonpile::Error>(())
@@ -32,24 +32,24 @@ use num_rational::BigRational;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct PackedContact {
-    /// The upper sphere; of two neighbours, the one that the contact is named by.
+    /// The upper sphere. For two neighbours in a layer, it is the sphere that names the contact.
     pub site: Site,
-    /// Where the other one lies.
+    /// The direction from `site` to the other sphere.
     pub direction: ContactKind,
-    /// The force. Positive: they push. Negative: they would have to pull.
+    /// The force. Positive: compression. Negative: the contact would be tensile.
     pub force: Surd,
-    /// The force on the sphere `site`, z up.
+    /// The force on the sphere `site`, with z up.
     pub vector: [Surd; 3],
-    /// Where they touch.
+    /// The point of contact.
     pub point: [Surd; 3],
 }
 
 impl<'p> Packing<'p> {
-    /// Walks down the layers of `part`. Each layer writes its contact forces, in newtons, correctly rounded, into slices of
-    /// yours. The fastest way to many forces.
-    ///
+    /// Iterates over the layers of `part`, from the top. Each layer writes its contact forces, in newtons and correctly
+    /// rounded, into caller-provided slices. This is the fastest way to compute many forces.
     /// # Errors
-    /// As for [`Forces::layers`](crate::Forces::layers); [`Error::Overflow`] for a force beyond the floats.
+    /// As for [`Forces::layers`](crate::Forces::layers); [`Error::Overflow`] for a force beyond the range of the
+    /// floats.
     ///
     /// # Examples
     /// ```
@@ -82,7 +82,7 @@ impl<'p> Packing<'p> {
         self.forces.layers(part)?.nearest_in(units)
     }
 
-    /// Returns the contacts of a part of the pile, each sphere's with the spheres below it, one by one.
+    /// Iterates over the contacts of a part of the pile. Each sphere is listed with its contacts below.
     ///
     /// # Errors
     /// As for [`Forces::contacts`](crate::Forces::contacts).
@@ -114,7 +114,7 @@ impl<'p> Packing<'p> {
         Ok(contacts.map(move |contact| packing.contact_in_si(contact?)))
     }
 
-    /// Returns a contact in SI, from its force in f₀.
+    /// Returns a contact in SI units, from its force in f₀.
     ///
     /// # Errors
     /// As for [`contact_point`](Self::contact_point).
@@ -152,10 +152,10 @@ impl<'p> Packing<'p> {
         })
     }
 
-    /// Returns a horizontal contact in SI, from its force in f₀.
+    /// Returns a horizontal contact in SI units, from its force in f₀.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] of either sphere.
+    /// [`Error::SiteOutside`] for either sphere.
     ///
     /// # Examples
     /// ```
@@ -169,7 +169,7 @@ impl<'p> Packing<'p> {
     /// let pile = Pile::triangular(3)?.with_horizontal_force(contact, one.clone())?;
     /// let packing = Packing::new(&pile, &Spacing::new(one.clone())?)?;
     /// let packed = packing.horizontal_contact_in_si(contact, &one)?;
-    /// // Its neighbour lies along +y, and pushes back.
+    /// // The neighbour lies along +y, so the force on the sphere points along −y.
     /// assert_eq!(packed.vector[1], -packed.force);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -198,8 +198,8 @@ impl<'p> Packing<'p> {
         })
     }
 
-    /// Returns the contact forces of a part of the pile without vectors and points, one by one: positive where the spheres
-    /// push, negative where they would have to pull.
+    /// Iterates over the contact forces of a part of the pile, without vectors and points. Positive: compression.
+    /// Negative: the contact would be tensile.
     ///
     /// # Errors
     /// As for [`Forces::contacts`](crate::Forces::contacts).
@@ -240,10 +240,10 @@ impl<'p> Packing<'p> {
         }))
     }
 
-    /// Returns the places of the spheres of a part of the pile, one by one.
+    /// Iterates over the positions of the spheres of a part of the pile.
     ///
     /// # Errors
-    /// As for [`Forces::contacts`](crate::Forces::contacts); of each, as for [`position`](Self::position).
+    /// As for [`Forces::contacts`](crate::Forces::contacts). For each item, as for [`position`](Self::position).
     ///
     /// # Examples
     /// ```
@@ -272,7 +272,7 @@ impl<'p> Packing<'p> {
         }))
     }
 
-    /// Returns the forces of bottom spheres on the floor, one by one.
+    /// Iterates over the forces of bottom spheres on the floor.
     ///
     /// # Errors
     /// As for [`Forces::base`](crate::Forces::base).

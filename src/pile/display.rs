@@ -12,7 +12,7 @@ use crate::lattice::{Dimension, Region};
 use crate::shape::Anchor;
 
 impl fmt::Display for Pile {
-    /// Prints one line, for people: `10 layers of fcc under one sphere`. A long stacking is shortened.
+    /// Prints the pile in one line for people: `10 layers of fcc under one sphere`. A long stacking is shortened.
     ///
     /// # Examples
     /// ```

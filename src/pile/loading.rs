@@ -1,4 +1,4 @@
-//! What the spheres weigh, and what is put on them.
+//! The weights of the spheres, their loads, and the forces of horizontal contacts.
 
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
@@ -10,23 +10,23 @@ use crate::Error;
 use crate::formula;
 use crate::lattice::{HorizontalContact, Sign, Site};
 
-/// The weights of the spheres and the vertical loads on them, in mg, and forces of horizontal contacts, in f₀. None is
-/// negative.
+/// The weights of the spheres and the vertical loads on them, in mg, and the forces of horizontal contacts, in f₀. None
+/// is negative.
 ///
-/// For the forces a load is one with the weight of its sphere; only the floor and the mass tell them apart.
+/// In the equations a load has the same effect as weight of its sphere. The two differ only in the mass of the sphere.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Loading {
     weightless: bool,
-    /// Of the spheres that do not weigh mg.
+    /// The weights of the spheres whose weight is not mg.
     weights: BTreeMap<Site, BigRational>,
     loads: BTreeMap<Site, BigRational>,
     horizontal: BTreeMap<HorizontalContact, BigRational>,
-    /// What the horizontal contacts of a sphere add to its lines, −σ H: by direction, 0 in all.
+    /// The forces that the horizontal contacts of a sphere add to its lines, −σ H, by direction. Their sum is 0.
     pushes: BTreeMap<Site, [BigRational; 3]>,
 }
 
 impl Loading {
-    /// No sphere weighs anything.
+    /// Sets the weight of every sphere to zero.
     pub(crate) fn set_weightless(&mut self) {
         self.weightless = true;
     }
@@ -38,14 +38,15 @@ impl Loading {
         Ok(())
     }
 
-    /// Makes a sphere weigh this much.
+    /// Sets the weight of a sphere.
     pub(crate) fn set_weight(&mut self, site: Site, weight: BigRational) -> Result<(), Error> {
         let weight = not_negative("weight", site, weight)?;
         self.weights.insert(site, weight);
         Ok(())
     }
 
-    /// Adds to the force of a contact in a layer below which the step is `sign`; both its spheres are off the floor.
+    /// Adds to the force of a horizontal contact. `sign` is the step below its layer, and both spheres are above the
+    /// floor.
     pub(crate) fn push(
         &mut self,
         contact: HorizontalContact,
@@ -70,13 +71,13 @@ impl Loading {
         Ok(())
     }
 
-    /// Takes all forces off horizontal contacts.
+    /// Removes all forces of horizontal contacts.
     pub(crate) fn release(&mut self) {
         self.horizontal.clear();
         self.pushes.clear();
     }
 
-    /// The horizontal contacts with a force, in their order.
+    /// Returns the horizontal contacts with a force, in their order.
     pub(crate) fn horizontal(
         &self,
     ) -> impl ExactSizeIterator<Item = (HorizontalContact, &BigRational)> + '_ {
@@ -86,21 +87,21 @@ impl Loading {
     }
 
     pub(crate) fn horizontal_force(&self, contact: HorizontalContact) -> BigRational {
-        // Not a default: a contact that is not in the list was given none.
+        // Zero is correct here: a contact that is not in the list has no force.
         self.horizontal.get(&contact).cloned().unwrap_or_default()
     }
 
-    /// What horizontal contacts add to the lines of spheres, by direction.
+    /// Returns the forces that horizontal contacts add to the lines of spheres, by direction.
     pub(crate) fn pushes(&self) -> &BTreeMap<Site, [BigRational; 3]> {
         &self.pushes
     }
 
-    /// Whether nothing acts on any sphere but an ordinary weight.
+    /// Returns whether every sphere has the ordinary weight and no other force acts on any.
     pub(crate) fn is_ordinary(&self) -> bool {
         self.pushes.is_empty() && self.extras().next().is_none()
     }
 
-    /// What an ordinary sphere weighs.
+    /// Returns the weight of an ordinary sphere.
     pub(crate) fn ordinary(&self) -> BigRational {
         if self.weightless {
             BigRational::zero()
@@ -109,34 +110,34 @@ impl Loading {
         }
     }
 
-    /// The weight of a sphere.
+    /// Returns the weight of a sphere.
     pub(crate) fn weight(&self, site: Site) -> BigRational {
         let special = self.special(site).cloned();
         special.unwrap_or_else(|| self.ordinary())
     }
 
-    /// The weight of a sphere that was given one, if spheres weigh anything.
+    /// Returns the weight that was set for a sphere, unless the pile is weightless.
     fn special(&self, site: Site) -> Option<&BigRational> {
         self.weights.get(&site).filter(|_| !self.weightless)
     }
 
-    /// What is put on a sphere.
+    /// Returns the load on a sphere.
     pub(crate) fn load(&self, site: Site) -> BigRational {
-        // Not a default: on a sphere that is not in the list nothing was put.
+        // Zero is correct here: a sphere that is not in the list has no load.
         self.loads.get(&site).cloned().unwrap_or_default()
     }
 
-    /// Weight and load together.
+    /// Returns the sum of weight and load.
     pub(crate) fn total(&self, site: Site) -> BigRational {
         self.weight(site) + self.load(site)
     }
 
-    /// The spheres that do not weigh mg, in their order, with their weights.
+    /// Returns the spheres whose weight was set, in their order, with their weights.
     pub(crate) fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
         self.weights.iter().map(|(site, weight)| (*site, weight))
     }
 
-    /// The spheres with something on them, in their order, with the loads.
+    /// Returns the loaded spheres, in their order, with their loads.
     pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
         self.loads.iter().map(|(site, load)| (*site, load))
     }
@@ -145,7 +146,7 @@ impl Loading {
         self.weightless
     }
 
-    /// The spheres on which more or less acts than an ordinary weight, with the difference.
+    /// Returns the spheres on which the vertical force differs from an ordinary weight, with the difference.
     pub(crate) fn extras(&self) -> impl Iterator<Item = (Site, BigRational)> + '_ {
         let loaded = self.loads.iter().map(|(site, load)| {
             let extra = match self.special(*site) {

@@ -1,4 +1,4 @@
-//! What the forces of a pile depend on.
+//! The data that determine the forces of a pile.
 
 use alloc::collections::BTreeMap;
 
@@ -13,29 +13,29 @@ use crate::lattice::{Dimension, Site};
 use crate::scalar::{common_denominator, common_multiple};
 use crate::shape::Shape;
 
-/// The system of equations of a pile, paper, (4) and (5): its sites and steps, what an ordinary sphere adds to its three
-/// lines, the directions of the lines, weights and loads. Engines solve it and know nothing else of a pile.
+/// The system of equations of a pile (paper, (4) and (5)): sites and steps, increments of an ordinary sphere,
+/// directions of the lines, weights and loads. This is all that an engine reads of a pile.
 #[derive(Clone, Debug)]
 pub(crate) struct System<'p> {
     pub(crate) shape: &'p Shape,
-    /// Of an ordinary sphere that weighs mg.
+    /// The increments of an ordinary sphere of weight mg.
     pub(crate) increments: [BigRational; 3],
-    /// Under a + step.
+    /// The directions under a + step.
     pub(crate) directions: [Vector<BigRational>; 3],
     pub(crate) loading: &'p Loading,
 }
 
-/// What acts on a sphere beside an ordinary weight.
+/// The force on a sphere in addition to an ordinary weight.
 pub(crate) struct Extra {
     pub(crate) site: Site,
-    /// In mg.
+    /// The additional weight, in mg.
     pub(crate) weight: BigRational,
-    /// On its lines, by direction.
+    /// The additional forces along its lines, by direction.
     pub(crate) lines: [BigRational; 3],
 }
 
 impl System<'_> {
-    /// Returns what acts on spheres beside an ordinary weight, in no order.
+    /// Returns the forces on spheres in addition to ordinary weights, in any order.
     pub(crate) fn extras(&self) -> impl Iterator<Item = Extra> {
         let pushes = self.loading.pushes();
         let mut weights: BTreeMap<Site, BigRational> = self.loading.extras().collect();
@@ -59,8 +59,8 @@ impl System<'_> {
         })
     }
 
-    /// Returns the common denominator D of all increments, and of all extra weights and loads times increments and forces of
-    /// horizontal contacts.
+    /// Returns the common denominator D of all increments, of all extra weights and loads times increments, and of the
+    /// forces of horizontal contacts.
     pub(crate) fn denominator(&self) -> BigInt {
         let own = common_denominator(&self.increments);
         let forces = self.loading.horizontal().map(|(_, force)| force);
@@ -70,11 +70,12 @@ impl System<'_> {
         })
     }
 
-    /// Returns the greatest increment of an ordinary sphere, and the sum of all extra weights and loads, and of what
-    /// horizontal contacts add to lines, without their signs, both times the common denominator.
+    /// Returns two magnitudes, times the common denominator. The first is the largest increment of an ordinary sphere.
+    /// The second is the sum of the absolute values of all extra weights, loads and forces that horizontal contacts add
+    /// to lines.
     pub(crate) fn magnitudes(&self) -> [BigInt; 2] {
         let denominator = self.denominator();
-        // Integers: the denominator is a multiple of all.
+        // Integers, because the denominator is a multiple of all denominators.
         let over = |value: &BigRational| value.numer().abs() * (&denominator / value.denom());
         let weights = self.loading.extras().map(|(_, extra)| over(&extra));
         let pushes = self.loading.pushes().values().flatten().map(over);
@@ -84,17 +85,19 @@ impl System<'_> {
         [ordinary.fold(BigInt::zero(), BigInt::max), extras]
     }
 
-    /// Whether every direction has a place in a layer: the third line of a disc carries nothing and has none.
+    /// Returns whether each of the three directions has contacts in a layer. In a pile of discs the third line carries
+    /// no force.
     pub(crate) fn fills_its_layers(&self) -> bool {
         self.shape.dimension() == Dimension::Three
     }
 
-    /// Whether there is a change of sign nowhere.
+    /// Returns whether the stacking has no sign change.
     pub(crate) fn is_straight(&self) -> bool {
         self.shape.stacking().is_straight()
     }
 
-    /// Whether every sphere weighs mg and nothing else acts on it, so that a straight pile has few distinct forces.
+    /// Returns whether every sphere has the weight mg and no other force acts on any. Then a straight pile has few
+    /// distinct forces.
     pub(crate) fn is_even(&self) -> bool {
         !self.loading.is_weightless() && self.loading.is_ordinary()
     }

@@ -1,4 +1,4 @@
-//! What the floor feels: the extremes over the base.
+//! The extremes of the reaction at the base.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -9,7 +9,7 @@ use crate::geometry::Vector;
 use crate::scalar::{Ring, Surd};
 use crate::{Error, Pile};
 
-/// The extremes of the force on the floor over the base of a pile. Exact.
+/// The exact extremes of the force on the floor over the base of a pile.
 ///
 /// # Examples
 /// ```
@@ -26,29 +26,32 @@ use crate::{Error, Pile};
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct BaseExtremes {
-    /// The least normal force, in mg.
+    /// The smallest normal force, in mg.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub normal_min: BigRational,
-    /// The greatest normal force, in mg.
+    /// The largest normal force, in mg.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub normal_max: BigRational,
-    /// The greatest ratio of shear to normal force, in tanθ: necessary for a base that does not slide; a base that may
-    /// roll needs more ([`paper`](crate::paper#errata), 4). Of bottom spheres without a normal force there is none, and of those that
-    /// would be pulled it is that of the magnitudes: both occur only in piles without weight, that do not stand, or that
-    /// were given horizontal forces.
+    /// The largest ratio of shear to normal force, in tanθ. The friction coefficient must be at least this large if the
+    /// base must not slide. Against rolling the base needs more ([`paper`](crate::paper#errata), 4).
+    ///
+    /// Bottom spheres without a normal force have no ratio. For a tensile normal force, the ratio of the magnitudes
+    /// counts. Both cases occur only in unstable piles, in piles without weight, and in piles with given horizontal
+    /// forces.
     pub max_shear_ratio: Surd,
 }
 
 impl Pile {
-    /// The extremes of the force on the floor.
+    /// Returns the extremes of the force on the floor.
     ///
-    /// The normal force is linear in i and j between few places, and the ratio the norm of a linear function over it: of
-    /// a straight pile under one sphere the extremes are at its corners, of others with few changes of sign among few
-    /// spheres of each row. Otherwise every bottom sphere is looked at, in floats first, which leave few to exact numbers.
+    /// Between a few spheres, the normal force is linear in i and j. The ratio is the norm of a linear function divided
+    /// by it. In a straight pile under one sphere, the extremes are at the corners. With few sign changes they are at a
+    /// few spheres of each row. Otherwise every bottom sphere is computed in floats, and the few candidates for an
+    /// extreme are computed exactly.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would have to be looked at, or one of them depends on too many
-    /// spheres at changes of sign.
+    /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would be computed, or one of them depends on too many
+    /// spheres at sign changes.
     ///
     /// # Examples
     /// ```
@@ -71,11 +74,11 @@ impl Pile {
     }
 }
 
-/// The extremes so far, as integers.
+/// The extremes found so far, as integers.
 #[derive(Default)]
 struct Extremes {
     normals: Option<(BigInt, BigInt)>,
-    /// The greatest squared ratio, as numerator and denominator: reduced at the end.
+    /// The largest squared ratio, as numerator and denominator. It is reduced at the end.
     ratio: Option<(BigInt, BigInt)>,
 }
 
@@ -105,11 +108,11 @@ impl Extremes {
         }
     }
 
-    /// Their values, for forces over this denominator.
+    /// Returns the extremes for forces over the denominator `unit`.
     fn over(self, unit: &BigInt) -> Result<BaseExtremes, Error> {
         let normals = self.normals.ok_or_else(|| bug("a base has a sphere"))?;
         let (least, most) = normals;
-        // Where no sphere presses on the floor there is no ratio, and no shear.
+        // No sphere presses on the floor, so the shear is zero as well. The ratio is reported as 0.
         let none = (BigInt::zero(), BigInt::one());
         let (n, d) = self.ratio.unwrap_or(none);
         Ok(BaseExtremes {
