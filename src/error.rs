@@ -1,4 +1,4 @@
-//! What can be wrong with a question: one enum, each variant with the numbers and the remedy.
+//! The error type of the crate. Each variant has the refused value and the data for a remedy.
 
 mod display;
 mod named;
@@ -18,9 +18,9 @@ use crate::engine::Method;
 use crate::geometry::{LayerGap, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
 
-/// Why a pile, a site, a geometry or a number was refused.
+/// An error about a pile, a site, a geometry or a number.
 ///
-/// The message is one line, names the value and says what would be accepted.
+/// The message is one line. It names the given value and the accepted ones.
 ///
 /// # Examples
 /// ```
@@ -33,244 +33,244 @@ pub enum Error {
     /// The number of layers is not between 1 and [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
     #[non_exhaustive]
     Layers {
-        /// The number asked for.
+        /// The given number.
         given: BigInt,
     },
     /// sin φ is not strictly between 0 and 1.
     #[non_exhaustive]
     SinPhi {
-        /// The value asked for.
+        /// The given value.
         given: BigRational,
     },
     /// The pile has no such site.
     #[non_exhaustive]
     SiteOutside {
-        /// The site asked for.
+        /// The given site.
         site: Site,
-        /// The layers of the pile.
+        /// The number of layers of the pile.
         layers: i128,
         /// Discs or spheres.
         dimension: Dimension,
-        /// The sites of that layer, if the pile has it and is not a straight one under one sphere.
+        /// The sites of that layer. `None` if the pile has no such layer, or if it is straight and under one sphere.
         region: Option<Box<Region>>,
     },
     /// The pile has no such layer.
     #[non_exhaustive]
     LayerOutside {
-        /// The layer asked for.
+        /// The given layer.
         layer: i128,
-        /// The layers of the pile.
+        /// The number of layers of the pile.
         layers: i128,
     },
-    /// A contact below a sphere of the bottom layer: it rests on the floor.
+    /// A contact below a sphere of the bottom layer, which is on the floor.
     #[non_exhaustive]
     OnFloor {
-        /// The sphere asked for.
+        /// The given sphere.
         site: Site,
     },
     /// A force on the floor from a sphere that does not touch it.
     #[non_exhaustive]
     NotOnFloor {
-        /// The sphere asked for.
+        /// The given sphere.
         site: Site,
         /// The bottom layer.
         floor: i128,
     },
-    /// A pile of discs has no contacts in this direction.
+    /// A direction without contacts in a pile of discs.
     #[non_exhaustive]
     NoSuchDirection {
-        /// The direction asked for.
+        /// The given direction.
         direction: Direction,
     },
     /// A region of the lattice without a site.
     #[non_exhaustive]
     EmptyRegion {
-        /// The region as it was asked for.
+        /// The given region.
         region: Box<Region>,
     },
-    /// A region whose coordinates leave ±10³⁶.
+    /// A region with coordinates beyond ±10³⁶.
     #[non_exhaustive]
     RegionTooLarge {
-        /// The region, or the one that was to grow.
+        /// The given region, or the region that would grow beyond the limit.
         region: Box<Region>,
     },
     /// The side of a triangle or hexagon is not between 1 and 10³⁶.
     #[non_exhaustive]
     RegionSide {
-        /// The side asked for.
+        /// The given side.
         given: i128,
     },
     /// A run of a stacking has a negative length.
     #[non_exhaustive]
     RunLength {
-        /// The length asked for.
+        /// The given length.
         given: i128,
     },
-    /// A stacking changes its sign too often to be kept.
+    /// A stacking has too many sign changes.
     #[non_exhaustive]
     TooManyRuns {
-        /// The most runs.
+        /// The largest number of runs.
         limit: usize,
     },
-    /// A stacking that is spelled out, and another number of layers.
+    /// A stacking with a fixed number of layers, and a different number of layers.
     #[non_exhaustive]
     LayersOfStacking {
-        /// The number of layers asked for.
+        /// The given number of layers.
         layers: i128,
-        /// The layers of the stacking.
+        /// The number of layers of the stacking.
         spelled: i128,
     },
-    /// No site is left on a base before all layers are there.
+    /// A base does not support the given number of layers.
     #[non_exhaustive]
     TooHigh {
-        /// The layers asked for.
+        /// The given number of layers.
         layers: i128,
-        /// The most there are.
+        /// The largest number of layers on this base.
         greatest: i128,
         /// The base.
         base: Box<Region>,
     },
-    /// A weight or load that is negative.
+    /// A weight, load or horizontal force is negative.
     #[non_exhaustive]
     NegativeLoad {
-        /// `load` or `weight`.
+        /// `load`, `weight` or `horizontal force`.
         quantity: &'static str,
         /// The sphere.
         site: Site,
-        /// The value asked for.
+        /// The given value.
         given: Box<BigRational>,
     },
-    /// A method that does not apply: closed forms are of straight stackings, sweeps of spheres and not of discs.
+    /// A method that does not apply. Closed forms need a straight stacking, and sweeps need spheres instead of discs.
     #[non_exhaustive]
     NoSuchMethod {
-        /// The method asked for.
+        /// The given method.
         method: Method,
     },
-    /// A sphere that is not of the layer asked.
+    /// A sphere of another layer.
     #[non_exhaustive]
     OtherLayer {
         /// The layer of the sphere.
         layer: i128,
-        /// The layer that was asked.
+        /// The layer of the query.
         at: i128,
     },
-    /// A slice that does not have one place for each force.
+    /// A slice whose length differs from the number of forces.
     #[non_exhaustive]
     Length {
-        /// How many forces there are.
+        /// The number of forces.
         needed: usize,
-        /// How many places.
+        /// The length of the slice.
         given: usize,
     },
-    /// An answer that would take more memory than is sensible.
+    /// A result that needs more memory than the limit.
     #[non_exhaustive]
     TooLarge {
-        /// What would be computed.
+        /// The quantity to compute.
         quantity: &'static str,
-        /// How many numbers it would keep.
+        /// The number of values to store.
         needed: BigUint,
-        /// How many are allowed; fewer than in all where the process may not have the memory.
+        /// The largest number allowed. It is lower if the process cannot allocate the memory.
         limit: u64,
-        /// The narrower question.
+        /// A smaller request.
         remedy: &'static str,
     },
     /// A length, mass, gravity or spacing that is not positive.
     #[non_exhaustive]
     NotPositive {
-        /// What it is.
+        /// The name of the quantity.
         quantity: &'static str,
-        /// The value asked for.
+        /// The given value.
         given: BigRational,
     },
     /// Spheres would overlap at this spacing.
     #[non_exhaustive]
     Overlap {
-        /// The spacing asked for.
+        /// The given spacing.
         spacing: Box<Spacing>,
-        /// Which spheres overlap.
+        /// The pairs of spheres that overlap.
         apart: LayerGap,
-        /// The least and the greatest spacing allowed, where there is one.
+        /// The smallest and the largest spacing allowed, if they exist.
         allowed: Box<(Option<Spacing>, Option<Spacing>)>,
     },
-    /// The contacts would be horizontal, or no contacts at all.
+    /// A spacing at which the contacts would be horizontal or the spheres would not touch.
     #[non_exhaustive]
     TooFlat {
-        /// The spacing asked for.
+        /// The given spacing.
         spacing: Box<Spacing>,
-        /// What it must stay below.
+        /// The upper limit, which is excluded.
         limit: Box<Spacing>,
     },
-    /// No spacing at all keeps the spheres of this pile apart.
+    /// No spacing keeps the spheres of this pile from overlapping.
     #[non_exhaustive]
     NoSpacing {
         /// sin φ of the pile.
         sin_phi: BigRational,
-        /// The layers of the pile.
+        /// The number of layers of the pile.
         layers: i128,
     },
-    /// An answer does not fit the number type asked for.
+    /// A result does not fit in the requested number type.
     #[non_exhaustive]
     Overflow {
-        /// What was asked for.
+        /// The quantity that overflows.
         quantity: &'static str,
         /// The number type.
         scalar: &'static str,
     },
-    /// What is wrong with a number by itself.
+    /// An error about a single number.
     Number(exact_surd::Error),
-    /// A text that is not what was expected.
+    /// A text with a syntax error.
     #[non_exhaustive]
     Syntax {
         /// The text, shortened if it is long.
         text: String,
-        /// What was expected, with an example.
+        /// The expected form, with an example.
         expected: &'static str,
     },
-    /// A long stacking with a character that does not belong there.
+    /// A long stacking with a misplaced character.
     #[non_exhaustive]
     Misspelled {
         /// The stacking, shortened.
         text: String,
-        /// The place of the character, counted from 1.
+        /// The position of the character, counted from 1.
         position: usize,
         /// The character, or `None` if the stacking ends too early.
         found: Option<char>,
     },
-    /// More rows than anybody can read.
+    /// A table with too many rows.
     #[non_exhaustive]
     TooManyRows {
-        /// How many there would be.
+        /// The number of rows.
         rows: BigUint,
-        /// How many are allowed.
+        /// The largest number allowed.
         limit: u64,
-        /// The narrower question.
+        /// A smaller request.
         remedy: &'static str,
     },
-    /// Horizontal contacts of a pile whose neighbours do not all touch at a = R.
+    /// Horizontal contacts in a pile whose neighbours in a layer do not all touch at a = R.
     #[non_exhaustive]
     NoHorizontalContacts {
         /// sin φ of the pile.
         sin_phi: BigRational,
     },
-    /// A spacing at which the neighbours of a layer do not touch, and that was given.
+    /// A given spacing at which neighbours in a layer do not touch.
     #[non_exhaustive]
     NotTouching {
-        /// The spacing.
+        /// The given spacing.
         spacing: Spacing,
     },
-    /// Work that was asked to end, by an `Interrupt`.
+    /// Work that an `Interrupt` ended.
     Interrupted,
-    /// Something that cannot be, by the named invariant: a fault of this library and of no input.
+    /// A broken invariant: a bug of this library.
     #[non_exhaustive]
     Bug {
-        /// What was to hold, and does not.
+        /// The broken invariant.
         invariant: &'static str,
     },
 }
 
-/// Returns the error for a case that `invariant` rules out; where debug assertions are on, it panics instead.
+/// Returns the error for a broken `invariant`. If debug assertions are on, it panics instead.
 ///
-/// It stands where a default would be a wrong answer: `value.ok_or_else(|| bug("a bottom sphere rests on the floor"))?`.
+/// Use it where a default would be a wrong result: `value.ok_or_else(|| bug("a bottom sphere is on the floor"))?`.
 #[cold]
 #[track_caller]
 #[must_use]
@@ -279,7 +279,7 @@ pub fn bug(invariant: &'static str) -> Error {
     Error::Bug { invariant }
 }
 
-/// Refuses more than a limit.
+/// Returns an error if `needed` exceeds `limit`.
 ///
 /// # Errors
 /// [`Error::TooLarge`].
@@ -301,8 +301,10 @@ pub fn refuse_beyond(
     Ok(())
 }
 
-/// Refuses to keep more than `limit` numbers, and numbers of so many bytes each that this process may not have the memory:
-/// the allocator is asked for all of it at once, beforehand, and gets it back untouched.
+/// Returns an error if `needed` exceeds `limit`, or if the process cannot allocate as many numbers of the given size in
+/// bytes.
+///
+/// The memory is allocated at once for the check, and released untouched.
 ///
 /// # Errors
 /// [`Error::TooLarge`].
@@ -329,7 +331,7 @@ pub fn refuse_beyond_memory(
     Ok(())
 }
 
-/// So many copies of a value, where there is room for them.
+/// Returns `count` copies of a value, or an error if they do not fit in memory.
 ///
 /// # Errors
 /// [`Error::TooLarge`].
@@ -344,14 +346,14 @@ pub fn copies<T: Clone>(value: T, count: usize, quantity: &'static str) -> Resul
     Ok(alloc::vec![value; count])
 }
 
-/// Whether the allocator gives so many numbers of so many bytes.
+/// Returns whether the allocator provides the memory for so many numbers of the given size in bytes.
 fn is_to_be_had(numbers: u64, bytes: usize) -> bool {
     let mut memory = Vec::<u8>::new();
     let bytes = usize::try_from(numbers)
         .ok()
         .and_then(|numbers| numbers.checked_mul(bytes));
     let had = bytes.is_some_and(|bytes| memory.try_reserve_exact(bytes).is_ok());
-    // What nobody looks at is not asked for by optimised code.
+    // Without this use, the optimiser may remove the allocation.
     core::hint::black_box(&memory);
     had
 }
@@ -369,7 +371,7 @@ impl Error {
         }
     }
 
-    /// A syntax error that quotes `text`, shortened if it is long.
+    /// Returns a syntax error that quotes `text`, shortened if it is long.
     #[doc(hidden)]
     #[must_use]
     pub fn syntax(text: &str, expected: &'static str) -> Self {
@@ -380,7 +382,7 @@ impl Error {
     }
 }
 
-/// Errors of the core that the crates beside it report too.
+/// Errors of the core that other crates report too.
 #[doc(hidden)]
 impl Error {
     #[must_use]
@@ -501,7 +503,7 @@ mod tests {
         }
     }
 
-    /// More bytes than addresses, and some that are to be had: the limit that is named has room.
+    /// Requests beyond the address space are refused, and so are some within it. The reported limit is available.
     #[test]
     fn what_no_memory_holds_is_refused() {
         let refused = |needed: u64, bytes| {
@@ -510,16 +512,16 @@ mod tests {
         };
         for (needed, bytes) in [(1 << 62, 1), (1 << 59, 8), (1 << 63, 16)] {
             let Err(Error::TooLarge { limit, .. }) = refused(needed, bytes) else {
-                panic!("{needed} of {bytes} bytes are not to be had");
+                panic!("{needed} of {bytes} bytes are not available");
             };
             assert!(0 < limit && limit < needed, "{limit}");
-            // Others may take some meanwhile.
+            // Other processes may take some of the memory in the meantime.
             assert_eq!(refused(limit / 2, bytes), Ok(()));
         }
         assert_eq!(refused(0, 8), Ok(()));
         assert_eq!(refused(1000, 8), Ok(()));
         assert_eq!(copies(7_u64, 3, "numbers"), Ok(alloc::vec![7; 3]));
-        // A process with 32-bit addresses may have room for every byte that it can address.
+        // With 32-bit addresses, a process may have room for every byte that it can address.
         let addressable = cfg!(target_pointer_width = "64").then_some(isize::MAX as usize / 8);
         for many in [usize::MAX].into_iter().chain(addressable) {
             let none = copies(7_u64, many, "numbers");

@@ -1,34 +1,33 @@
-//! What is proved for every pile, and how.
+//! Theorems that hold for every pile, and their proofs.
 //!
 //! # Kinds of proof
-//! A test shows that an identity holds for the piles tried. The formulas of this crate are polynomials in
-//! i, j, k, L and s = sin φ, and they are written over any [`Algebra`](crate::scalar::Algebra). So they are run
-//! here with [`Polynomial`]s for their numbers: the very functions that engines and answers call return polynomials, and if
-//! the difference of the two sides of an identity is the zero polynomial, it holds for **every** i, j, k, L
-//! and s at once. There are three kinds of proof ([`ProofKind`]):
+//! A test shows that an identity holds for the piles it tries. The formulas of this crate are polynomials in i, j, k, L
+//! and s = sin φ, and they are generic over any [`Algebra`](crate::scalar::Algebra). Here they run on [`Polynomial`]s,
+//! so the same functions that engines call return polynomials. If the difference of the two sides of an identity is the
+//! zero polynomial, it holds for **every** i, j, k, L and s at once. There are three kinds of proof ([`ProofKind`]):
 //!
-//! * *identity*: the two sides, run on symbols, are the same polynomial;
-//! * *sum*: one side is a sum over a layer or the pile. Sums of a polynomial between polynomial bounds are
-//!   polynomials again (Faulhaber), so the sum is formed in closed form and compared;
+//! * *identity*: on symbols, the two sides are the same polynomial.
+//! * *sum*: one side is a sum over a layer or the pile. Sums of a polynomial between polynomial bounds are polynomials
+//!   (Faulhaber). So the sum is formed in closed form and compared.
 //! * *induction*: the base case and the step from k to k+1 are identities.
 //!
-//! A statement says no more than its steps show; what is argued from them in words is marked so.
+//! A statement claims only the content of its steps. Arguments in words are marked as such.
 //!
-//! # What that proves, and what not
-//! Proved is what the formulas *as implemented* compute over ℚ: with exact scalars, the equations hold for every
-//! pile within the hypotheses, as far as the polynomial arithmetic is right (which is tested against evaluation
-//! at random points, by fuzzing too). Not proved here:
+//! # Scope
+//! The theorems prove the results of the formulas *as implemented* over ℚ. With exact scalars, the equations hold for
+//! every pile that satisfies the hypotheses. This relies on the polynomial arithmetic, which is tested against
+//! evaluation at random points and by fuzzing. The theorems do not cover:
 //!
-//! * the float path. Each of its operations rounds; its error is bounded by tests against exact answers.
-//! * that the equations are the right ones. They are the paper's, written out in each statement.
-//! * what is not polynomial: overlap and rounding have their own exact tests.
-//! * that the input was turned into counts i, j, k correctly: exhaustive tests of piles up to 40 layers see to it.
-//! * the engines' bookkeeping, which spheres they find on which line and where they keep a number. With what they find they
-//!   call these functions; tests compare them with each other and with an oracle.
+//! * The float path. Each operation rounds, and tests compare the error with exact results.
+//! * The choice of the equations. They are those of the paper, written out in each statement.
+//! * Properties that are not polynomial. Overlap and rounding have their own exact tests.
+//! * The conversion of the input to counts i, j, k. Exhaustive tests cover piles of up to 40 layers.
+//! * The bookkeeping of the engines: the spheres on each line and the storage of the numbers. The engines pass their data
+//!   to these functions. Tests compare the engines with each other and with an oracle.
 //!
 //! # Faults
-//! A proof that cannot fail proves nothing. Every theorem takes the [`Formulas`] it is about as an argument:
-//! [`Formulas::LIBRARY`] are the crate's own, and the tests put a wrong one in the place of each.
+//! A proof that cannot fail proves nothing. So every theorem takes the [`Formulas`] of its subject as an argument.
+//! [`Formulas::LIBRARY`] has the formulas of the crate, and the tests replace each of them by a wrong one.
 //!
 //! # Examples
 //! ```
@@ -41,7 +40,7 @@
 //!     println!("{}: {} = {}", step.claim, step.left, step.right);
 //! }
 //! ```
-//! A theorem of your own: the spheres above any sphere on its three lines number k.
+//! A new theorem: the spheres above any sphere on its three lines number k.
 //! ```
 //! use cannonpile::lattice::count;
 //! use cannonpile::scalar::{Polynomial, Symbol};
@@ -72,20 +71,20 @@ use num_traits::Zero;
 
 use crate::scalar::Polynomial;
 
-/// How a theorem is proved.
+/// The kind of a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ProofKind {
     /// Both sides are the same polynomial.
     Identity,
-    /// As an identity, after summing in closed form.
+    /// Both sides are the same polynomial after a sum in closed form.
     Sum,
-    /// A base case and a step, each an identity.
+    /// A base case and a step, both identities.
     Induction,
 }
 
 impl ProofKind {
-    /// Returns its name: `identity`, `sum`, `induction`.
+    /// Returns the name: `identity`, `sum`, `induction`.
     ///
     /// # Examples
     /// ```
@@ -108,22 +107,22 @@ impl ProofKind {
 /// A statement about every pile, with its proof.
 #[derive(Clone, Copy, Debug)]
 pub struct Theorem<F: 'static = Formulas> {
-    /// A short name.
+    /// The short name.
     pub name: &'static str,
-    /// What is proved, in words and formulas.
+    /// The statement, in words and formulas.
     pub statement: &'static str,
-    /// For which values of the symbols it is meant.
+    /// The range of the symbols.
     pub hypotheses: &'static str,
-    /// How it is proved.
+    /// The kind of its proof.
     pub method: ProofKind,
-    /// The symbols in it.
+    /// The symbols of the statement.
     pub symbols: &'static str,
-    /// The proof: its steps, with the formulas that it is about.
+    /// Derives the steps of the proof from the formulas.
     pub derive: fn(&F) -> Vec<Step>,
 }
 
 impl<F> Theorem<F> {
-    /// Returns the proof for the crate's own formulas.
+    /// Returns the proof for the formulas of the crate.
     ///
     /// # Examples
     /// ```
@@ -142,14 +141,14 @@ impl<F> Theorem<F> {
         self.prove_for(&F::LIBRARY)
     }
 
-    /// Returns the proof, or refutation, for formulas of any kind.
+    /// Returns the proof, or the refutation, for any formulas.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::theorem;
     /// use cannonpile::theorem::Formulas;
     ///
-    /// // Sphere counts that leave out the floor.
+    /// // Sphere counts without the bottom layer.
     /// let wrong: Formulas = Formulas {
     ///     spheres: |layers, d| (Formulas::LIBRARY.spheres)(&(layers.clone() - &num_traits::one()), d),
     ///     ..Formulas::LIBRARY
@@ -167,7 +166,7 @@ impl<F> Theorem<F> {
 /// The steps of a proof.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proof {
-    /// Each a claim of its own; all must hold.
+    /// The steps, each with its own claim. All claims must hold.
     pub steps: Vec<Step>,
 }
 
@@ -181,7 +180,7 @@ impl Proof {
     ///
     /// let mut proof = theorem::find("counts").unwrap().prove();
     /// assert!(proof.holds());
-    /// // Not with one wrong step, nor without any.
+    /// // It fails with one wrong step, and without steps.
     /// proof.steps[0].relation = Relation::Different;
     /// assert!(!proof.holds());
     /// assert!(!Proof { steps: vec![] }.holds());
@@ -192,25 +191,25 @@ impl Proof {
     }
 }
 
-/// How the two sides of a step are related.
+/// The relation between the two sides of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Relation {
-    /// They are the same polynomial.
+    /// The sides are the same polynomial.
     Equal,
-    /// They are not.
+    /// The sides are different polynomials.
     Different,
 }
 
 /// One claim of a proof: two polynomials and their relation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What is claimed, in words and formulas.
+    /// The claim, in words and formulas.
     pub claim: String,
-    /// What the formulas gave.
+    /// The result of the formulas.
     pub left: Polynomial,
-    /// What it is claimed to be.
+    /// The claimed result.
     pub right: Polynomial,
-    /// Whether they are claimed to be equal.
+    /// The claimed relation.
     pub relation: Relation,
 }
 
@@ -272,7 +271,7 @@ impl Step {
     }
 }
 
-/// Returns every theorem, in the order in which one would read them.
+/// Returns every theorem, in reading order.
 ///
 /// # Examples
 /// ```
@@ -295,7 +294,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
     .flatten()
 }
 
-/// Returns the theorem of this name.
+/// Returns the theorem with this name.
 ///
 /// # Examples
 /// ```

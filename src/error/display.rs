@@ -1,4 +1,4 @@
-//! What each error says: one line, with the value and the remedy.
+//! The message of each error: one line, with the value and the remedy.
 
 use alloc::string::ToString;
 use core::fmt;
@@ -15,7 +15,7 @@ struct Whole<'a>(&'a Error);
 impl fmt::Display for Whole<'_> {
     #[expect(
         clippy::too_many_lines,
-        reason = "each variant has its text, and in one match none can be forgotten"
+        reason = "each variant has its text, and one match covers all variants"
     )]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const LONG: usize = 40;
@@ -62,7 +62,7 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::OnFloor { site } => write!(
                 f,
-                "the sphere (i,j,k) = {site} rests on the floor and has no contact below; ask for the force on the floor"
+                "the sphere (i,j,k) = {site} is on the floor and has no contact below; ask for the force on the floor"
             ),
             Error::NotOnFloor { site, floor } => write!(
                 f,
@@ -120,12 +120,12 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::OtherLayer { layer, at } => write!(
                 f,
-                "a sphere of layer {layer} is not in layer {at}: ask its own layer"
+                "a sphere of layer {layer} is not in layer {at}: use a sphere of layer {at}"
             ),
             Error::Length { needed, given } => {
                 write!(
                     f,
-                    "a slice of {given} places for {needed} forces: make it as long"
+                    "a slice has {given} elements for {needed} forces: use a slice of {needed} elements"
                 )
             }
             Error::NegativeLoad {
@@ -149,7 +149,7 @@ impl fmt::Display for Whole<'_> {
             }
             Error::TooFlat { spacing, limit } => write!(
                 f,
-                "spacing {spacing} is too wide for a sphere to rest on those below: a/R must be below {}",
+                "spacing {spacing} is too wide for a sphere to be supported by those below: a/R must be below {}",
                 Bound {
                     spacing: limit,
                     up: false
@@ -182,7 +182,7 @@ impl fmt::Display for Whole<'_> {
                 limit,
                 remedy,
             } => {
-                // As many digits say no more than their number does.
+                // For so many rows, the order of magnitude is enough.
                 let digits = rows.to_string();
                 if let Some(power @ LONG..) = digits.len().checked_sub(1) {
                     write!(f, "10^{power} rows and more")?;
@@ -200,7 +200,7 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "{quantity} would take {needed} numbers, more than {limit}: {remedy}"
             ),
-            Error::Interrupted => f.write_str("interrupted: ask again for an answer"),
+            Error::Interrupted => f.write_str("interrupted"),
             Error::Bug { invariant } => write!(
                 f,
                 "this is a bug of cannonpile: it does not hold that {invariant} (please report it)"
@@ -215,7 +215,7 @@ impl fmt::Display for Error {
     }
 }
 
-/// `a/R must be at least 1 and at most 2/3*sqrt(6) = 1.632993…`.
+/// Prints the bounds, as in `a/R must be at least 1 and at most 2/3*sqrt(6) = 1.632993…`.
 fn write_allowed(
     f: &mut fmt::Formatter<'_>,
     (least, most): &(Option<Spacing>, Option<Spacing>),
@@ -229,7 +229,7 @@ fn write_allowed(
         }
         (Some(least), None) => write!(f, "at least {}", bound(least, true)),
         (None, Some(most)) => write!(f, "at most {}", bound(most, false)),
-        // Something set the bound that was broken.
+        // Unreachable: an overlap breaks at least one bound.
         (None, None) => f.write_str("another"),
     }
 }

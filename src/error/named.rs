@@ -1,7 +1,7 @@
-//! The texts of enums whose variants have names.
+//! The texts of enums with named variants.
 
-/// Implements `Display` and `FromStr` for an enum with a method `name`, and with the feature `serde` that it is written as it
-/// prints.
+/// Implements `Display` and `FromStr` for an enum with a method `name`. With the feature `serde`, the enum is
+/// serialised as its name.
 macro_rules! named {
     ($type:ty, $all:expr, $expected:literal) => {
         impl core::fmt::Display for $type {

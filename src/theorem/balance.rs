@@ -54,8 +54,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "action-reaction",
-        statement: "Action and reaction: what a sphere passes on in a direction is what the sphere below receives from \
-                    it, so that every contact has one force; for every φ; an identity",
+        statement: "Action and reaction: the force that a sphere transmits in a direction is the force that the sphere \
+                    below receives from it, so that every contact has one force; for every φ; an identity",
         hypotheses: "a sphere off the floor",
         method: ProofKind::Identity,
         symbols: "i, j, k, s",
@@ -73,8 +73,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "half-turn",
-        statement: "G = (2/3)J − I, which passes forces across a sign change of the stacking, takes g to (2/3)(g_1+g_2+g_3)(1,1,1) − g; it is orthogonal \
-                    (|Gg|² = |g|²), symmetric (h·Gg = g·Gh), its own inverse (GGg = g), and fixes (1, 1, 1); an identity",
+        statement: "G = (2/3)J − I, which transmits forces across a sign change of the stacking, takes g to \
+                    (2/3)(g_1+g_2+g_3)(1,1,1) − g; it is orthogonal (|Gg|² = |g|²), symmetric (h·Gg = g·Gh), its own \
+                    inverse (GGg = g), and fixes (1, 1, 1); an identity",
         hypotheses: "any forces g, h",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3",

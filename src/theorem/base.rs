@@ -102,7 +102,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
 ];
 
-/// The force on the floor at (i, j), in f₀.
+/// Returns the force on the floor at (i, j), in f₀.
 fn on_floor(f: &Formulas, setting: &Setting) -> Vector<P> {
     setting.support_load(f, &above_floor(f))
 }
@@ -128,7 +128,7 @@ fn uniform_base(f: &Formulas) -> Vec<Step> {
     let difference = here - &there;
     let factor = int(2) * &setting.s - &int(1);
     let rows = symbol("j") - &symbol("j'");
-    // Not a default: not divisible at all, it shows as a step that fails.
+    // The default is safe: if the division fails, a step of the proof fails.
     let quotient = difference.divide_exactly(&factor).unwrap_or_else(P::zero);
     let at_half = difference.substitute(Symbol("s"), &super::setting::half());
     let mut steps = equations! {

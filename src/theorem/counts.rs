@@ -128,7 +128,8 @@ fn spheres(f: &Formulas) -> Vec<Step> {
 fn contacts(f: &Formulas) -> Vec<Step> {
     let l = symbol("L");
     let closed = l.clone() * &(l.clone() - &P::one()) * &(l.clone() + &P::one());
-    // A site with a sphere above it on a line is the image of one off the floor: the site N = 0 of each line is left out.
+    // A site with a sphere above it on a line is the image of a sphere off the floor. So the site N = 0 of each line is
+    // left out.
     let [j, k] = ["j", "k"].map(symbol);
     let (zero, one) = (P::zero(), P::one());
     let rows = k.clone() - &j;

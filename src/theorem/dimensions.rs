@@ -22,11 +22,12 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "dimensions",
-        statement: "In d = 2 … 6 dimensions a sphere stands on d others, in the directions of the corners of a regular \
-                    simplex, and adds 1 to each line. It is in equilibrium whatever it receives, and what it passes on \
-                    after n_m spheres of a line is what the sphere below receives after n_m + 1. With n_1 + … + n_d = L−1 \
-                    the normal force on the floor is mg(L+d−1)/d under every bottom sphere, the spheres number \
-                    C(L+d−1, d), and the normal forces sum to their weight; identities, and by summing over the layers",
+        statement: "In d = 2 … 6 dimensions a sphere is supported by d others, in the directions of the corners of a \
+                    regular simplex, and adds 1 to each line. It is in equilibrium whatever it receives, and the force \
+                    that it transmits after n_m spheres of a line is the force that the sphere below receives after \
+                    n_m + 1. With n_1 + … + n_d = L−1 the normal force on the floor is mg(L+d−1)/d under every bottom \
+                    sphere, the spheres number C(L+d−1, d), and the normal forces sum to their weight; identities, and \
+                    by summing over the layers",
         hypotheses: "n_m ≥ 0, L ≥ 1; any g_1 … g_d",
         method: ProofKind::Sum,
         symbols: "L, k, n_1 … n_d, g_1 … g_d",
@@ -75,7 +76,7 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
     let own: Vec<P> = (0..d).map(|_| P::one()).collect();
     let weight = (f.weight)(&own);
     let claim = |text: &str| format!("d = {d}: {text}");
-    // A sphere passes on one increment more than it receives along each of its lines, whatever that is.
+    // Along each of its lines, a sphere transmits one increment more than it receives.
     let received = named(FORCES).into_iter().zip(&own);
     let added: Vec<P> = received
         .map(|(g, w)| (f.transmitted)(g.clone(), w) - &g)
@@ -85,7 +86,8 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
         (claim("what the supports push more than the spheres above is the weight")):
             vertical => weight.clone(),
     });
-    // d times the horizontal part of a direction in d coordinates that sum to zero: d−1 along its own, −1 along the others.
+    // The horizontal part of a direction times d, in d coordinates that sum to zero: d−1 along its own, −1 along the
+    // others.
     for coordinate in 0..own.len() {
         let components = added.iter().enumerate().map(|(line, more)| {
             let part = if line == coordinate {
@@ -95,14 +97,14 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
             };
             part * more
         });
-        let sideways = components.fold(P::zero(), |sum, part| sum + &part);
+        let horizontal = components.fold(P::zero(), |sum, part| sum + &part);
         let claim = format!(
             "d = {d}: no push to the side, coordinate {}",
             coordinate + 1
         );
-        steps.push(Step::equal(claim, sideways, P::zero()));
+        steps.push(Step::equal(claim, horizontal, P::zero()));
     }
-    // The last count is what the others leave of L−1.
+    // The counts sum to L−1, so the others determine the last one.
     let mut counts = named(COUNTS);
     let others = counts.iter().skip(1).fold(P::zero(), |sum, n| sum + n);
     if let Some(first) = counts.first_mut() {
@@ -110,7 +112,7 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
     }
     for (n, w) in counts.iter().zip(&own) {
         steps.extend(equations! {
-            (claim("what is passed on is received below")):
+            (claim("the transmitted force is received below")):
                 (f.transmitted)((f.force)(n.clone(), w), w) => (f.force)(n.clone() + &P::one(), w),
         });
     }

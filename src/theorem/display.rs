@@ -1,4 +1,4 @@
-//! Theorems and proofs for people to follow.
+//! Theorems and proofs as text for people.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -6,10 +6,10 @@ use core::fmt;
 
 use super::{Proof, Relation, Step, Theorem};
 
-/// Columns of a terminal.
+/// The width of a terminal, in columns.
 const WIDTH: usize = 100;
 
-/// A theorem with its proof: the statement, and for every step the two sides and their difference.
+/// A theorem with its proof: the statement, and the two sides of every step with their difference.
 ///
 /// # Examples
 /// ```
@@ -27,7 +27,7 @@ pub struct Listing<'a, F: 'static = super::Formulas> {
     pub theorem: &'a Theorem<F>,
     /// Its proof.
     pub proof: &'a Proof,
-    /// Whether to print the whole derivation: hypotheses, symbols, each side on a line.
+    /// True for the whole derivation: hypotheses, symbols, and each side on its own line.
     pub whole: bool,
 }
 
@@ -59,7 +59,7 @@ impl<F> fmt::Display for Listing<'_, F> {
     }
 }
 
-/// `claim:  left = right,  difference 0`.
+/// Writes `claim:  left = right,  difference 0`.
 fn write_line(f: &mut fmt::Formatter<'_>, step: &Step) -> fmt::Result {
     let (sign, failure) = (
         sign(step.relation),
@@ -75,7 +75,7 @@ fn write_line(f: &mut fmt::Formatter<'_>, step: &Step) -> fmt::Result {
     )
 }
 
-/// A step on four lines.
+/// Writes a step on four lines.
 fn write_step(f: &mut fmt::Formatter<'_>, step: &Step) -> fmt::Result {
     let verdict = match (step.holds(), step.relation) {
         (true, Relation::Equal) => "the zero polynomial: holds for all values",
@@ -95,7 +95,7 @@ fn sign(relation: Relation) -> char {
     }
 }
 
-/// A paragraph, indented and broken at spaces.
+/// Writes a paragraph, indented and broken at spaces.
 fn write_wrapped(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

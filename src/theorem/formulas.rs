@@ -1,4 +1,4 @@
-//! The formulas that theorems are about, each replaceable by a wrong one.
+//! The formulas of the theorems, each replaceable by a wrong one.
 
 use crate::formula;
 use crate::geometry;
@@ -6,21 +6,22 @@ use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign, count};
 use crate::scalar::{Algebra, Polynomial};
 
-/// By direction α, β, γ; of bounds, those of i, j and i+j.
+/// Three values: for the directions α, β, γ, or for the bounds of i, j and i+j.
 type Three<P> = [P; 3];
-/// ê_a, ê_b, ê_c.
+/// The unit vectors ê_a, ê_b, ê_c.
 type Directions<P> = [Vector<P>; 3];
-/// From i, j, lower and upper bounds, steps and their sign: four numbers for each line.
+/// A function of i, j, lower and upper bounds, the number of steps and their sign. It returns four numbers for each
+/// line.
 type BoundsAbove<P> = fn(&P, &P, &Three<P>, &Three<P>, &P, Sign) -> [[P; 4]; 3];
-/// From forces and directions below, those above, and the weight.
+/// A function of the forces and directions below, the forces and directions above, and the weight.
 type Unbalanced<P> = fn(&Three<P>, &Directions<P>, &Three<P>, &Directions<P>, &P) -> Vector<P>;
 
-/// The formulas of the crate, run on polynomials, which prove, or on any scalar `P` that is its own ring of numerators: what
-/// each one means is said where it links to.
+/// The formulas of the crate. On polynomials they prove theorems. They also run on any scalar `P` that is its own ring
+/// of numerators. Each field links to the meaning of its formula.
 ///
-/// They are exactly the functions that engines and answers call: a test reads the sources for it.
-// Not `non_exhaustive`: other crates build changed ones, `Formulas { weight, ..Formulas::LIBRARY }`, which that would forbid.
-// Write them with `..`, and a formula more breaks nothing.
+/// Engines call exactly these functions. A test checks this in the source code.
+// Not `non_exhaustive`, because other crates build changed values, `Formulas { weight, ..Formulas::LIBRARY }`, and the
+// attribute would forbid this. With `..`, such code also compiles after a formula is added.
 #[derive(Debug)]
 pub struct Formulas<P = Polynomial> {
     /// [`count::above`].
@@ -73,7 +74,7 @@ pub struct Formulas<P = Polynomial> {
     pub beside: fn(P, &P, &P, Sign) -> P,
 }
 
-// Derived, they would ask it of P.
+// Not derived, because a derived implementation would require `P: Clone`.
 impl<P> Clone for Formulas<P> {
     fn clone(&self) -> Self {
         *self
@@ -82,9 +83,9 @@ impl<P> Clone for Formulas<P> {
 
 impl<P> Copy for Formulas<P> {}
 
-/// The formulas of a crate, as its engines call them.
+/// A set of formulas with the functions of the crate.
 pub trait Library {
-    /// The functions that engines and answers call.
+    /// The functions that engines call.
     const LIBRARY: Self;
 }
 
@@ -93,7 +94,7 @@ impl<P: Algebra<Numerator = P>> Library for Formulas<P> {
 }
 
 impl<P: Algebra<Numerator = P>> Formulas<P> {
-    /// The functions that engines and answers call.
+    /// The functions that engines call.
     pub const LIBRARY: Self = Self {
         above: count::above,
         bounds_above: count::bounds_above,

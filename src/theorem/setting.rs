@@ -1,4 +1,4 @@
-//! Symbols, sums over piles, and what a pile is made of, for the proofs.
+//! Symbols, sums over piles, and the constants of a pile, for the proofs.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -11,25 +11,25 @@ use crate::scalar::{Algebra, Polynomial, Ring, Symbol, TWO};
 
 pub type P = Polynomial;
 
-/// A symbol as a polynomial.
+/// Returns a symbol as a polynomial.
 #[must_use]
 pub fn symbol(name: &'static str) -> P {
     Symbol(name).into()
 }
 
-/// An integer as a polynomial.
+/// Returns an integer as a polynomial.
 #[must_use]
 pub fn int(n: i128) -> P {
     P::from_i128(n)
 }
 
-/// 1/2.
+/// Returns 1/2.
 #[must_use]
 pub fn half() -> P {
     int(1).div_int(TWO)
 }
 
-/// A pile of L layers with sin φ = s, as its formulas give it.
+/// The constants of a pile of L layers with sin φ = s, from its formulas.
 pub struct Setting {
     /// sin φ.
     pub s: P,
@@ -40,19 +40,19 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Any sin φ: the symbol s.
+    /// Returns the constants for any sin φ: the symbol s.
     #[must_use]
     pub fn isosceles(f: &Formulas) -> Self {
         Self::with_sin_phi(f, symbol("s"))
     }
 
-    /// s = 1/2.
+    /// Returns the constants for s = 1/2.
     #[must_use]
     pub fn equilateral(f: &Formulas) -> Self {
         Self::with_sin_phi(f, half())
     }
 
-    /// The pile of discs: s = 0, in its own directions.
+    /// Returns the constants of the pile of discs: s = 0, with the directions of discs.
     #[must_use]
     pub fn discs(f: &Formulas) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl Setting {
         }
     }
 
-    /// The forces from above on a sphere with so many above it on its lines.
+    /// Returns the forces from above on a sphere, from the number of spheres above on each line.
     #[must_use]
     pub fn received(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
         let [w_a, w_b, w_c] = &self.increments;
@@ -82,32 +82,32 @@ impl Setting {
         ]
     }
 
-    /// What a sphere passes on of the forces from above.
+    /// Returns the forces that a sphere transmits below, from the forces from above.
     #[must_use]
     pub fn to_below(&self, f: &Formulas, from_above: [P; 3]) -> [P; 3] {
         transmitted(f, from_above, &self.increments)
     }
 
-    /// What a sphere of weight `n` adds to its lines, and that weight in the unit of forces.
+    /// Returns the increments of a sphere of weight `n`, and the weight in the unit of forces.
     #[must_use]
     pub fn loaded(&self, f: &Formulas, n: &P) -> ([P; 3], P) {
         let own = self.received(f, &[n.clone(), n.clone(), n.clone()]);
         (own, (f.force)(n.clone(), &self.weight))
     }
 
-    /// The unit vectors along contacts under − steps.
+    /// Returns the unit vectors along contacts under − steps.
     #[must_use]
     pub fn turned_directions(&self, f: &Formulas) -> [Vector<P>; 3] {
         self.directions.clone().map(f.turned_about_z)
     }
 
-    /// What a sphere with so many above it on its lines hands on, by the forces from above and its weight.
+    /// Returns the load of a sphere on its supports, from the number of spheres above on each line and its weight.
     #[must_use]
     pub fn support_load(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
         (f.support_load)(&self.received(f, above), &self.directions, &self.weight)
     }
 
-    /// What is left over of all forces on such a sphere.
+    /// Returns the sum of all forces on such a sphere.
     #[must_use]
     pub fn unbalanced(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
         let from_above = self.received(f, above);
@@ -116,7 +116,7 @@ impl Setting {
         (f.unbalanced)(&to_below, e, &from_above, e, &self.weight)
     }
 
-    /// The squared horizontal length of a vector, over sin²θ: x² + 4(1−s²)·y².
+    /// Returns the squared horizontal length of a vector, over sin²θ: x² + 4(1−s²)·y².
     #[must_use]
     pub fn horizontal_square(&self, v: &Vector<P>) -> P {
         let across = int(4) * &(P::one() - &(self.s.clone() * &self.s));
@@ -124,7 +124,7 @@ impl Setting {
     }
 }
 
-/// What a sphere passes on along its three lines, from what it receives and adds.
+/// Returns the forces that a sphere transmits along its three lines, from the received forces and its increments.
 #[must_use]
 pub fn transmitted(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
     let [own_a, own_b, own_c] = own;
@@ -135,7 +135,7 @@ pub fn transmitted(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
     ]
 }
 
-/// One step for each component of two vectors.
+/// Returns one step for each component of two vectors.
 #[must_use]
 pub fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
     let sides = left.into_array().into_iter().zip(right.into_array());
@@ -145,20 +145,20 @@ pub fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step>
         .collect()
 }
 
-/// One step for each component: nothing is left over.
+/// Returns one step for each component of a vector, with the claim that it is zero.
 #[must_use]
 pub fn nothing_left(claim: &str, left: Vector<P>) -> Vec<Step> {
     by_component(claim, left, Vector::zero())
 }
 
-/// One step for each of three lines.
+/// Returns one step for each of three lines.
 pub fn by_line(claim: &str, left: [P; 3], right: [P; 3]) -> impl Iterator<Item = Step> {
     let sides = left.into_iter().zip(right);
     sides.map(move |(left, right)| Step::equal(claim, left, right))
 }
 
-/// The steps that say `claim: left => right`, the two sides being the same polynomial. A claim is a literal, or a text in
-/// parentheses.
+/// Returns the steps `claim: left => right`, where both sides are the same polynomial. A claim is a literal, or a text
+/// in parentheses.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! equations {
@@ -178,25 +178,25 @@ pub fn listed<const N: usize>(steps: [Step; N]) -> Vec<Step> {
     steps.into()
 }
 
-/// The counts of spheres above (i, j, k), all symbols.
+/// Returns the counts of spheres above (i, j, k), all symbols.
 #[must_use]
 pub fn above(f: &Formulas) -> [P; 3] {
     (f.above)(&symbol("i"), &symbol("j"), &symbol("k"))
 }
 
-/// The counts of spheres above (i, j) on the floor of L layers.
+/// Returns the counts of spheres above (i, j) on the floor of L layers.
 #[must_use]
 pub fn above_floor(f: &Formulas) -> [P; 3] {
     (f.above)(&symbol("i"), &symbol("j"), &last_layer())
 }
 
-/// L − 1.
+/// Returns L − 1.
 #[must_use]
 pub fn last_layer() -> P {
     symbol("L") - &P::one()
 }
 
-/// Σ over the sites (i, j) of layer `k`.
+/// Returns the sum over the sites (i, j) of layer `k`.
 #[must_use]
 pub fn sum_over_layer(p: &P, k: &P) -> P {
     let zero = P::zero();
@@ -204,19 +204,19 @@ pub fn sum_over_layer(p: &P, k: &P) -> P {
     row.sum(Symbol("j"), &zero, k)
 }
 
-/// Σ over the bottom layer of L layers.
+/// Returns the sum over the bottom layer of L layers.
 #[must_use]
 pub fn sum_over_base(p: &P) -> P {
     sum_over_layer(p, &last_layer())
 }
 
-/// Σ over all spheres of L layers, for a polynomial in i, j, k.
+/// Returns the sum over all spheres of L layers, for a polynomial in i, j, k.
 #[must_use]
 pub fn sum_over_pile(p: &P) -> P {
     sum_over_layers(p, &last_layer())
 }
 
-/// Σ over the spheres that do not touch the floor.
+/// Returns the sum over the spheres above the floor.
 #[must_use]
 pub fn sum_off_floor(p: &P) -> P {
     sum_over_layers(p, &(last_layer() - &P::one()))

@@ -1,4 +1,4 @@
-//! Theorems on stackings and regions of any kind: runs, changes of sign, point loads.
+//! Theorems on stackings and regions of any kind: runs, sign changes, point loads.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -30,7 +30,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "run",
         statement: "Within a run of one sign a line of contacts that carries f at its first sphere carries f + m w \
-                    after m spheres more, each of which passes on an increment w more than it receives: one jump is as \
+                    after m spheres more, each of which transmits an increment w more than it receives: one jump is as \
                     good as m steps, and what some spheres add besides may be added in any order; by induction",
         hypotheses: "m ≥ 0",
         method: ProofKind::Induction,
@@ -48,8 +48,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "change-of-sign",
-        statement: "Equilibrium at a change of sign: a sphere of weight n·mg that receives any forces g along the \
-                    directions of one sign, and passes on Gg + n(1, 1, 1) along those of the other, is in equilibrium, \
+        statement: "Equilibrium at a sign change: a sphere of weight n·mg that receives any forces g along the \
+                    directions of one sign, and transmits Gg + n(1, 1, 1) along those of the other, is in equilibrium, \
                     from + to − and from − to +; on an equilateral base; an identity",
         hypotheses: "s = 1/2; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
@@ -58,12 +58,13 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "edge",
-        statement: "Under + steps spheres on the edge i+j = s₀ of a layer receive nothing along β and γ, those on i = x₁ \
-                    nothing along γ and α, those on j = y₁ nothing along α and β, and under − steps those on the edges \
-                    opposite. The third line stays on the edge (theorem region-counts): so if its first sphere in a run \
-                    of m steps passes on f, the last receives f + m − 1 along it and nothing else. If the sign changes \
-                    there, it passes on 1 − (f+m−1)/3 along it, a third of 4 − f − m: of −(1+f+p) if m = 5+p. So (in \
-                    words) no run of five steps or more, after which the sign changes, stands; an identity",
+        statement: "Under + steps spheres on the edge i+j = s₀ of a layer receive nothing along β and γ, those on i = \
+                    x₁ nothing along γ and α, those on j = y₁ nothing along α and β, and under − steps those on the \
+                    edges opposite. The third line stays on the edge (theorem region-counts): so if its first sphere \
+                    in a run of m steps transmits f, the last receives f + m − 1 along it and nothing else. If the \
+                    sign changes there, it transmits 1 − (f+m−1)/3 along it, a third of 4 − f − m: of −(1+f+p) if m = \
+                    5+p. So (in words) no run of five steps or more, after which the sign changes, is stable; an \
+                    identity",
         hypotheses: "f ≥ 0, m ≥ 1, p ≥ 0, weights of mg",
         method: ProofKind::Identity,
         symbols: "f, i, j, m, p, x_0, x_1, y_0, y_1, s_0, s_1",
@@ -74,11 +75,11 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "A unit load on a wide flat top, in any stacking: at depth n the vertical parts v of the contact \
                     forces have Σv = 1, Σv² = 1/3, Σv r = 0 and Σv r² = n²ρ², r from the load's line to the lower \
                     sphere, ρ = 2R sinθ. The first layer has them, under either sign. With d the horizontal step of a \
-                    contact, Σv, Σv² and Σv d of the contacts below any sphere are those of the contacts above it, while \
-                    C = Σv r·d grows by ρ²Σv and Σv r² by 2C + ρ²Σv, whatever the two signs are: so (in words) C = nρ² \
-                    and Σv r² = n²ρ². Spheres pass on the sum of what two loads bring, and a weight is a load: so (in \
-                    words, by summing over the spheres) under gravity, of every stacking and base, ΣF_z is the weight, \
-                    ΣF_z r_b = Σ mg r_s and ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ); by induction",
+                    contact, Σv, Σv² and Σv d of the contacts below any sphere are those of the contacts above it, \
+                    while C = Σv r·d grows by ρ²Σv and Σv r² by 2C + ρ²Σv, whatever the two signs are: so (in words) C \
+                    = nρ² and Σv r² = n²ρ². Spheres transmit the sum of the forces of two loads, and a weight is a \
+                    load: so (in words, by summing over the spheres) under gravity, of every stacking and base, ΣF_z \
+                    is the weight, ΣF_z r_b = Σ mg r_s and ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ); by induction",
         hypotheses: "s = 1/2",
         method: ProofKind::Induction,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3, x, y",
@@ -88,7 +89,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
 
 const SIGNS: [(&str, Sign); 2] = [("+", Sign::Plus), ("−", Sign::Minus)];
 
-/// How far a site is inside the bounds: from x₁, y₁, s₁, x₀, y₀, s₀.
+/// Returns the distances of a site from the bounds x₁, y₁, s₁, x₀, y₀, s₀.
 fn distances(i: &P, j: &P, lower: &[P; 3], upper: &[P; 3]) -> [P; 6] {
     let ([x0, y0, s0], [x1, y1, s1]) = (lower, upper);
     let sum = i.clone() + j;
@@ -102,7 +103,7 @@ fn distances(i: &P, j: &P, lower: &[P; 3], upper: &[P; 3]) -> [P; 6] {
     ]
 }
 
-/// Which of the [`distances`] are the arguments of a line.
+/// Returns the indices of the [`distances`] that are the arguments of a line.
 const fn arguments(sign: Sign, direction: Direction) -> [usize; 3] {
     match (sign, direction) {
         (Sign::Plus, Direction::Alpha) => [0, 1, 2],
@@ -150,7 +151,7 @@ fn region_counts(f: &Formulas) -> Vec<Step> {
             }
         }
     }
-    // The paper's pile, 0 ≤ i, j, i+j ≤ k: each argument is N and something that is not negative.
+    // The paper's pile, 0 ≤ i, j, i+j ≤ k: each argument is N plus a nonnegative term.
     let k = symbol("k");
     let (none, all) = ([(); 3].map(|()| P::zero()), [(); 3].map(|()| k.clone()));
     let bounds = (f.bounds_above)(&i, &j, &none, &all, &k, Sign::Plus);
@@ -243,7 +244,7 @@ fn edge(f: &Formulas) -> Vec<Step> {
         ];
         for (direction, (i, j)) in Direction::ALL.into_iter().zip(edges) {
             let bounds = (f.bounds_above)(&i, &j, lower, upper, &m, sign);
-            // Where the distance to that edge stands among the arguments of the other two lines.
+            // The index of the distance to that edge among the arguments of the other two lines.
             let others = match direction {
                 Direction::Alpha => [(1, 3), (2, 3)],
                 Direction::Beta => [(0, 1), (2, 2)],
@@ -273,7 +274,7 @@ fn edge(f: &Formulas) -> Vec<Step> {
         let long = tripled.substitute(Symbol("m"), &(int(5) + &p));
         steps.extend(equations! {
             (format!("{direction}: f + m − 1 at the end of the run")): received => sum.clone(),
-            (format!("{direction}: 1 − (f+m−1)/3 passed on")):
+            (format!("{direction}: 1 − (f+m−1)/3 transmitted")):
                 passed => P::one() - &sum.div_int(THREE),
             (format!("{direction}: three times that is 4 − f − m")):
                 tripled => int(4) - &force - &m,
@@ -283,14 +284,14 @@ fn edge(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-/// Σ of what three contacts give.
+/// Returns a sum over three contacts.
 fn sum(forces: &[P; 3], of: impl Fn(usize) -> P) -> P {
     let terms = forces.iter().enumerate();
     let terms = terms.map(|(line, force)| of(line) * force);
     terms.fold(P::zero(), |sum, term| sum + &term)
 }
 
-/// The product of two horizontal vectors, in ρ².
+/// Returns the scalar product of two horizontal vectors, in ρ².
 fn dot(a: &Vector<P>, b: &Vector<P>) -> P {
     a.x.clone() * &b.x + &(int(3) * &(a.y.clone() * &b.y))
 }
@@ -299,7 +300,7 @@ fn horizontal([x, y]: [P; 2]) -> Vector<P> {
     Vector { x, y, z: P::zero() }
 }
 
-/// What a loaded sphere adds to its lines, in the unit of the load: W = 3.
+/// Returns the steps for the increments of a loaded sphere, in the unit of the load: W = 3.
 fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<Step> {
     let third = P::one().div_int(THREE);
     let v = increments.clone().map(|w| w.div_int(THREE));
@@ -358,7 +359,7 @@ fn point_load(f: &Formulas) -> Vec<Step> {
                     sum(&passed, |line| dot(&lower(line), &lower(line)))
                         => sum(&g, |_| dot(&r, &r)) + &(int(2) * &c) + &whole,
             };
-            // Where the sign does not change, sums of the same terms say nothing.
+            // Without a sign change, the first four sums have the same terms on both sides and prove nothing.
             let kept = if above == below { 4 } else { 0 };
             steps.extend(claims.into_iter().skip(kept));
         }

@@ -60,7 +60,7 @@ const SUBJECTS: [(&str, &str); 29] = [
     ("region-counts", "Any base under straight steps"),
     ("run", "carries f + m w after m spheres more"),
     ("tripled-half-turn", "are 3Gg"),
-    ("change-of-sign", "Equilibrium at a change of sign"),
+    ("change-of-sign", "Equilibrium at a sign change"),
     ("edge", "no run of five steps or more"),
     ("point-load", "Σv r² = n²ρ²"),
 ];
