@@ -22,8 +22,8 @@
 //! * The choice of the equations. They are those of the paper, written out in each statement.
 //! * Properties that are not polynomial. Overlap and rounding have their own exact tests.
 //! * The conversion of the input to counts i, j, k. Exhaustive tests cover piles of up to 40 layers.
-//! * The bookkeeping of the engines: the spheres on each line and the storage of the numbers. The engines pass their data
-//!   to these functions. Tests compare the engines with each other and with an oracle.
+//! * The bookkeeping of the engines: the spheres on each line and the storage of the numbers. The engines pass their
+//!   data to these functions. Tests compare the engines with each other and with an oracle.
 //!
 //! # Faults
 //! A proof that cannot fail proves nothing. So every theorem takes the [`Formulas`] of its subject as an argument.

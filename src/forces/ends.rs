@@ -63,11 +63,11 @@ impl Forces<'_, BigRational> {
             if plan.method == Method::Sweep {
                 let mut sweep = shortest_exact_sweep(lines, &terms.system, floor)?;
                 sweep.advance(floor, Meter::NONE)?;
-                // Image spheres have the same normal force and the same magnitude of shear.
+                // Symmetric images have the same normal force and the same magnitude of shear, so one part is enough.
                 let part = sweep.part()?;
                 let mut screen = Screen::new((terms, &sweep), across);
                 if let Some(screen) = &mut screen {
-                    // A sample of rows comes first, so that later rows exceed few of its extremes.
+                    // A sample of rows comes first. Then few spheres of the other rows exceed its extremes.
                     for row in part.rows(floor).step_by(16) {
                         screen.candidates(row)?;
                     }
@@ -79,7 +79,7 @@ impl Forces<'_, BigRational> {
                         None => row.into_iter().collect(),
                     };
                     for site in sites {
-                        // In a symmetric base most spheres can be extreme.
+                        // On a uniform base most spheres are extreme, so repeated values are skipped.
                         let alike = match last {
                             Some(last) => sweep.are_alike([last, site])?,
                             None => false,

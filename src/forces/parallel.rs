@@ -284,7 +284,7 @@ mod tests {
         assert_eq!(floor.count(), 0);
     }
 
-    /// The layers are too many to split off a consumer for one after the other.
+    /// The pile has too many layers to split the consumer once for each.
     #[test]
     fn a_first_item_of_a_sweep_is_found() {
         let pile = Pile::under(
