@@ -1,33 +1,39 @@
-//! Measured contact forces, compared with the exact ones of a pile: whether a simulation got it right.
+//! Comparison of measured contact forces with the exact forces of a pile, to verify a simulation.
 //!
-//! What is measured is a list of pairs of spheres with the force between them, [`Measured`]: from a file ([`read`]: a
-//! csv table, or what LAMMPS writes as `dump local`), or straight from a simulation. A [`Comparison`] holds it against a
-//! [`Packing`](cannonpile::Packing), contact by contact.
+//! A measurement is a list of pairs of spheres with the force between them ([`Measured`]). It comes straight from a
+//! simulation, or from a file ([`read`]): a csv table, or the `dump local` file of LAMMPS. A [`Comparison`] compares
+//! the list with a [`Packing`](cannonpile::Packing), contact by contact.
 //!
-//! # What is compared
-//! Spheres are numbered from 1, in row order from the top, as `cannonpile spheres` prints them. A force is in the units of
-//! the packing, N for sizes in SI; positive is push. A vector is the force **on the first** of the two spheres. So it is
-//! in LAMMPS: `force` of `compute pair/local` is positive for repulsion, and `fx fy fz` act on `patom1` of
-//! `compute property/local`, whichever of the two has the greater id.
+//! # Conventions
+//! Spheres are numbered from 1, in row order from the top, as `cannonpile spheres` prints them. A force is in the units
+//! of the packing: newtons if sizes are in SI. Compressive forces are positive. A vector is the force **on the first**
+//! of the two spheres. LAMMPS follows the same conventions: `force` of `compute pair/local` is positive for repulsion.
+//! `fx fy fz` act on `patom1` of `compute property/local`, whichever of the two has the greater id.
 //!
-//! * The exact force is rounded once, to the nearest `f64`, and compared with the `f64` measured: an error of 0 means that
-//!   all bits agree, and no other is reported as 0. A relative error is itself right to a few units of 2⁻⁵³.
-//! * The error of a contact is |f − f₀|/|f₀|, f measured, f₀ exact; with a vector the greater of that and
-//!   |**F** − **F**₀|/|f₀|. So a force that is turned has an error, and so has a magnitude that is not that of its vector.
-//!   Pull (a negative force) is a difference like any other.
-//! * A contact whose exact force is 0 may be measured or not. The error of what is measured there is relative to the
+//! # Comparison
+//!
+//! * The exact force is correctly rounded to `f64`, then compared with the measured `f64`. An error of 0 means that all
+//!   bits agree; every other error is reported as positive. A relative error is itself accurate to a few units of 2⁻⁵³.
+//! * The relative error of a contact is |f − f₀|/|f₀|, with f measured and f₀ exact. If vectors were measured, the
+//!   error is the greater of this and |**F** − **F**₀|/|f₀|. So a rotated force has an error, and so has a magnitude
+//!   that disagrees with its vector. A tensile force is negative; its error follows the same formula.
+//! * A contact whose exact force is 0 may be absent from the list. If it was measured, its error is relative to the
 //!   largest exact force of the pile.
-//! * A contact whose exact force is not 0 and that is not in the list, or is there with a force of 0, is missing.
-//! * A pair that is no contact of the pile is extra if it has a force over the accepted error times the largest exact
-//!   force; below that it is noise. This goes for neighbours that touch besides the contacts too, as in a layer at a = R.
-//! * Two spheres of the bottom layer are fixed: such pairs are counted, and not judged.
-//! * Where all measured forces are the exact ones times one factor, that factor is named: 9.81 for a simulation with
-//!   another gravity, −1 for forces with the other sign.
+//! * A contact is missing if its exact force is not 0, and the list lacks it or gives a force of 0.
+//! * A pair without a contact in the pile is extra if its force exceeds the accepted error times the largest exact
+//!   force. A smaller force is noise. The same holds for neighbours that touch without being contacts, as in a layer at
+//!   a = R.
+//! * The spheres of the bottom layer are fixed: pairs of two of them are counted, but not judged.
+//! * If all measured forces are the exact ones times one factor, the report names this factor. A factor of 9.81 means
+//!   different gravity, and −1 means the opposite sign convention.
 //!
 //! # Other codes' tables
-//! A [`Reader`] compares a file while it reads it: columns of any names ([`Columns`]), of known codes ([`Preset`]), contacts by
-//! the numbers of the spheres or by where they are, in whatever [`Frame`]. [`Comparison::findings`] says what differences have
-//! in common, [`Unbalanced`] what is left on each sphere, a [`RefinementStudy`] the observed order of accuracy of several runs.
+//! A [`Reader`] compares a file while it reads it. [`Columns`] maps columns of any names, and a [`Preset`] holds the
+//! columns of a known code. Contacts are matched by the numbers of the spheres, or by position in any [`Frame`].
+//!
+//! # Diagnosis
+//! [`Comparison::findings`] explains the differences. [`Unbalanced`] is the residual force on each sphere. A
+//! [`RefinementStudy`] yields the observed order of accuracy of several simulations.
 //!
 //! # Examples
 //! A test of a simulation in three lines:
@@ -46,7 +52,7 @@
 //! assert!(comparison.accepted(1e-6), "{comparison}");
 //! # Ok::<(), cannonpile_dem::verify::Refusal>(())
 //! ```
-//! A DEM in Rust tests itself with `cannonpile-dem = "0.1"` among its `[dev-dependencies]`:
+//! A DEM code in Rust can test itself with `cannonpile-dem = "0.1"` among its `[dev-dependencies]`:
 //! ```
 //! use cannonpile_dem::verify::{Comparison, Measured};
 //! use cannonpile::{Packing, Pile};

@@ -10,9 +10,10 @@ use super::ticks::digits;
 
 /// Draws the errors of a refinement study over its parameter, on logarithmic axes.
 ///
-/// Each level has a disc for the largest error and a square for the rms error. A line shows the fitted order, over the levels
-/// above the round-off floor. Glyphs of levels on the floor, or with other contacts, are hollow. A dashed line shows the
-/// largest errors that spring theory predicts. The triangle has slope 1. Errors that are 0 or infinite are left out.
+/// A disc shows the largest error of a level, and a square shows its rms error. A line shows the fitted order, over the
+/// levels above the round-off floor. Glyphs are hollow for levels on the floor, and for levels with missing or extra
+/// contacts. A dashed line shows the largest errors that spring theory predicts. The triangle has slope 1. Errors that
+/// are 0 or infinite are left out.
 ///
 /// # Examples
 /// ```
@@ -202,7 +203,7 @@ fn named(norm: Norm, fit: Option<&Fit>) -> String {
     };
     let order = format!("{error}, order {:.3}", fit.order).replace('-', "−");
     match fit.standard_error {
-        // Of levels that are on a line but for their last digits.
+        // A standard error below this only reflects rounding of the last digits, so it is not shown.
         Some(error) if error >= 5e-4 => format!("{order} ± {}", digits(error, 1)),
         _ => order,
     }

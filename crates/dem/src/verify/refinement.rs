@@ -1,24 +1,30 @@
-//! A refinement study of simulations of one pile: its errors at several stiffnesses or time steps, and the order in which they vanish.
+//! A refinement study: the errors of several simulations of one pile, and the order at which they vanish.
 //!
-//! A code whose errors fall is not yet right: they must fall to 0, and as fast as its method says. With the exact
-//! forces known, both are seen from a few simulations that differ in nothing but a parameter h.
+//! Falling errors alone do not show that a code is correct. They must fall to 0, at the order of the method. The exact
+//! forces show both from a few simulations that differ in one parameter only.
 //!
-//! * h = 1/k of a [stiffness](Refinement::Stiffness) k, h = Δt of a [time step](Refinement::TimeStep) Δt. Levels go from
-//!   the coarsest, with the greatest h, to the finest.
-//! * The error of a level is the largest relative error of its contacts, or the root of their mean square
-//!   ([`Norm`]): those of its [`Comparison`].
-//! * The order observed between neighbouring levels is p = ln(e₁/e₂)/ln(h₁/h₂). That of the refinement study is the slope of the
-//!   line ln e = ln C + p ln h through the levels above the floor ([`Fit`]).
-//! * What the error would be at h → 0 is e∞ of e = e∞ + C hᵖ ([`Limit`]): 0, as far as it is known, for a code that
-//!   solves the problem it says.
+//! * The refinement parameter is h = 1/k for a [stiffness](Refinement::Stiffness) k, and h = Δt for a
+//!   [time step](Refinement::TimeStep) Δt. Levels are sorted from the coarsest, with the greatest h, to the finest.
+//! * The error of a level comes from its [`Comparison`]: the largest relative error of its contacts, or the root mean
+//!   square ([`Norm`]).
+//! * The observed order between neighbouring levels is p = ln(e₁/e₂)/ln(h₁/h₂). The order of the whole study is the
+//!   slope of the line ln e = ln C + p ln h through the levels above the floor ([`Fit`]).
+//! * The extrapolated error for h → 0 is e∞ in e = e∞ + C hᵖ ([`Limit`]). For a correct code it is 0 within its
+//!   standard error.
 //!
-//! # The floor
-//! An error falls until something else is greater: rounding, an iteration that stops early, a force that should not be
-//! there. Which levels are above that floor is decided by one rule ([`LevelPlace`]). It begins behind the first level, from the
-//! coarsest on, from which no finer one falls with an order of ½ or more, nor, from the third level on, of ⅔ or more of the
-//! order with which errors fell from the coarsest down to it. Of this level and the next one the lesser error is the height
-//! of the floor: coarser levels with less than three times that are near enough to be on it too, as long as two are left. So
-//! a method of an order below ½ is taken for one that does not converge.
+//! # The error floor
+//! An error falls until another error dominates: rounding, an iteration that stops early, a spurious force. One rule
+//! decides which levels are above this floor ([`LevelPlace`]).
+//!
+//! * Each level has a threshold: an order of ½. From the third level on, it is at least ⅔ of the order observed from
+//!   the coarsest level to this one.
+//! * The floor begins after the first level, from the coarsest on, from which no finer level reaches the threshold. If
+//!   this is the finest level, the study has no floor.
+//! * The height of the floor is the smaller error of this level and the next one.
+//! * Levels just above the floor are on it too if their errors are less than three times its height. The two coarsest
+//!   levels always stay above the floor, unless it begins before the second one.
+//!
+//! So the rule treats a method of an order below ½ as not converging.
 
 mod files;
 mod fit;
@@ -35,20 +41,20 @@ use core::fmt;
 
 use super::comparison::Comparison;
 
-/// The most levels of a refinement study.
+/// The largest number of levels of a refinement study.
 pub const MAX_LEVELS: usize = 1000;
 
-/// What is refined from level to level.
+/// The parameter that changes from level to level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refinement {
-    /// The stiffness k of the springs: h = 1/k.
+    /// The spring stiffness k: h = 1/k.
     Stiffness,
     /// The time step Δt: h = Δt.
     TimeStep,
 }
 
 impl Refinement {
-    /// The name of the parameter, as a column: `stiffness` or `timestep`.
+    /// Returns the name of the parameter, as in columns: `stiffness` or `timestep`.
     ///
     /// # Examples
     /// ```
@@ -64,7 +70,7 @@ impl Refinement {
         }
     }
 
-    /// The refinement parameter h of a stiffness or a time step.
+    /// Returns the refinement parameter h for a stiffness or a time step.
     ///
     /// # Examples
     /// ```
@@ -80,7 +86,7 @@ impl Refinement {
         }
     }
 
-    /// ln h, which no float is too great or too small for.
+    /// Returns ln h. The logarithm of the parameter never overflows, although 1/k may.
     fn ln_h(self, parameter: f64) -> f64 {
         match self {
             Self::Stiffness => -parameter.ln(),
@@ -89,21 +95,21 @@ impl Refinement {
     }
 }
 
-/// Which error of many contacts is meant.
+/// A norm of the errors of many contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Norm {
-    /// The largest.
+    /// The largest error.
     Largest,
-    /// The root of the mean square.
+    /// The root mean square of the errors.
     Rms,
 }
 
 impl Norm {
-    /// Both, in the order of tables.
+    /// Both norms, in the order of the columns in tables.
     pub const ALL: [Self; 2] = [Self::Largest, Self::Rms];
 
-    /// The name, as in tables: `largest` or `rms`.
+    /// Returns the name of the norm, as in tables: `largest` or `rms`.
     ///
     /// # Examples
     /// ```
@@ -120,7 +126,7 @@ impl Norm {
     }
 }
 
-/// A simulation of the study: its parameter, and what its comparison with the exact forces says.
+/// One simulation of a refinement study: its parameter, and the summary of its comparison with the exact forces.
 ///
 /// # Examples
 /// ```
@@ -134,25 +140,25 @@ impl Norm {
 pub struct Level {
     /// The stiffness or the time step, in the unit of the simulation.
     pub parameter: f64,
-    /// How many contacts the pile has.
+    /// The number of contacts of the pile.
     pub contacts: u64,
-    /// How many of them were measured.
+    /// The number of contacts that were measured.
     pub matched: u64,
-    /// How many have a force and were not measured.
+    /// The number of contacts with a force that were not measured.
     pub missing: u64,
-    /// How many pairs that are no contacts carry more than noise.
+    /// The number of pairs without a contact whose force is more than noise.
     pub extra: u64,
     /// The largest relative error.
     pub largest_error: f64,
-    /// The root of the mean square of the relative errors.
+    /// The root mean square of the relative errors.
     pub rms_error: f64,
-    /// What theory says that the largest error is, where there is one.
+    /// The largest relative error that theory predicts, if there is a prediction.
     pub predicted_error: Option<f64>,
 }
 
 impl Level {
-    /// The level of a comparison; pairs besides the contacts count as extra if they carry more than `tolerance` times the
-    /// largest exact force.
+    /// Returns the level of a comparison. A pair without a contact counts as extra if its force exceeds `tolerance`
+    /// times the largest exact force.
     ///
     /// # Examples
     /// ```
@@ -182,7 +188,7 @@ impl Level {
         }
     }
 
-    /// A level of which the errors are known, with all contacts measured.
+    /// Returns a level with known errors and all contacts measured.
     ///
     /// # Examples
     /// ```
@@ -210,8 +216,8 @@ impl Level {
         }
     }
 
-    /// Whether the simulated pile is the pile: something was measured, nothing is missing, nothing extra. Springs that are
-    /// too soft let a pile collapse, and its errors are then of another pile.
+    /// Returns whether the comparison covers the whole pile: some contacts were measured, none is missing and no pair
+    /// is extra. Soft springs can let a pile collapse; its errors are then those of another pile.
     ///
     /// # Examples
     /// ```
@@ -225,7 +231,7 @@ impl Level {
         self.matched > 0 && self.missing == 0 && self.extra == 0
     }
 
-    /// The error in a norm.
+    /// Returns the relative error in a norm.
     ///
     /// # Examples
     /// ```
@@ -243,21 +249,21 @@ impl Level {
     }
 }
 
-/// Where a level is, as the order of the refinement study sees it.
+/// The position of a level relative to the error floor. Only levels above it determine the order of the study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelPlace {
-    /// Above the floor: it counts.
+    /// Above the floor: the level counts.
     Above,
-    /// On the floor, where errors do not fall as they did: left out.
+    /// On the floor, where the error no longer falls: left out.
     Floor,
-    /// Contacts are missing or extra, or none was measured: left out.
+    /// Contacts are missing or pairs are extra, or none was measured: left out.
     Incomplete,
-    /// Its error is 0 or infinite, and has no logarithm: left out.
+    /// The error is 0 or infinite, so that it has no logarithm: left out.
     NoLogarithm,
 }
 
 impl LevelPlace {
-    /// The name, as in tables: `above`, `floor`, `incomplete` or `no logarithm`.
+    /// Returns the name, as in tables: `above`, `floor`, `incomplete` or `no logarithm`.
     ///
     /// # Examples
     /// ```
@@ -276,14 +282,13 @@ impl LevelPlace {
     }
 }
 
-/// Levels with different parameters, from the coarsest to the finest: a pile simulated at several stiffnesses or time
-/// steps.
+/// The levels of one pile, simulated at several stiffnesses or time steps, from the coarsest to the finest.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level, LevelPlace};
 ///
-/// // Errors of 5/k, and below them a floor of rounding that rises with k.
+/// // Errors of 5/k, above a floor of rounding that rises with k.
 /// let levels = [1e3, 1e4, 1e5, 1e6, 1e7].map(|k| {
 ///     let error = 5.0 / k + 1e-12 * k;
 ///     Level::of_errors(k, 30, error, error / 3.0)
@@ -302,11 +307,11 @@ pub struct RefinementStudy {
 }
 
 impl RefinementStudy {
-    /// The refinement study of some levels, in whatever order they come.
+    /// Returns the refinement study of these levels, which may come in any order.
     ///
     /// # Errors
-    /// [`NoRefinement`] for no levels or more than [`MAX_LEVELS`], a parameter that is not positive and normal or that is there
-    /// twice, and an error that is negative or no number.
+    /// [`NoRefinement`] for no levels or more than [`MAX_LEVELS`], and for an error that is negative or not a number.
+    /// The same error reports a parameter that is not positive and normal, or that occurs twice.
     ///
     /// # Examples
     /// ```
@@ -343,7 +348,7 @@ impl RefinementStudy {
                 }
             }
         }
-        // By the parameter itself: two that are next to each other may have one logarithm.
+        // Sorted by the parameter itself: two neighbouring floats may have the same logarithm.
         levels.sort_by(|a, b| match refinement {
             Refinement::Stiffness => a.parameter.total_cmp(&b.parameter),
             Refinement::TimeStep => b.parameter.total_cmp(&a.parameter),
@@ -355,10 +360,10 @@ impl RefinementStudy {
         }
     }
 
-    /// The refinement study with what theory says of the largest error at each parameter.
+    /// Returns the refinement study with the largest error that theory predicts at each parameter.
     ///
     /// # Errors
-    /// [`NoRefinement::Error`] for a prediction that is negative or no number.
+    /// [`NoRefinement::Error`] for a prediction that is negative or not a number.
     ///
     /// # Examples
     /// ```
@@ -377,7 +382,7 @@ impl RefinementStudy {
         Self::new(self.refinement, levels)
     }
 
-    /// What is refined.
+    /// Returns the parameter that changes from level to level.
     ///
     /// # Examples
     /// ```
@@ -392,7 +397,7 @@ impl RefinementStudy {
         self.refinement
     }
 
-    /// The levels, from the coarsest, with the greatest h, to the finest.
+    /// Returns the levels, from the coarsest, with the greatest h, to the finest.
     ///
     /// # Examples
     /// ```
@@ -408,8 +413,8 @@ impl RefinementStudy {
         &self.levels
     }
 
-    /// The orders observed: p = ln(e₁/e₂)/ln(h₁/h₂) of each level and the one before it. The first has none, nor has one
-    /// beside an error that is 0 or infinite.
+    /// Returns the observed order p = ln(e₁/e₂)/ln(h₁/h₂) of each level and the level before it. The first level has no
+    /// order. Levels next to an error that is 0 or infinite have none either.
     ///
     /// # Examples
     /// ```
@@ -436,7 +441,7 @@ impl RefinementStudy {
         core::iter::once(None).chain(between).collect()
     }
 
-    /// ln h and ln e, if the error has a logarithm.
+    /// Returns ln h and ln e, if the error has a logarithm.
     fn log(&self, level: &Level, norm: Norm) -> Option<Log> {
         let error = level.error(norm);
         (error > 0.0 && error.is_finite()).then(|| Log {
@@ -446,7 +451,7 @@ impl RefinementStudy {
     }
 }
 
-/// A point of the refinement study on logarithmic axes.
+/// A level as a point on logarithmic axes.
 #[derive(Clone, Copy, Debug)]
 struct Log {
     /// ln h.
@@ -456,34 +461,34 @@ struct Log {
 }
 
 impl Log {
-    /// The order with which the error falls from here to a finer level.
+    /// Returns the order at which the error falls from this level to a finer one.
     fn order_to(self, finer: Self) -> f64 {
         (self.e - finer.e) / (self.h - finer.h)
     }
 }
 
-/// Why there is no study: one line with the remedy.
+/// The reason why levels form no refinement study: one line with the remedy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoRefinement {
-    /// There is no level.
+    /// No level.
     Empty,
-    /// There are more than are read.
+    /// More levels than are accepted.
     TooMany {
-        /// The most that are.
+        /// The largest number of levels.
         limit: usize,
     },
-    /// A stiffness or a time step that cannot be one.
+    /// A stiffness or a time step that is not positive and normal.
     Parameter {
         /// The parameter.
         parameter: f64,
     },
-    /// Two levels have it.
+    /// Two levels with the same stiffness or time step.
     Twice {
         /// The parameter.
         parameter: f64,
     },
-    /// An error that cannot be one.
+    /// A relative error that is negative or not a number.
     Error {
         /// The error.
         error: f64,
@@ -520,7 +525,7 @@ fn check_parameter(parameter: f64) -> Result<(), NoRefinement> {
     }
 }
 
-/// A number that is there twice, of sorted ones.
+/// Returns the first number that occurs twice in a sorted sequence.
 fn repeated(sorted: impl Iterator<Item = f64>) -> Option<f64> {
     let mut before = None;
     for number in sorted {

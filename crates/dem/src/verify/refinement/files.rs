@@ -7,17 +7,17 @@ use std::path::PathBuf;
 use super::{MAX_LEVELS, NoRefinement, check_parameter, repeated};
 use crate::error::quoted;
 
-/// A file with the forces of a simulation, and its stiffness or time step.
+/// A file with the forces of one simulation, and its stiffness or time step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RefinementFile {
     /// The stiffness or the time step, positive.
     pub parameter: f64,
-    /// The file.
+    /// The path of the file.
     pub path: PathBuf,
 }
 
-/// The files of a refinement study: `K1=FILE1,K2=FILE2`, each with its stiffness or time step. A comma ends a file's name, and the
-/// first `=` begins it.
+/// The files of a refinement study, parsed from `K1=FILE1,K2=FILE2`: each file with its stiffness or time step. A file
+/// name begins after the first `=` and ends at a comma.
 ///
 /// # Examples
 /// ```
@@ -34,7 +34,7 @@ pub struct RefinementFile {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RefinementFiles(pub Vec<RefinementFile>);
 
-/// Why a list names no files of a refinement study: one line with the remedy.
+/// The reason why a list names no files of a refinement study: one line with the remedy.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoRefinementFiles {
@@ -43,17 +43,17 @@ pub enum NoRefinementFiles {
         /// The entry, shortened if it is long.
         entry: String,
     },
-    /// Nothing stands after the `=`.
+    /// An entry without a file after the `=`.
     NoFile {
         /// The entry, shortened if it is long.
         entry: String,
     },
-    /// Nothing that is a number stands before it.
+    /// An entry without a number before the `=`.
     NoNumber {
-        /// What does, shortened if it is long.
+        /// The text before the `=`, shortened if it is long.
         text: String,
     },
-    /// The parameters are of no refinement study.
+    /// The parameters do not form a refinement study.
     RefinementStudy(NoRefinement),
 }
 

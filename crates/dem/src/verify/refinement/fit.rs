@@ -1,19 +1,20 @@
-//! The line through the levels above the floor, on logarithmic axes.
+//! The fitted line through the levels above the floor, on logarithmic axes.
 
 use core::fmt;
 
 use super::{LevelPlace, Log, Norm, RefinementStudy};
 
-/// An error that falls with less than this order does not fall.
+/// The smallest order at which an error counts as falling.
 const MIN_ORDER: f64 = 0.5;
 
-/// What is left of the order so far, where the floor is not yet reached.
+/// The share of the order so far that the error must keep until the floor is reached.
 const KEPT_ORDER: f64 = 2.0 / 3.0;
 
-/// An error less than so many times that of the floor is partly of the floor.
+/// An error below this multiple of the floor is partly due to the floor.
 const NEAR: f64 = 3.0;
 
-/// The line e = C hᵖ through the levels above the floor: least squares of ln e = ln C + p ln h, each level counting alike.
+/// The fitted line e = C hᵖ through the levels above the floor: least squares of ln e = ln C + p ln h, with equal
+/// weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Fit {
@@ -30,8 +31,8 @@ pub struct Fit {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub order: f64,
-    /// The standard error of the order, √(Σr²/(n − 2)/Σ(ln h − mean)²) with the residuals r of n levels; none for two, which
-    /// every line goes through.
+    /// The standard error of the order, √(Σr²/(n − 2)/Σ(ln h − mean)²), with the residuals r of n levels. For two
+    /// levels it is not defined, because the line goes through both.
     ///
     /// # Examples
     /// ```
@@ -45,8 +46,8 @@ pub struct Fit {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub standard_error: Option<f64>,
-    /// C, the error at h = 1: for springs and p = 1 in the unit of the stiffness. Infinite or 0 where no float is near
-    /// to it.
+    /// The constant C, the error at h = 1. For springs and p = 1 it has the unit of the stiffness. It is infinite or 0
+    /// if the value overflows or underflows.
     ///
     /// # Examples
     /// ```
@@ -58,7 +59,8 @@ pub struct Fit {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub constant: f64,
-    /// The root of the mean square of ln e − ln(C hᵖ): 0.01 if the levels are some 1 % off the line.
+    /// The root mean square of ln e − ln(C hᵖ). A value of 0.01 means that the levels deviate from the line by about
+    /// 1%.
     ///
     /// # Examples
     /// ```
@@ -70,7 +72,7 @@ pub struct Fit {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub residual: f64,
-    /// How many levels are above the floor.
+    /// The number of levels above the floor.
     ///
     /// # Examples
     /// ```
@@ -85,7 +87,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// The error on the line at a refinement parameter h: C hᵖ.
+    /// Returns the error on the line at a refinement parameter h: C hᵖ.
     ///
     /// # Examples
     /// ```
@@ -101,7 +103,7 @@ impl Fit {
         self.constant * h.powf(self.order)
     }
 
-    /// The line through some points.
+    /// Returns the least-squares line through these points.
     fn through(points: &[Log]) -> Result<Self, NoOrder> {
         let few = NoOrder::Few {
             levels: points.len(),
@@ -138,7 +140,7 @@ impl Fit {
 }
 
 impl RefinementStudy {
-    /// Where each level is: which ones the order is taken from.
+    /// Returns the position of each level relative to the floor. The order is fitted to the levels above it.
     ///
     /// # Examples
     /// ```
@@ -172,10 +174,10 @@ impl RefinementStudy {
         places.collect()
     }
 
-    /// The line through the levels above the floor.
+    /// Returns the line through the levels above the floor.
     ///
     /// # Errors
-    /// [`NoOrder`] for fewer than two such levels, and for parameters so near to each other that no slope is seen.
+    /// [`NoOrder`] for fewer than two such levels, and for parameters too close to each other to show a slope.
     ///
     /// # Examples
     /// ```
@@ -184,7 +186,7 @@ impl RefinementStudy {
     /// let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 30, 4.8 / k, 0.01));
     /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
     /// assert!((study.fit(Norm::Largest)?.order - 1.0).abs() < 1e-12);
-    /// // These do not fall at all: all but the first are on the floor.
+    /// // These errors do not fall: all levels but the first are on the floor.
     /// assert_eq!(study.fit(Norm::Rms), Err(NoOrder::Few { levels: 1, least: 2 }));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -194,7 +196,7 @@ impl RefinementStudy {
         Fit::through(&points)
     }
 
-    /// The points of whole levels, or why there is none.
+    /// Returns for each level its point, or the reason why it is left out.
     fn logs(&self, norm: Norm) -> impl Iterator<Item = Result<Log, LevelPlace>> {
         self.levels().iter().map(move |level| {
             if level.is_whole() {
@@ -206,7 +208,7 @@ impl RefinementStudy {
     }
 }
 
-/// How many points are above the floor: see [`refinement`](super).
+/// Returns the number of points above the floor, by the rule in [`refinement`](super).
 fn above(points: &[Log]) -> usize {
     let last = points.iter().enumerate().position(|(n, from)| {
         let until_here = points.first().filter(|_| n >= 2);
@@ -230,30 +232,30 @@ pub(super) fn count(levels: usize) -> f64 {
     levels as f64
 }
 
-/// Why a refinement study has no order, or no limit: one line with the remedy.
+/// The reason why a refinement study has no order or no limit: one line with the remedy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoOrder {
     /// Too few levels.
     Few {
-        /// How many there are above the floor; for a limit, down to the least error.
+        /// The number of levels above the floor; for a limit, the number down to the smallest error.
         levels: usize,
-        /// How many it takes.
+        /// The number of levels that are required.
         least: usize,
     },
-    /// Parameters that differ by less than is seen.
+    /// Parameters too close to each other to show a slope.
     Alike,
-    /// Errors that do not fall from level to level down to the least of them.
+    /// Errors that do not fall from level to level down to the smallest one.
     Rising {
-        /// The stiffness or the time step of the level whose error is not below the one before.
+        /// The stiffness or the time step of the level whose error is not below that of the coarser level.
         parameter: f64,
     },
-    /// An error of 0 among those of which the limit is taken.
+    /// An error of 0 among the levels of the limit.
     Zero {
-        /// The stiffness or the time step of its level.
+        /// The stiffness or the time step of this level.
         parameter: f64,
     },
-    /// An order that cannot be one.
+    /// An order that is not positive and finite.
     Order {
         /// The order.
         order: f64,

@@ -1,25 +1,25 @@
-//! What is left of the error when nothing is left of the refinement parameter.
+//! The extrapolated error, in the limit of a vanishing refinement parameter.
 
 use super::fit::count;
 use super::{Level, LevelPlace, NoOrder, Norm, RefinementStudy};
 
-/// The error at h → 0, by the model e = e∞ + C hᵖ with a given order p: Richardson's extrapolation, by least squares.
+/// The error at h → 0: a least-squares fit of e = e∞ + C hᵖ with a given order p (Richardson extrapolation).
 ///
-/// It is of the whole levels from the coarsest to the one with the least error; what is finer than that is where rounding
-/// rises, and left out. A floor that stays, of rounding or of a force that should not be there, is in it: that is what e∞
-/// finds.
-/// Each error counts by its share: the sum of ((e∞ + C hᵖ − e)/e)² is the least. Three levels are the fewest.
+/// The fit uses the complete levels from the coarsest to the one with the smallest error. On finer levels rounding
+/// errors rise, so they are left out. A constant error stays in the data, such as a rounding floor or a spurious force:
+/// e∞ measures it. Residuals are relative: the fit minimises the sum of ((e∞ + C hᵖ − e)/e)². It needs at least three
+/// levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Limit {
-    /// The extrapolated error e∞. It may come out negative where it is 0 as far as is known: see
+    /// The extrapolated error e∞. A true value of 0 may yield a small negative number: see
     /// [`standard_error`](Self::standard_error).
     ///
     /// # Examples
     /// ```
     /// use cannonpile_dem::verify::{RefinementStudy, Norm, Refinement, Level};
     ///
-    /// // Every force a percent too great, besides the springs.
+    /// // Every force is one percent too great, in addition to the error of the springs.
     /// let levels = [1e2, 1e3, 1e4, 1e5].map(|k| Level::of_errors(k, 30, 0.01 + 5.0 / k, 1.0 / k));
     /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
     /// assert!((study.limit(Norm::Largest, 1.0)?.error - 0.01).abs() < 1e-12);
@@ -27,7 +27,7 @@ pub struct Limit {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub error: f64,
-    /// The standard error of e∞, from the residuals: e∞ is no other than 0 within some two of these.
+    /// The standard error of e∞, from the residuals. An e∞ within about two standard errors of 0 is consistent with 0.
     ///
     /// # Examples
     /// ```
@@ -39,7 +39,7 @@ pub struct Limit {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub standard_error: f64,
-    /// The order p that was given.
+    /// The given order p.
     ///
     /// # Examples
     /// ```
@@ -51,7 +51,7 @@ pub struct Limit {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub order: f64,
-    /// How many levels it is of.
+    /// The number of levels of the fit.
     ///
     /// # Examples
     /// ```
@@ -60,7 +60,7 @@ pub struct Limit {
     /// let errors = [(1e2, 0.06), (1e3, 0.015), (1e4, 0.0105), (1e5, 0.0107)];
     /// let levels = errors.map(|(k, error)| Level::of_errors(k, 30, error, error));
     /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
-    /// // The last has not the least error.
+    /// // The finest level does not have the smallest error.
     /// assert_eq!(study.limit(Norm::Largest, 1.0)?.levels, 3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -68,12 +68,12 @@ pub struct Limit {
 }
 
 impl RefinementStudy {
-    /// The error at h → 0 for an order p: 1 for the stiffness of linear springs, and else what is known of the method, or
-    /// the [order observed](super::Fit::order).
+    /// Returns the error at h → 0 for an order p. Use p = 1 for the stiffness of linear springs. For other parameters
+    /// use the known order of the method, or the [observed order](super::Fit::order).
     ///
     /// # Errors
-    /// [`NoOrder`] unless the order is positive, and of whole levels there are three down to the least error, with errors
-    /// that are not 0 or infinite and fall from each to the next.
+    /// [`NoOrder`] if the order is not positive and finite, if any complete level has an error of 0, or if fewer than
+    /// three complete levels lead down to the smallest error. Errors must also fall from each level to the next.
     ///
     /// # Examples
     /// ```
@@ -98,7 +98,7 @@ impl RefinementStudy {
                 let parameter = level.parameter;
                 return Err(NoOrder::Zero { parameter });
             }
-            // An infinite error is no larger error, it is none.
+            // An infinite error marks a level without a result, so it is left out.
             if place != LevelPlace::NoLogarithm {
                 levels.push(level);
             }
@@ -121,7 +121,7 @@ impl RefinementStudy {
         }
         let ln_h = |level: &Level| self.refinement().ln_h(level.parameter);
         let begin = ln_h(coarsest);
-        // Over the least error, and over the coarsest h: no float is left.
+        // Errors are relative to the smallest one, and h to the coarsest level, so that no term overflows.
         let terms = levels.iter().map(|level| {
             let error = level.error(norm);
             let share = least / error;
@@ -135,7 +135,7 @@ impl RefinementStudy {
             sum(|(_, b)| b * b),
         );
         let (a, b) = (sum(|(a, _)| a), sum(|(_, b)| b));
-        // The falling part without the share of the rest that is in it.
+        // The component of the falling term that is orthogonal to the constant term.
         let apart = bb - ab / aa * ab;
         let falling = (b - ab / aa * a) / apart;
         let rest = (a - falling * ab) / aa;

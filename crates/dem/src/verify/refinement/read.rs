@@ -1,4 +1,4 @@
-//! A refinement study read back from the json of its report.
+//! Reads a refinement study from the json of its report.
 
 use std::io::{self, ErrorKind, Read};
 
@@ -6,16 +6,17 @@ use serde_json::Value;
 
 use super::{Level, Refinement, RefinementStudy};
 
-/// The most bytes of a record that is read: 16 MiB.
+/// The largest size of a record in bytes: 16 MiB.
 const MAX_BYTES: u64 = 16 << 20;
 
 impl RefinementStudy {
-    /// Reads a refinement study from the json of a [`RefinementReport`](super::RefinementReport): an object with `refinement` and `levels`, or
-    /// an array of one. What else is in it is passed over; orders are found anew.
+    /// Reads a refinement study from the json of a [`RefinementReport`](super::RefinementReport): an object with
+    /// `refinement` and `levels`, or an array of one such object. Other entries are ignored, and orders are computed
+    /// again.
     ///
     /// # Errors
-    /// Those of the input; of the kind [`InvalidData`](ErrorKind::InvalidData) what is no such record, with the place, and
-    /// of the kind [`FileTooLarge`](ErrorKind::FileTooLarge) one of more than 16 MiB.
+    /// Errors of the input. The kind [`InvalidData`](ErrorKind::InvalidData) reports a record of another form, and
+    /// names the place. The kind [`FileTooLarge`](ErrorKind::FileTooLarge) reports more than 16 MiB.
     ///
     /// # Examples
     /// ```
@@ -78,7 +79,7 @@ impl RefinementStudy {
     }
 }
 
-/// The fields of a level, counted from 1.
+/// The entries of a level; levels are counted from 1.
 struct Fields<'v> {
     level: &'v Value,
     number: usize,
@@ -90,7 +91,7 @@ impl Fields<'_> {
         number.ok_or_else(|| self.missing(name, "a number"))
     }
 
-    /// An error, which is `null` where it is infinite.
+    /// Returns an error; `null` stands for infinity.
     fn error(&self, name: &str) -> io::Result<f64> {
         match self.level.get(name) {
             Some(Value::Null) => Ok(f64::INFINITY),

@@ -1,4 +1,4 @@
-//! A refinement study as tables, and as json.
+//! A refinement study as tables and as json.
 
 use std::io::Write;
 
@@ -7,17 +7,22 @@ use serde_json::{Value, json};
 use super::{Fit, Level, Limit, NoOrder, Norm, Refinement, RefinementStudy};
 use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 
-/// What a refinement study says.
+/// The report of a refinement study.
 ///
-/// As csv a level a row, from the coarsest: `stiffness` (or `timestep`), `contacts, matched, missing, extra, largest_error,
-/// rms_error, order, predicted_error, place`; `order` is that of the largest errors of this level and the one before, `place`
-/// says whether it is [above the floor](super::LevelPlace). As text the same, and below it a row for the
-/// largest errors and for the root of their mean square: `error, order, standard_error, constant, residual,
-/// extrapolated_error, extrapolated_standard_error, levels_used`, with a line for what is not known. As json an array of one
-/// object with `refinement`, the array `levels`, and the objects `largest` and `rms`, in which `no_order` and
-/// `no_limit` say why there is no order or no limit. An infinite number is `inf`, in json `null`.
+/// The csv has one row for each level, from the coarsest: `stiffness` (or `timestep`), `contacts, matched, missing,
+/// extra, largest_error, rms_error, order, predicted_error, place`. The column `order` is the observed order of the
+/// largest errors of this level and the one before. The column `place` tells whether the level is
+/// [above the floor](super::LevelPlace).
 ///
-/// The limit is taken with order 1 for stiffnesses, the order of linear springs, and with the observed order for time steps.
+/// The text has the same rows. Two more rows follow, for the largest errors and for the root mean square errors:
+/// `error, order, standard_error, constant, residual, extrapolated_error, extrapolated_standard_error, levels_used`. A
+/// line gives the reason for each value that is not available.
+///
+/// The json is an array of one object with `refinement`, the array `levels`, and the objects `largest` and `rms`. In
+/// these, `no_order` and `no_limit` are the reasons why there is no order or no limit. An infinite number is `inf`, in
+/// json `null`.
+///
+/// The extrapolation assumes order 1 for stiffnesses, as for linear springs. For time steps it uses the observed order.
 ///
 /// # Examples
 /// ```
@@ -37,7 +42,7 @@ use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 pub struct RefinementReport<'l>(&'l RefinementStudy);
 
 impl<'l> RefinementReport<'l> {
-    /// The report of a refinement study.
+    /// Returns the report of a refinement study.
     ///
     /// # Examples
     /// ```
@@ -55,7 +60,7 @@ impl<'l> RefinementReport<'l> {
         Self(study)
     }
 
-    /// Writes it.
+    /// Writes the report.
     ///
     /// # Errors
     /// [`WriteError::Io`].
@@ -99,7 +104,7 @@ impl<'l> RefinementReport<'l> {
         }
     }
 
-    /// The report as a json object: to be kept in a larger record.
+    /// Returns the report as a json object, which can be kept in a larger record.
     ///
     /// # Examples
     /// ```
@@ -219,7 +224,7 @@ impl<'l> RefinementReport<'l> {
     }
 }
 
-/// What is known of the errors in a norm; without an order of time steps there is no word on their limit.
+/// The results for one norm. The limit is absent if time steps show no order.
 struct Known {
     fit: Result<Fit, NoOrder>,
     limit: Option<Result<Limit, NoOrder>>,
