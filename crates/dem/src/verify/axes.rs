@@ -1,22 +1,22 @@
-//! The axes of a table, as those of a scene.
+//! The axes of a table in terms of the axes of the scene.
 
 use core::fmt;
 
-/// One of the three coordinates of a place or a vector.
+/// One of the three coordinates of a position or a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Coordinate {
-    /// The first.
+    /// The first coordinate.
     X,
-    /// The second.
+    /// The second coordinate.
     Y,
-    /// The third.
+    /// The third coordinate.
     Z,
 }
 
 impl Coordinate {
     const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
-    /// The one after it, x after z.
+    /// Returns the next coordinate, in cyclic order: x follows z.
     pub(super) const fn next(self) -> Self {
         match self {
             Self::X => Self::Y,
@@ -35,21 +35,21 @@ impl Coordinate {
     }
 }
 
-/// An axis of a table, as it is or reversed.
+/// An axis of a table, possibly reversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TableAxis {
-    /// The coordinate along it.
+    /// The coordinate along the axis.
     pub coordinate: Coordinate,
-    /// Whether it points the other way.
+    /// True if the axis points in the negative direction of this coordinate.
     pub is_reversed: bool,
 }
 
 impl TableAxis {
-    /// Returns the component of a vector along it.
+    /// Returns the component of a vector along this axis.
     fn of(self, vector: [f64; 3]) -> f64 {
         let component = self.coordinate.of(vector);
         if self.is_reversed {
-            // 0 stays 0, not −0.
+            // The subtraction keeps 0 from becoming −0.
             0.0 - component
         } else {
             component
@@ -66,7 +66,8 @@ impl From<Coordinate> for TableAxis {
     }
 }
 
-/// Which axes of a table are x, y and z of the scene, each as it is or reversed: one of 48.
+/// A signed permutation of the axes of a table: the three axes that are x, y and z of the scene. There are 48, mirror
+/// images included.
 ///
 /// # Examples
 /// ```
@@ -82,10 +83,10 @@ impl From<Coordinate> for TableAxis {
 pub struct Axes([TableAxis; 3]);
 
 impl Axes {
-    /// x, y and z as they are.
+    /// The identity: x, y and z of the table are those of the scene.
     pub(super) const OWN: Self = Self::ordered([Coordinate::X, Coordinate::Y, Coordinate::Z], 0);
 
-    /// Returns these axes as x, y and z of the scene; none if one of the table's is among them twice.
+    /// Returns the permutation with these axes as x, y and z of the scene, or `None` if the same axis occurs twice.
     ///
     /// # Examples
     /// ```
@@ -101,7 +102,7 @@ impl Axes {
         Coordinate::ALL.into_iter().all(named).then_some(Self(axes))
     }
 
-    /// Returns them for x, y and z.
+    /// Returns the axes of the table that are x, y and z of the scene.
     ///
     /// # Examples
     /// ```
@@ -150,7 +151,7 @@ impl Axes {
         (swapped + reversed) % 2 == 1
     }
 
-    /// Returns these axes, each the other way.
+    /// Returns these axes, each reversed.
     pub(super) fn reversed(self) -> Self {
         Self(self.0.map(|axis| TableAxis {
             is_reversed: !axis.is_reversed,
@@ -158,7 +159,7 @@ impl Axes {
         }))
     }
 
-    /// All 48.
+    /// Returns all 48 permutations with signs.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         use Coordinate::{X, Y, Z};
         let orders = [
@@ -175,7 +176,7 @@ impl Axes {
             .flat_map(move |order| signs.clone().map(move |signs| Self::ordered(order, signs)))
     }
 
-    /// Axes in an order; a bit is set for each that is reversed.
+    /// Returns the axes in this order. Each bit of `signs` reverses one axis.
     const fn ordered([x, y, z]: [Coordinate; 3], signs: u8) -> Self {
         const fn axis(coordinate: Coordinate, bit: u8) -> TableAxis {
             TableAxis {

@@ -1,11 +1,11 @@
-//! Which columns of a table hold what.
+//! The mapping from quantities to the columns of a table.
 
 use core::fmt;
 use core::str::FromStr;
 
 use crate::Error;
 
-/// What a column can hold.
+/// A quantity that columns of a table can contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
     Id1,
@@ -48,7 +48,7 @@ impl Quantity {
         Self::Kind,
     ];
 
-    /// The name that this crate gives it, and then LAMMPS' own names for it.
+    /// Returns the names of the quantity: first that of this crate, then those of LAMMPS.
     pub(super) const fn names(self) -> &'static [&'static str] {
         match self {
             Self::Id1 => &["id1", "patom1", "natom1"],
@@ -70,13 +70,13 @@ impl Quantity {
         }
     }
 
-    /// Whether it is the number of a sphere, to which nothing can be added.
+    /// Returns whether the quantity is the number of a sphere. Such a quantity is one column, never a sum.
     const fn is_number_of_sphere(self) -> bool {
         matches!(self, Self::Id1 | Self::Id2)
     }
 
     pub(super) const fn name(self) -> &'static str {
-        // There is a name of each.
+        // Every quantity has at least one name.
         match self.names() {
             [name, ..] => name,
             [] => "",
@@ -84,23 +84,28 @@ impl Quantity {
     }
 }
 
-/// Which columns of a table hold what, by the names in its header or by their places.
+/// The mapping from quantities to columns, by the names in the header or by the positions of the columns.
 ///
-/// Written as `QUANTITY=COLUMN,…`. The quantities are
+/// It is written as `QUANTITY=COLUMN,…`, with these quantities:
 ///
-/// | quantity | what it is |
+/// | quantity | meaning |
 /// |---|---|
 /// | `id1`, `id2` | the numbers of the two spheres |
-/// | `force` | the force along the line between their centres; positive is push |
+/// | `force` | the force along the line between their centres; compressive forces are positive |
 /// | `fx`, `fy`, `fz` | the force on the first of the two |
 /// | `x1`, `y1`, `z1`, `x2`, `y2`, `z2` | the centres of the two |
-/// | `x`, `y`, `z` | the point where they touch |
-/// | `kind` | what sort of contact it is: `kind=contact_type:SS` reads the rows with `SS` there, several are `SS\|SP`; others are contacts with walls, and counted |
+/// | `x`, `y`, `z` | the contact point |
+/// | `kind` | the kind of contact: `kind=contact_type:SS` reads the rows with `SS` in this column, and `SS\|SP` allows two kinds; all other rows count as contacts with walls |
 ///
-/// A column is a name of the header, or `#n`, the n-th column from 1 of a table without header. It may be a sum, with
-/// factors, unless it is the number of a sphere: `fx=-f_x` for a vector that is the force on the second sphere, `fx=#10+#13` for a normal and a tangential
-/// part, `force=1e7*overlap` for a linear spring of 10⁷ N/m. A quantity that is not named has the names above,
-/// or for LAMMPS `patom1`, `patom2`, `natom1`, `natom2`. A name that begins with - or has a * in it is written with its
+/// A column is a name in the header, or `#n` for the n-th column of a table without header, counted from 1. A quantity
+/// other than the number of a sphere may be a sum of columns with factors:
+///
+/// * `fx=-f_x` reads a vector that is the force on the second sphere.
+/// * `fx=#10+#13` adds a normal and a tangential part.
+/// * `force=1e7*overlap` is the force of a linear spring of 10⁷ N/m.
+///
+/// A quantity that is not mapped is read from the column with its own name. For LAMMPS, `patom1`, `patom2`, `natom1`
+/// and `natom2` also stand for the numbers of the spheres. A column name that begins with - or contains a * needs its
 /// factor: `force=1*a*b`.
 ///
 /// # Examples
@@ -114,13 +119,13 @@ impl Quantity {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Columns {
-    /// What was named, in the order in which it was.
+    /// The mapped quantities, in the order of the user.
     sums: Vec<(Quantity, Vec<Term>)>,
     kinds: Vec<String>,
     first_id: FirstId,
 }
 
-/// The number of the first sphere.
+/// The number that a code gives to its first sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct FirstId(u64);
 
@@ -130,7 +135,7 @@ impl Default for FirstId {
     }
 }
 
-/// A column, times a factor.
+/// A column and its factor.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Term {
     pub(super) factor: f64,
@@ -146,13 +151,13 @@ pub(super) enum Column {
 }
 
 impl Columns {
-    /// Returns these columns, with what others name in place of what these do.
+    /// Returns these columns with the quantities that `by` maps replaced.
     ///
     /// # Examples
     /// ```
     /// use cannonpile_dem::verify::{Columns, Preset};
     ///
-    /// // MDDEM writes overlaps: with linear springs a force is their stiffness times that.
+    /// // MDDEM writes overlaps. The force of a linear spring is its stiffness times the overlap.
     /// let columns = Preset::Mddem.columns().overridden(&"force=1e7*overlap".parse()?);
     /// assert!(columns.to_string().ends_with("force=10000000*overlap"));
     /// # Ok::<(), cannonpile_dem::Error>(())
@@ -171,7 +176,7 @@ impl Columns {
         self
     }
 
-    /// Returns these columns for a code that counts its spheres from another number than 1.
+    /// Returns these columns for a code that numbers its spheres from `first_id` instead of 1.
     ///
     /// # Examples
     /// ```
@@ -199,19 +204,19 @@ impl Columns {
         self.first_id.0
     }
 
-    /// The kinds of contacts that are read; none for all.
+    /// Returns the kinds of contacts that are read. An empty list means all kinds.
     pub(super) fn kinds(&self) -> &[String] {
         &self.kinds
     }
 
-    /// The columns whose sum a quantity is, if they were named.
+    /// Returns the columns whose sum is this quantity, if it is mapped.
     pub(super) fn terms(&self, quantity: Quantity) -> Option<&[Term]> {
         let mut sums = self.sums.iter();
         let (_, terms) = sums.find(|(named, _)| *named == quantity)?;
         Some(terms)
     }
 
-    /// Whether columns are counted, so that the table has no header.
+    /// Returns whether columns are given by position, for a table without header.
     pub(super) fn are_numbered(&self) -> bool {
         let mut terms = self.sums.iter().flat_map(|(_, terms)| terms);
         terms.any(|term| matches!(term.column, Column::Numbered(_)))
@@ -274,7 +279,7 @@ impl FromStr for Columns {
     }
 }
 
-/// A sum of columns: each may have a sign and a factor; names are ended by +, and by - before # alone.
+/// Parses a sum of columns with signs and factors. A + ends a column name; a - does so only before #.
 fn terms(text: &str) -> Result<Vec<Term>, Error> {
     let spaced = text.replace("-#", "+-#");
     let spaced = spaced.strip_prefix('+').unwrap_or(&spaced);
@@ -332,7 +337,8 @@ impl fmt::Display for Columns {
                     (false, _) => "+",
                 };
                 f.write_str(sign)?;
-                // Without it what such a name begins with would be read as one, or as a sign; that of a kind has none.
+                // The explicit factor keeps the first part of such a name from being parsed as a factor or a sign. A
+                // kind takes no factor.
                 let is_part_of = |name: &String| name.starts_with('-') || name.contains('*');
                 let needs_factor = *quantity != Quantity::Kind
                     && matches!(column, Column::Named(name) if is_part_of(name));

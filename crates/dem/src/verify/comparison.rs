@@ -1,4 +1,4 @@
-//! Measured forces against exact ones.
+//! Comparison of measured forces with exact forces.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ use super::refusal::Refusal;
 use super::tally::Judged;
 use cannonpile::{Interrupt, Packing};
 
-/// What was measured, compared with the exact forces of a pile: see [`verify`](super) for what that means.
+/// Measured forces compared with the exact forces of a pile. The module [`verify`](super) defines the errors.
 ///
 /// # Examples
 /// ```
@@ -38,15 +38,15 @@ use cannonpile::{Interrupt, Packing};
 pub struct Comparison(Judged);
 
 impl Comparison {
-    /// Compares measured forces with those of a packing. Their order does not matter, nor which sphere of a pair is named
-    /// first.
+    /// Compares measured forces with those of a packing. The order of the list does not matter, nor the order of the
+    /// two spheres in a pair.
     ///
-    /// Memory grows with what was measured; the exact forces are made row by row.
+    /// Memory grows with the number of measured forces. The exact forces are computed row by row.
     ///
     /// # Errors
-    /// [`Refusal::Entry`] for a number that no sphere has, a sphere paired with itself, a pair that is there twice, and a
-    /// force that is not finite. [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for more contacts than are kept;
-    /// [`Refusal::OutOfRange`] for exact forces beyond the normal `f64`.
+    /// [`Refusal::Entry`] for a sphere number outside the pile, a sphere paired with itself, a repeated pair, or a
+    /// force that is not finite. [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile
+    /// with too many contacts. [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`.
     ///
     /// # Examples
     /// ```
@@ -59,7 +59,7 @@ impl Comparison {
     /// let [one, other] = [Measured::new([1, 2], 0.46), Measured::new([3, 1], 0.47)];
     /// let comparison = Comparison::new(&packing, [one, other])?;
     /// assert_eq!(Comparison::new(&packing, [other.reversed(), one.reversed()])?, comparison);
-    /// // A pair is listed once, whichever sphere is named first.
+    /// // Each pair is listed once, in either order.
     /// assert!(Comparison::new(&packing, [one, one.reversed()]).is_err());
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
@@ -77,12 +77,12 @@ impl Comparison {
         Ok(Self(judged))
     }
 
-    /// What a ledger has judged.
+    /// Returns the comparison that a ledger has computed.
     pub(super) fn of(judged: Judged) -> Self {
         Self(judged)
     }
 
-    /// How many contacts the pile has.
+    /// Returns the number of contacts of the pile, measured or not.
     ///
     /// # Examples
     /// ```
@@ -92,7 +92,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(10)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Measured or not.
+    /// // No contact was measured here.
     /// assert_eq!(Comparison::new(&packing, [])?.contacts(), 495);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
@@ -101,7 +101,7 @@ impl Comparison {
         self.0.contacts
     }
 
-    /// How many of them were measured.
+    /// Returns the number of contacts that were measured.
     ///
     /// # Examples
     /// ```
@@ -111,7 +111,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Neither a force of 0 where there is one, nor a pair that is no contact.
+    /// // Not counted: a force of 0 at a loaded contact, and a pair without a contact.
     /// let measured = [([1, 2], 0.46), ([1, 3], 0.0), ([2, 3], 0.1)].map(|(ids, force)| Measured::new(ids, force));
     /// assert_eq!(Comparison::new(&packing, measured)?.matched(), 1);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -121,7 +121,7 @@ impl Comparison {
         self.0.matched()
     }
 
-    /// How many have a force and were not measured.
+    /// Returns the number of contacts with a force that were not measured.
     ///
     /// # Examples
     /// ```
@@ -132,7 +132,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(3)?.weightless().with_load(Site::APEX, BigRational::from_integer(1.into()))?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // The load goes down on three lines; the other contacts have no force.
+    /// // Three lines of contacts carry the load. All other contacts have no force.
     /// let comparison = Comparison::new(&packing, [])?;
     /// assert_eq!((comparison.missing(), comparison.contacts()), (6, 12));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -142,7 +142,7 @@ impl Comparison {
         self.0.missing
     }
 
-    /// The first thousand of the missing contacts, from the top.
+    /// Returns the missing contacts from the top down, at most a thousand.
     ///
     /// # Examples
     /// ```
@@ -162,7 +162,7 @@ impl Comparison {
         &self.0.first_missing
     }
 
-    /// How many pairs that are no contacts of the pile carry more than `tolerance` times the largest exact force.
+    /// Returns the number of pairs without a contact whose force exceeds `tolerance` times the largest exact force.
     ///
     /// # Examples
     /// ```
@@ -172,7 +172,8 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Spheres 2 and 3 are on the floor, and not judged: nothing is extra, though three contacts are missing.
+    /// // Spheres 2 and 3 are on the floor, so their pair is not judged. No pair is extra, although three contacts are
+    /// // missing.
     /// let comparison = Comparison::new(&packing, [Measured::new([2, 3], 0.46)])?;
     /// assert_eq!((comparison.extra(1e-6), comparison.fixed(), comparison.missing()), (0, 1, 3));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -182,7 +183,8 @@ impl Comparison {
         Judged::over(&self.0.strays, tolerance)
     }
 
-    /// How many pairs that are no contacts of the pile carry something, but no more than that.
+    /// Returns the number of pairs without a contact whose force is not 0, but at most `tolerance` times the
+    /// largest exact force.
     ///
     /// # Examples
     /// ```
@@ -192,7 +194,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Neighbours in a layer, which do not touch at a = 1.2 R.
+    /// // Neighbours in a layer do not touch at a = 1.2 R.
     /// let comparison = Comparison::new(&packing, [Measured::new([2, 3], 0.001)])?;
     /// assert_eq!((comparison.noise(0.01), comparison.noise(1e-6)), (1, 0));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -202,7 +204,8 @@ impl Comparison {
         self.0.strays.len() as u64 - self.extra(tolerance)
     }
 
-    /// The thousand pairs that carry the most without being contacts, from the greatest down, noise included.
+    /// Returns the pairs without a contact and with the largest forces, in decreasing order, at most a thousand. They
+    /// include noise.
     ///
     /// # Examples
     /// ```
@@ -223,7 +226,7 @@ impl Comparison {
         &self.0.greatest_strays
     }
 
-    /// How many pairs of spheres of the bottom layer were left out.
+    /// Returns the number of pairs that were not judged because both spheres are in the bottom layer.
     ///
     /// # Examples
     /// ```
@@ -233,7 +236,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Spheres 5 to 10 are on the floor; a pair with one above it is judged.
+    /// // Spheres 5 to 10 are on the floor. A pair with one sphere above the floor is judged.
     /// let measured = [[5, 6], [10, 7], [1, 5]].map(|ids| Measured::new(ids, 0.1));
     /// let comparison = Comparison::new(&packing, measured)?;
     /// assert_eq!((comparison.fixed(), comparison.extra(0.0)), (2, 1));
@@ -244,7 +247,7 @@ impl Comparison {
         self.0.fixed
     }
 
-    /// The largest exact force, by magnitude.
+    /// Returns the largest magnitude of an exact force, in N.
     ///
     /// # Examples
     /// ```
@@ -254,7 +257,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Of two spheres on a line, whatever was measured.
+    /// // The largest force carries the increments of two spheres on a line. The measurement is irrelevant.
     /// let comparison = Comparison::new(&packing, [])?;
     /// assert_eq!(comparison.largest_force(), 2.0 * 0.46225016352102427);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -264,8 +267,8 @@ impl Comparison {
         self.0.largest_force
     }
 
-    /// The largest relative error of a contact that was measured; infinite if there is a force where the whole pile has
-    /// none.
+    /// Returns the largest relative error of the measured contacts. It is infinite if a force was measured in a pile
+    /// without any force.
     ///
     /// # Examples
     /// ```
@@ -275,7 +278,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?.weightless();
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Nothing presses anywhere.
+    /// // No contact of this pile has a force.
     /// let compare = |force| Comparison::new(&packing, [Measured::new([1, 2], force)]);
     /// assert_eq!([compare(0.0)?, compare(1e-9)?].map(|compared| compared.largest_error()), [0.0, f64::INFINITY]);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -285,7 +288,7 @@ impl Comparison {
         self.0.worst.as_ref().map_or(0.0, |worst| worst.error)
     }
 
-    /// How many of the contacts that were measured have a relative error over `tolerance`.
+    /// Returns the number of measured contacts whose relative error exceeds `tolerance`.
     ///
     /// # Examples
     /// ```
@@ -305,8 +308,9 @@ impl Comparison {
         Judged::over(&self.0.errors, tolerance)
     }
 
-    /// The factor by which all measured forces differ from the exact ones, if there is one other than 1: they are the
-    /// exact ones times this, with relative errors up to `tolerance`. None for fewer than two contacts with a force.
+    /// Returns the common factor between measured and exact forces, if it differs from 1. Each measured force equals
+    /// this factor times the exact one, within a relative error of `tolerance`. `None` for fewer than two contacts with
+    /// a force.
     ///
     /// # Examples
     /// ```
@@ -327,7 +331,8 @@ impl Comparison {
         self.0.symptoms.factor(tolerance)
     }
 
-    /// What the differences have in common, where the data show it: see [`Finding`]; nothing if all is accepted.
+    /// Explains the differences: one wrong factor, swapped axes, a missing layer (see [`Finding`]). The list
+    /// is empty if the comparison is accepted at `tolerance`.
     ///
     /// # Examples
     /// ```
@@ -351,7 +356,8 @@ impl Comparison {
         self.0.symptoms.findings(tolerance)
     }
 
-    /// The root of the mean square of the relative errors of the contacts that were measured, to some 1e-8 of itself.
+    /// Returns the root mean square of the relative errors of the measured contacts, accurate to about 1e-8 of its
+    /// value.
     ///
     /// # Examples
     /// ```
@@ -361,7 +367,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // One force right, and one twice what it should be.
+    /// // One force is correct, and the other is twice the exact one.
     /// let measured = [([1, 2], 0.46225016352102427), ([1, 3], 2.0 * 0.46225016352102427)];
     /// let comparison = Comparison::new(&packing, measured.map(|(ids, force)| Measured::new(ids, force)))?;
     /// assert!((comparison.rms_error() - 0.5_f64.sqrt()).abs() < 1e-8);
@@ -372,7 +378,8 @@ impl Comparison {
         self.0.rms_error()
     }
 
-    /// The contact with the largest relative error, the first of several; none if there was no contact measured.
+    /// Returns the measured contact with the largest relative error, or the first of several. `None` if no contact was
+    /// measured.
     ///
     /// # Examples
     /// ```
@@ -393,7 +400,7 @@ impl Comparison {
         self.0.worst.as_ref()
     }
 
-    /// Whether nothing is missing, nothing extra, and no error over `tolerance`.
+    /// Returns whether no contact is missing, no pair is extra, and every relative error is at most `tolerance`.
     ///
     /// # Examples
     /// ```
@@ -415,7 +422,7 @@ impl Comparison {
 }
 
 impl fmt::Display for Comparison {
-    /// One line, for the message of an assertion.
+    /// Writes one line, for the message of an assertion.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Judged {
             contacts, missing, ..

@@ -1,4 +1,4 @@
-//! Measured forces from comma-separated values.
+//! Measured forces in tables with separated values.
 
 use std::io::{self, BufRead, Read};
 
@@ -11,12 +11,15 @@ use super::lines::Lines;
 use super::reading::Reading;
 use super::refusal::{Fault, Refusal};
 
-/// Reads a csv table: a line with the names of the columns, and a line a contact.
+/// Reads a csv table: one line with the names of the columns, then one line for each contact.
 ///
-/// Columns are found by name, in any order: `id1`, `id2`, `force`, and `fx`, `fy`, `fz` if there are vectors, where `force`
-/// may be left out; `patom1` and `patom2`, or `natom1` and `natom2`, stand for `id1` and `id2`. Others are passed over. Fields may be quoted; blanks
-/// around them and empty lines do not count. A force is any finite decimal, and read as the nearest `f64`. The last line
-/// need not end: what is cut off a csv table cannot be seen, and shows as missing contacts.
+/// Columns are found by name, in any order: `id1`, `id2`, `force`, and `fx`, `fy`, `fz` for vectors. With vectors,
+/// `force` may be omitted. The names `patom1` and `patom2`, or `natom1` and `natom2`, stand for `id1` and `id2`. Other
+/// columns are ignored.
+///
+/// Fields may be quoted. Blanks around fields and empty lines are ignored. A force is any finite decimal number,
+/// correctly rounded to `f64`. The last line may lack its end. A truncated table cannot be recognised: the lost
+/// contacts count as missing.
 ///
 /// # Errors
 /// [`Refusal::Line`]; [`Refusal::Io`].
@@ -38,7 +41,7 @@ pub fn read_csv(input: impl BufRead) -> Result<Reading, Refusal> {
     Ok(reading)
 }
 
-/// Reads the rows of a table whose columns are separated by commas, semicolons, tabs or spaces.
+/// Reads the rows of a table with commas, semicolons, tabs or spaces as separators.
 pub(super) fn read_rows(
     mut lines: Lines<impl BufRead>,
     format: &Format,
@@ -65,7 +68,7 @@ pub(super) fn read_rows(
         if let Some(refusal) = source.refusal.take() {
             return Err(refusal);
         }
-        // A row is a line: it has been read whole, and no more.
+        // Each row is one line, and the reader has read no further.
         let line = source.lines.number();
         if !read.map_err(io_error)? {
             return Ok(());
@@ -76,14 +79,14 @@ pub(super) fn read_rows(
     }
 }
 
-/// How a table is read.
+/// The format of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Format {
     pub(super) columns: Columns,
     pub(super) identity: Identity,
 }
 
-/// Gives the row in the fields of a line to a sink.
+/// Reads one row and passes it to a sink.
 pub(super) fn take(
     header: &Header,
     fields: &[&str],
@@ -97,13 +100,13 @@ pub(super) fn take(
     sink.take(&entry, line)
 }
 
-/// What the first lines of a table say.
+/// The header and the separator, found in the first lines of a table.
 struct Head {
     header: Header,
     separator: Separator,
 }
 
-/// What stands between two fields.
+/// The separator between two fields.
 #[derive(Clone, Copy, PartialEq)]
 enum Separator {
     Byte(u8),
@@ -111,7 +114,7 @@ enum Separator {
 }
 
 impl Separator {
-    /// The one of a line.
+    /// Returns the separator of a line.
     fn of(line: &str) -> Self {
         let marks = [',', ';', '\t'];
         let mark = marks.into_iter().find(|mark| line.contains(*mark));
@@ -123,9 +126,9 @@ impl Separator {
     }
 }
 
-/// Finds the header of a table, and leaves its first row to be read; none where there is nothing.
+/// Finds the header of a table, and leaves the first row unread. Returns `None` for an empty table.
 ///
-/// A header may stand in a comment, after #, the last of several.
+/// A header may be a comment after #. The last comment with the necessary names counts.
 fn find_head(lines: &mut Lines<impl BufRead>, format: &Format) -> Result<Option<Head>, Refusal> {
     let Format { columns, identity } = format;
     let mut commented = None;
@@ -149,7 +152,7 @@ fn find_head(lines: &mut Lines<impl BufRead>, format: &Format) -> Result<Option<
         }
         if commented.is_some() && !is_comment {
             lines.put_back();
-            // Values may be separated otherwise than the names in a comment.
+            // The rows may use another separator than the comment with the names.
             return Ok(commented.map(|head| Head { separator, ..head }));
         }
         let header = names(text, separator, number).and_then(|names| {
@@ -165,7 +168,7 @@ fn find_head(lines: &mut Lines<impl BufRead>, format: &Format) -> Result<Option<
     }
 }
 
-/// The names in a header.
+/// Returns the names in a header.
 fn names(text: &str, separator: Separator, number: u64) -> Result<Vec<String>, Refusal> {
     if separator == Separator::Spaces {
         return Ok(text.split_whitespace().map(str::to_owned).collect());
@@ -193,18 +196,18 @@ fn records<R: Read>(source: R, separator: Separator) -> csv::Reader<R> {
         .from_reader(source)
 }
 
-/// Whether a line is a row: neither empty nor a comment.
+/// Returns whether a line is a row, which is neither empty nor a comment.
 fn is_row(line: &str) -> bool {
     let line = line.trim_start();
     !line.is_empty() && !line.starts_with('#')
 }
 
-/// Whether a quoted field would end on another line, and take what follows with it.
+/// Returns whether the line ends inside a quoted field. Such a field would absorb the following lines.
 fn has_open_quote(line: &str) -> bool {
     line.bytes().filter(|byte| *byte == b'"').count() % 2 == 1
 }
 
-/// Takes the quotes off fields that have blanks before them, where a reader sees no quote.
+/// Removes quotes from fields with blanks before the quote. The csv reader does not recognise those quotes.
 fn unquote(row: &mut StringRecord) {
     if !row.iter().any(|field| field.starts_with('"')) {
         return;
@@ -218,13 +221,13 @@ fn unquote(row: &mut StringRecord) {
     *row = row.iter().map(bare).collect();
 }
 
-/// A source that gives no more than a line at a time, and refuses those that are no rows of a table.
+/// A source that yields at most one line at a time, and rejects lines that cannot be rows.
 struct LineByLine<R> {
     lines: Lines<R>,
-    /// The line that is being given, with its end, and how much of it has been.
+    /// The current line with its end, and the number of bytes already read.
     line: Vec<u8>,
     given: usize,
-    /// Why there are no more.
+    /// The reason why no further line is available.
     refusal: Option<Refusal>,
 }
 
@@ -238,7 +241,7 @@ impl<R: BufRead> LineByLine<R> {
         }
     }
 
-    /// Goes to the next line that is not blank; false at the end.
+    /// Moves to the next row. Returns false at the end of the table.
     fn advance(&mut self) -> Result<bool, Refusal> {
         while let Some(line) = self.lines.next()? {
             if !is_row(line.text) {
@@ -276,7 +279,7 @@ impl<R: BufRead> Read for LineByLine<R> {
     }
 }
 
-/// What the reader of csv cannot read is not text, or not there; text has been checked.
+/// Converts an error of the csv reader. Only input errors can occur, because the lines were already checked to be text.
 fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         ErrorKind::Io(error) => error,

@@ -1,4 +1,4 @@
-//! Where a measured force is not the exact one, in numbers and in words.
+//! The difference between a measured and an exact force, as numbers and as text.
 
 use core::fmt;
 
@@ -6,45 +6,45 @@ use super::measured::{Measured, distance};
 use crate::NumberedContact;
 use cannonpile::lattice::{ContactKind, Dimension, Site};
 
-/// A contact of the pile, what its force is, and what was measured.
+/// A contact of the pile with its exact force and the measured one.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Difference {
-    /// The numbers of the upper sphere and of the lower one.
+    /// The numbers of the upper and the lower sphere.
     pub ids: [u64; 2],
     /// The upper sphere.
     pub site: Site,
-    /// The direction in which the lower one lies.
+    /// The direction from the upper to the lower sphere.
     pub direction: ContactKind,
-    /// The nearest float to the exact force; positive is push.
+    /// The exact force, correctly rounded, in N; compressive forces are positive.
     pub exact: f64,
-    /// The nearest floats to the force on the upper sphere, where vectors were measured.
+    /// The exact force on the upper sphere, correctly rounded, in N; only if vectors were measured.
     pub exact_vector: Option<[f64; 3]>,
-    /// What was measured, with the force on the upper sphere; nothing for a missing contact.
+    /// The measured force, with its vector on the upper sphere; `None` for a missing contact.
     pub measured: Option<Measured>,
     /// The relative error; 1 for a missing contact.
     pub error: f64,
-    /// Of discs or of spheres, which have a j.
+    /// The dimension: sites of discs have no j.
     pub(super) dimension: Dimension,
 }
 
-/// A pair of spheres with a force, but no contact of the pile.
+/// A pair of spheres that has a measured force, but no contact in the pile.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Extra {
-    /// The numbers of the two, the lesser first.
+    /// The numbers of the two spheres, the smaller first.
     pub ids: [u64; 2],
     /// The two spheres.
     pub sites: [Site; 2],
-    /// The force that was measured: the magnitude of the vector, if that is the greater.
+    /// The measured force in N, or the magnitude of its vector if that is greater.
     pub force: f64,
-    /// That force over the largest exact one of the pile.
+    /// The ratio of this force to the largest exact force of the pile.
     pub error: f64,
     pub(super) dimension: Dimension,
 }
 
 impl Difference {
-    /// A contact that was not measured.
+    /// Returns the difference for a contact that was not measured.
     pub(super) fn missing(
         exact: &NumberedContact,
         with_vectors: bool,
@@ -62,7 +62,7 @@ impl Difference {
         }
     }
 
-    /// The vectors, measured and exact, if they differ by more than the magnitudes do.
+    /// Returns the measured and the exact vector, if they differ by more than their magnitudes do.
     fn vectors(&self) -> Option<[(f64, f64, f64); 2]> {
         let measured = self.measured?;
         let (vector, exact) = measured.vector.zip(self.exact_vector)?;
@@ -72,7 +72,7 @@ impl Difference {
 }
 
 impl fmt::Display for Difference {
-    /// `contact of sphere 17 (k=3, i=1, j=0) with sphere 31 along alpha: measured 1.23 N, exact 1.27 N`.
+    /// Writes `contact of sphere 17 (k=3, i=1, j=0) with sphere 31 along alpha: measured 1.23 N, exact 1.27 N`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [upper, lower] = self.ids;
         let (place, direction) = (Place(self.site, self.dimension), self.direction);
@@ -95,7 +95,7 @@ impl fmt::Display for Difference {
 }
 
 impl fmt::Display for Extra {
-    /// `spheres 17 (k=3, i=1, j=0) and 18 (k=3, i=2, j=0) have no contact: measured 0.5 N`.
+    /// Writes `spheres 17 (k=3, i=1, j=0) and 18 (k=3, i=2, j=0) have no contact: measured 0.5 N`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([first, second], [one, other]) = (self.ids, self.sites);
         let [one, other] = [one, other].map(|site| Place(site, self.dimension));
@@ -107,7 +107,7 @@ impl fmt::Display for Extra {
     }
 }
 
-/// `k=3, i=1, j=0`; no j for discs.
+/// The indices of a site as text: `k=3, i=1, j=0`, without j for discs.
 struct Place(Site, Dimension);
 
 impl fmt::Display for Place {

@@ -1,4 +1,4 @@
-//! Measured forces from what LAMMPS writes as `dump local`.
+//! Measured forces in the `dump local` files of LAMMPS.
 
 use std::io::BufRead;
 
@@ -10,7 +10,7 @@ use super::reading::Reading;
 use super::refusal::{Fault, Refusal};
 use crate::Error;
 
-/// Reads a LAMMPS `dump local` file; of several snapshots the last is kept.
+/// Reads a LAMMPS `dump local` file. Of several snapshots, the last one is kept.
 ///
 /// ```text
 /// compute      ids all property/local patom1 patom2
@@ -19,12 +19,15 @@ use crate::Error;
 /// dump_modify  d format float %.17g colname c_ids[1] id1 colname c_ids[2] id2 colname c_f[1] force &
 ///              colname c_f[2] fx colname c_f[3] fy colname c_f[4] fz
 /// ```
-/// Without names of their own the columns are called `c_ids[1]` and so on, and refused: what they hold is not in the
-/// file. Without a format forces are written with six digits, an error of up to 5e-6, and so are ids. The header may have
-/// another label than `ENTRIES`, a line with the units, one with the time, and any kind of box. Blanks part the fields.
+/// The `colname` options are necessary. Without them the columns are called `c_ids[1]` and so on, and the file is
+/// rejected, because such names do not tell the quantity. Without the `format` option LAMMPS writes six digits: forces
+/// then have an error of up to 5e-6, and large ids lose digits.
+///
+/// The header may use another label than `ENTRIES`, lines with the units and the time, and any kind of box. Blanks
+/// separate the fields.
 ///
 /// # Errors
-/// [`Refusal::Line`], also if any snapshot has fewer entries than announced, or the last line no end;
+/// [`Refusal::Line`], also for a snapshot with fewer entries than announced, and for a last line without an end.
 /// [`Refusal::Io`].
 ///
 /// # Examples
@@ -45,7 +48,7 @@ pub fn read_dump(input: impl BufRead) -> Result<Reading, Refusal> {
     Ok(reading)
 }
 
-/// What a line begins with that announces others.
+/// The prefix of a header line.
 pub(super) const ITEM: &str = "ITEM:";
 
 pub(super) fn read_snapshots(
@@ -91,17 +94,17 @@ pub(super) fn read_snapshots(
     Ok(())
 }
 
-/// What is known of a snapshot before its entries.
+/// The header of a snapshot, as read so far.
 #[derive(Default)]
 struct Snapshot {
     timestep: Option<i64>,
-    /// `ENTRIES`, unless the user chose another word.
+    /// The label of the entries: `ENTRIES`, unless the user chose another word.
     label: Option<String>,
     entries: u64,
 }
 
 impl Snapshot {
-    /// The names of the columns, if this item is the one that has them.
+    /// Returns the names of the columns, if this item contains them.
     fn columns<'i>(&self, item: &'i str) -> Option<&'i str> {
         let names = item.strip_prefix(self.label.as_deref()?)?;
         (names.is_empty() || names.starts_with(' ')).then_some(names)
@@ -112,7 +115,7 @@ impl Snapshot {
     }
 }
 
-/// The next item with its line; none at the end of a whole snapshot.
+/// Returns the next item with its line number, or `None` at the end of a complete snapshot.
 fn next_item(
     lines: &mut Lines<impl BufRead>,
     header: &Snapshot,
@@ -139,7 +142,7 @@ fn next_item(
     }
 }
 
-/// A line with its end.
+/// Returns the next line, which must have an end.
 fn whole_line(lines: &mut Lines<impl BufRead>) -> Result<Line<'_>, Refusal> {
     let last = lines.number();
     match lines.next()? {

@@ -1,36 +1,36 @@
-//! A row of a table: two spheres, known by their numbers or by where they are, and the force between them.
+//! A row of a table: the force between two spheres, which are known by number or by position.
 
 use super::measured::Measured;
 use super::refusal::Refusal;
 use crate::Error;
 use crate::error::bug;
 
-/// A row.
+/// A row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) spheres: Spheres,
     pub(super) force: Force,
 }
 
-/// The two spheres of a row.
+/// The identification of the two spheres of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spheres {
-    /// By their numbers, from 1.
+    /// The numbers of the spheres, from 1.
     Numbers([u64; 2]),
-    /// By where they are.
+    /// The position of the contact.
     Places(Place),
 }
 
-/// Where a contact is.
+/// The position of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
     /// The centres of both spheres.
     Centres([[f64; 3]; 2]),
-    /// The point where they touch.
+    /// The contact point.
     Point([f64; 3]),
 }
 
-/// The force of a contact, as it was measured: its magnitude, its vector, or both.
+/// The measured force of a contact: its magnitude, its vector, or both.
 ///
 /// # Examples
 /// ```
@@ -41,16 +41,16 @@ pub(super) enum Place {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Force {
-    /// Along the line between the centres; positive is push.
+    /// The force along the line between the centres; compressive forces are positive.
     Along(f64),
     /// The force on the first sphere.
     Vector([f64; 3]),
-    /// Both.
+    /// Both the force along the line and the vector on the first sphere.
     Both(f64, [f64; 3]),
 }
 
 impl Entry {
-    /// Returns the force between the two spheres that it names.
+    /// Returns the force between the two numbered spheres of the row.
     pub(super) fn named(&self) -> Result<Measured, Error> {
         match self.spheres {
             Spheres::Numbers(ids) => Ok(self.force.between(ids)),
@@ -58,7 +58,7 @@ impl Entry {
         }
     }
 
-    /// Returns where its contact is.
+    /// Returns the position of the contact.
     pub(super) fn place(&self) -> Result<Place, Error> {
         match self.spheres {
             Spheres::Places(place) => Ok(place),
@@ -68,7 +68,7 @@ impl Entry {
 }
 
 impl Force {
-    /// Returns it as that between two spheres, the vector on the first.
+    /// Returns the force as a measurement between two numbered spheres. A vector acts on the first.
     pub(super) fn between(self, ids: [u64; 2]) -> Measured {
         match self {
             Self::Along(force) => Measured::new(ids, force),
@@ -77,7 +77,7 @@ impl Force {
         }
     }
 
-    /// Returns it with the vector changed.
+    /// Returns the force with its vector transformed.
     pub(super) fn map(self, change: impl FnOnce([f64; 3]) -> [f64; 3]) -> Self {
         match self {
             Self::Along(force) => Self::Along(force),
@@ -86,7 +86,7 @@ impl Force {
         }
     }
 
-    /// Returns the greatest magnitude of its numbers.
+    /// Returns the largest absolute value among the magnitude and the components of the vector.
     pub(super) fn magnitude(self) -> f64 {
         let greatest =
             |numbers: [f64; 3]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -98,14 +98,14 @@ impl Force {
     }
 }
 
-/// What takes the rows of a file.
+/// A receiver for the rows of a file.
 pub(super) trait Sink {
-    /// Forgets what there was: another snapshot follows.
+    /// Begins a new snapshot, and discards the rows of the previous one.
     fn begin_snapshot(&mut self, timestep: Option<i64>);
 
-    /// Takes a row of a line.
+    /// Receives the row of a line.
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal>;
 
-    /// Takes note of a contact with a wall.
+    /// Counts a contact with a wall.
     fn pass_over(&mut self);
 }

@@ -1,31 +1,31 @@
-//! What differences have in common, in words.
+//! Explanations of many differences at once.
 
 use core::fmt;
 
 use super::axes::Axes;
 
-/// What the differences between measured and exact forces have in common.
+/// An explanation of the differences between measured and exact forces.
 ///
-/// Each is a guess at the cause, told only where all data agree with it.
+/// It is a guess at the cause, and is reported only if all data agree with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// All measured forces are the exact ones times one factor.
+    /// All measured forces equal the exact ones times one factor.
     Factor(f64),
-    /// All vectors are the forces on the second of the two spheres, not on the first.
+    /// All vectors are the forces on the second sphere of the pair instead of the first.
     SecondSphere,
-    /// All vectors are right in other axes: each axis of the scene is one of the table, reversed or not.
+    /// All vectors agree with the exact ones after a permutation of the axes, possibly with reversed axes.
     Axes(Axes),
-    /// All contacts of a layer with the one below are missing.
+    /// All contacts between a layer and the next one below are missing.
     Layer {
-        /// The layer, counted from 0 at the top.
+        /// The upper layer, counted from 0 at the top.
         k: i128,
-        /// How many contacts it has.
+        /// The number of missing contacts.
         contacts: u64,
-        /// Whether the layer below is the bottom layer, which is fixed.
+        /// True if the next layer is the bottom layer, whose spheres are fixed.
         is_lowest: bool,
     },
-    /// Forces have a part along the surfaces, of up to this share of the exact force.
+    /// Forces have a tangential part, of up to this fraction of the exact force.
     Tangential(f64),
 }
 
@@ -66,7 +66,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// What may have made a factor.
+/// Returns the likely cause of a factor.
 fn cause(factor: f64) -> &'static str {
     let near = |value: f64| (factor / value - 1.0).abs() < 2e-3;
     let power = factor.abs().log10();

@@ -1,12 +1,13 @@
-//! The frame of a table: where its origin is, and how its axes are turned, in those of the scene.
+//! The frame of a table: its origin and its axes relative to the scene.
 
 use core::fmt;
 
 use super::axes::Axes;
 
-/// How places in a table become places of the scene: axes named anew, a turn about the vertical, a shift.
+/// A rigid transformation from positions in a table to positions in the scene: a permutation of the axes, a rotation
+/// about the vertical, and a translation.
 ///
-/// With the axes A, the angle φ and the shift **s**, a place **x** of the table is at **s** + R(φ)·A**x**.
+/// With the axes A, the angle φ and the shift **s**, a position **x** of the table is **s** + R(φ)·A**x** in the scene.
 ///
 /// # Examples
 /// ```
@@ -17,7 +18,7 @@ use super::axes::Axes;
 ///
 /// let pile = Pile::triangular(2)?;
 /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(1.into(), 1.into()))?)?;
-/// // Another code may call the vertical y.
+/// // In other codes the vertical may be y.
 /// let table = "x1,y1,z1,x2,y2,z2,force\n0,9.633,0,-1.1547,8,0,0.408\n\
 ///              0,9.633,0,0.57735,8,-1,0.408\n0,9.633,0,0.57735,8,1,0.408\n";
 /// let read = Reader::new().by_place(0.1)?.compare(&packing, table.as_bytes())?;
@@ -28,16 +29,16 @@ use super::axes::Axes;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Which axes of the table are x, y, z of the scene, before the turn.
+    /// The axes of the table that are x, y and z of the scene, before the rotation.
     pub axes: Axes,
-    /// The angle φ of the turn about z, in radians from −π to π.
+    /// The angle φ of the rotation about z, in radians from −π to π.
     pub angle: f64,
     /// The shift **s**, in m.
     pub shift: [f64; 3],
 }
 
 impl Frame {
-    /// The frame of the scene itself.
+    /// The identity: the frame of the scene.
     pub(super) const OWN: Self = Self {
         axes: Axes::OWN,
         angle: 0.0,
@@ -58,7 +59,7 @@ impl Frame {
     #[must_use]
     pub fn turned(&self, vector: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = self.axes.turned(vector);
-        // So that nothing is rounded where nothing is turned.
+        // Without a rotation, no rounding error may occur.
         if self.angle == 0.0 {
             return [x, y, z];
         }
@@ -66,7 +67,7 @@ impl Frame {
         [cos * x - sin * y, sin * x + cos * y, z]
     }
 
-    /// Returns where a place of the table is in the scene.
+    /// Returns the position in the scene of a point of the table.
     ///
     /// # Examples
     /// ```

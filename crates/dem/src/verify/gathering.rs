@@ -1,4 +1,4 @@
-//! Rows whose spheres are known by where they are, until the frame is known.
+//! Rows with positions, stored until the frame of the table is known.
 
 use num_traits::ToPrimitive;
 
@@ -10,17 +10,18 @@ use super::refusal::Refusal;
 use super::registration::{self, Exact, moved};
 use cannonpile::Interrupt;
 
-/// After so many rows, all where the scene has contacts, the table is in the frame of the scene.
+/// The number of rows that suffices to decide that the table is in the frame of the scene, if all rows match contacts
+/// of the scene.
 const ENOUGH: usize = 1 << 17;
 
-/// Rows kept, and the ledger they go to.
+/// Stored rows, and the ledger that receives them.
 pub(super) struct Gathering<'p> {
     ledger: Ledger<'p>,
     places: Places,
     radius: f64,
     within: f64,
     kept: Vec<Row>,
-    /// Whether the frame is known to be that of the scene.
+    /// True if the frame of the table is that of the scene.
     is_own: bool,
 }
 
@@ -45,7 +46,7 @@ impl<'p> Gathering<'p> {
         })
     }
 
-    /// Finds the frame, and gives all rows to the ledger.
+    /// Finds the frame, and passes all rows to the ledger.
     pub(super) fn settle(mut self) -> Result<(Ledger<'p>, Frame), Refusal> {
         let kept = core::mem::take(&mut self.kept);
         if self.is_own || kept.is_empty() {
@@ -71,7 +72,7 @@ impl<'p> Gathering<'p> {
             force: &|ids| {
                 let slot = self.ledger.slot(ids);
                 let force = slot.and_then(|slot| forces.get(slot));
-                // Not a default: there is no force between spheres without a contact.
+                // The 0 is exact, not a default: spheres without a contact have no force.
                 force.copied().unwrap_or(0.0)
             },
         };
@@ -86,7 +87,7 @@ impl<'p> Gathering<'p> {
     fn give(&mut self, row: &Row, frame: &Frame) -> Result<(), Refusal> {
         let ids = match self.places.find(&moved(&row.place, frame), self.within) {
             Ok([one, other]) if one != other => [one, other],
-            // Nothing between two places that are none.
+            // A row that matches no contact is ignored if its force is 0.
             _ if row.force.magnitude() == 0.0 => return Ok(()),
             Ok(ids) => ids,
             Err(fault) => return Err(fault.at(row.line)),

@@ -1,4 +1,4 @@
-//! Columns found by their names, and the fields in them read.
+//! The columns of a table, found by their names, and the parser of their fields.
 
 use core::fmt::Write;
 
@@ -7,7 +7,7 @@ use super::entry::{Entry, Force, Place, Spheres};
 use super::refusal::Fault;
 use crate::Error;
 
-/// What a table must say of the two spheres.
+/// The identification of the two spheres that a table must contain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Identity {
     #[default]
@@ -15,11 +15,11 @@ pub(super) enum Identity {
     Places,
 }
 
-/// Where the columns are that are read.
+/// The positions of the columns that are read.
 pub(super) struct Header {
-    /// How many columns there are, if there is a header.
+    /// The number of columns, if the table has a header.
     width: Option<usize>,
-    /// For each quantity its columns, counted from 0, with their factors.
+    /// For each quantity, its columns, counted from 0, with their factors.
     sums: [Vec<(usize, f64)>; Quantity::COUNT],
     kinds: Vec<String>,
     first_id: u64,
@@ -27,7 +27,7 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// Finds the columns of a header; what is not known is passed over.
+    /// Finds the columns in a header. Unknown columns are ignored.
     pub(super) fn find<'n>(
         names: impl IntoIterator<Item = &'n str>,
         columns: &Columns,
@@ -48,7 +48,7 @@ impl Header {
         Self::of(sums, width, columns, identity, &names)
     }
 
-    /// The columns of a table without header.
+    /// Returns the columns of a table without header.
     pub(super) fn numbered(columns: &Columns, identity: Identity) -> Result<Self, Fault> {
         let sums = Quantity::ALL.map(|quantity| {
             let terms = columns.terms(quantity).into_iter().flatten();
@@ -84,7 +84,7 @@ impl Header {
         }
     }
 
-    /// The first quantity that is needed and not there.
+    /// Returns the first necessary quantity without a column.
     fn missing(&self) -> Option<Quantity> {
         use Quantity::{Force, Fx, Fy, Fz, Id1, Id2, X, X1, X2, Y1, Y2, Z, Z1, Z2};
         let lacks = |quantity: &Quantity| !self.has(*quantity);
@@ -95,7 +95,7 @@ impl Header {
             }
             Identity::Places => &[X, Z],
         };
-        // A vector has a magnitude.
+        // With a vector, the magnitude is not necessary.
         let force: &[Quantity] = if self.has_vector() {
             &[Fx, Fy, Fz]
         } else {
@@ -118,7 +118,7 @@ impl Header {
             .any(|component| self.has(component))
     }
 
-    /// Reads the row in the fields of a line; `None` for a contact with a wall.
+    /// Reads a row from the fields of a line. Returns `None` for a contact with a wall.
     pub(super) fn read(&self, fields: &[&str]) -> Result<Option<Entry>, Fault> {
         if let Some(columns) = self.width.filter(|columns| *columns != fields.len()) {
             return Err(Fault::Fields {
@@ -152,13 +152,13 @@ impl Header {
         let force = match (self.has(Quantity::Force), self.has_vector()) {
             (true, true) => Force::Both(number(Quantity::Force)?, vector(components)?),
             (false, true) => Force::Vector(vector(components)?),
-            // A header without either is refused.
+            // A header without a force and without a vector was rejected before.
             (_, false) => Force::Along(number(Quantity::Force)?),
         };
         Ok(Some(Entry { spheres, force }))
     }
 
-    /// The field of a quantity that is one column.
+    /// Returns the field of a quantity that is one column.
     fn field<'f>(&self, quantity: Quantity, fields: &[&'f str]) -> Result<&'f str, Fault> {
         match self.sum_of(quantity) {
             [(column, _)] => at(fields, *column),
@@ -166,7 +166,7 @@ impl Header {
         }
     }
 
-    /// A sum of columns, 0 for no column: discs have no y.
+    /// Returns a sum of columns. Without a column it is 0, because discs have no y.
     fn number(&self, quantity: Quantity, fields: &[&str]) -> Result<f64, Fault> {
         match self.sum_of(quantity) {
             [(column, 1.0)] => number(quantity, at(fields, *column)?),
@@ -180,7 +180,7 @@ impl Header {
         }
     }
 
-    /// The number of a sphere, counted from 1.
+    /// Returns the number of a sphere, counted from 1.
     fn id(&self, quantity: Quantity, fields: &[&str]) -> Result<u64, Fault> {
         let text = self.field(quantity, fields)?;
         let counted = whole(text).and_then(|id| id.checked_sub(self.first_id)?.checked_add(1));
@@ -191,7 +191,7 @@ impl Header {
     }
 }
 
-/// The n-th field, counted from 0.
+/// Returns the n-th field, counted from 0.
 fn at<'f>(fields: &[&'f str], n: usize) -> Result<&'f str, Fault> {
     fields.get(n).copied().ok_or(Fault::Fields {
         columns: n + 1,
@@ -199,7 +199,7 @@ fn at<'f>(fields: &[&'f str], n: usize) -> Result<&'f str, Fault> {
     })
 }
 
-/// The columns with the names that were said.
+/// Finds the columns that the user named.
 fn named(quantity: Quantity, terms: &[Term], names: &[&str]) -> Result<Vec<(usize, f64)>, Fault> {
     let mut sum = Vec::new();
     for term in terms {
@@ -224,7 +224,7 @@ fn named(quantity: Quantity, terms: &[Term], names: &[&str]) -> Result<Vec<(usiz
     Ok(sum)
 }
 
-/// The column with one of the names that a quantity usually has.
+/// Finds the column with one of the usual names of a quantity.
 fn usual(quantity: Quantity, names: &[&str]) -> Result<Vec<(usize, f64)>, Fault> {
     let known = quantity.names();
     let mut places = (0..).zip(names).filter(|(_, name)| known.contains(name));
@@ -242,13 +242,13 @@ fn twice(quantity: Quantity, first: &str, second: &str) -> Fault {
     }
 }
 
-/// Names in a message: quoted, and cut where they get many.
+/// Returns quoted names for a message, shortened if the list is long.
 fn shortened(names: &[&str]) -> String {
     const LONGEST: usize = 120;
     let mut list = String::new();
     for name in names {
         let gap = if list.is_empty() { "" } else { ", " };
-        // Writing to a String does not fail.
+        // Writing to a String never fails.
         let _ = write!(list, "{gap}'{}'", name.escape_debug());
         if list.len() > LONGEST {
             let short: String = list.chars().take(LONGEST).collect();
@@ -261,10 +261,10 @@ fn shortened(names: &[&str]) -> String {
 const ID: &str = "the number of a sphere, such as 17, counted from 1 (LAMMPS writes all digits with dump_modify \
                   format float %.17g)";
 
-/// The number of a sphere: all its digits, with a fraction of zeros at most.
+/// Parses the number of a sphere from all its digits. A fraction may consist of zeros only.
 ///
-/// With an exponent, as `numpy.savetxt` writes it, every digit must be there all the same: others may have been rounded
-/// off. By default LAMMPS writes sphere 1234567 as 1.23457e+06.
+/// An exponent, as `numpy.savetxt` writes it, is accepted only if all digits of the number are present. Otherwise
+/// digits may have been rounded off: by default LAMMPS writes sphere 1234567 as 1.23457e+06.
 fn whole(text: &str) -> Option<u64> {
     if let Ok(id) = text.parse() {
         return Some(id);
@@ -278,7 +278,7 @@ fn whole(text: &str) -> Option<u64> {
     (fits && zeros.bytes().all(|byte| byte == b'0')).then_some(id)
 }
 
-/// A number, rounded to the nearest `f64`.
+/// Parses a number, correctly rounded to `f64`.
 fn number(quantity: Quantity, text: &str) -> Result<f64, Fault> {
     let column = quantity.name();
     let value = text.parse::<f64>().map_err(|_| Fault::Field {

@@ -1,4 +1,4 @@
-//! What was measured, each contact in its place.
+//! The measured forces of a pile, stored by contact.
 
 use std::collections::BTreeMap;
 
@@ -12,27 +12,27 @@ use crate::NumberedPile;
 use cannonpile::Packing;
 use cannonpile::engine::refuse_beyond_memory;
 
-/// How many pairs besides the contacts a list may have for each sphere. No more than twelve spheres touch one, and each
-/// pair is listed once: this leaves room for neighbours that do not touch.
+/// The largest number of pairs without a contact, for each sphere. At most twelve spheres touch a sphere, and each pair
+/// is listed once. The limit leaves room for neighbours that do not touch.
 const PAIRS_A_SPHERE: u64 = 20;
 
-/// A force, and a vector.
+/// The memory of a force and a vector.
 const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>();
 
-/// How many times lines may begin anew, before they are no longer told.
+/// The largest number of runs of lines. Beyond it, messages about repeated pairs omit the line.
 const MAX_RUNS: usize = 1 << 20;
 
-/// The forces measured in a pile: eight bytes a contact, 24 more if there are vectors.
+/// The measured forces of a pile. A contact takes eight bytes, and 24 more if vectors were measured.
 pub(super) struct Ledger<'p> {
     numbered: NumberedPile<'p>,
     slots: Slots,
     spheres: u64,
-    /// The force of each contact: 0 for one that was not measured, −0 for one that was, as 0. So memory that was never
-    /// written stays with the system.
+    /// The force of each contact: 0 if it was not measured, and −0 if the measured force is 0. The memory starts as
+    /// zeros, so the system allocates only the pages that are written.
     forces: Vec<f64>,
-    /// The vector on the sphere with the lesser number, not a number where none was measured.
+    /// The vector on the sphere with the smaller number; NaN if none was measured.
     vectors: Vec<[f64; 3]>,
-    /// Pairs that are no contacts, and their lines.
+    /// Pairs without a contact, with their lines.
     strays: BTreeMap<[u64; 2], (Measured, u64)>,
     lines: Lines,
     snapshots: u64,
@@ -68,7 +68,7 @@ impl<'p> Ledger<'p> {
         &self.numbered
     }
 
-    /// Where the contact of two spheres stands.
+    /// Returns the index of the contact between two spheres.
     pub(super) fn slot(&self, [one, other]: [u64; 2]) -> Option<usize> {
         self.slots.find([one.min(other), one.max(other)])
     }
@@ -85,7 +85,8 @@ impl<'p> Ledger<'p> {
         self.walls
     }
 
-    /// Takes what was measured at a line, if it is of two spheres of the pile, with a finite force, and was not there before.
+    /// Stores the measurement of a line. Both spheres must be in the pile, the force must be finite, and the pair must
+    /// be new.
     pub(super) fn admit(&mut self, measured: &Measured, line: u64) -> Result<(), Fault> {
         let spheres = self.spheres;
         let [first, second] = measured.ids;
@@ -148,9 +149,9 @@ impl<'p> Ledger<'p> {
         Ok(())
     }
 
-    /// Compares all that was measured with the exact forces.
+    /// Compares all measured forces with the exact ones.
     ///
-    /// If `with_balance`, adds up the forces on each sphere besides.
+    /// With `with_balance`, also adds up the forces on each sphere.
     pub(super) fn judge(
         mut self,
         with_balance: bool,
@@ -162,7 +163,7 @@ impl<'p> Ledger<'p> {
         let balance = with_balance.then(|| Balance::new(&self.numbered));
         let mut balance = balance.transpose()?;
         let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
-        // Errors take the places of forces that have been read.
+        // Each error overwrites a force that has already been read.
         let mut errors = 0;
         for (slot, contact) in contacts.enumerate() {
             let contact = contact.map_err(Refusal::of_forces)?.in_order();
@@ -220,10 +221,11 @@ impl Sink for Ledger<'_> {
     }
 }
 
-/// The lines of contacts, where they follow each other: enough for a table in any order but a shuffled one.
+/// The lines of the contacts, stored as runs of consecutive lines. Only a table in random order needs more runs than
+/// are kept.
 #[derive(Default)]
 struct Lines {
-    /// Where a run begins: its first contact, the line of that, and how many there are.
+    /// For the first contact of each run: its line, and the length of the run.
     runs: BTreeMap<usize, (u64, usize)>,
     last: Option<usize>,
 }

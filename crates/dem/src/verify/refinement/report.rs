@@ -18,9 +18,9 @@ use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 /// `error, order, standard_error, constant, residual, extrapolated_error, extrapolated_standard_error, levels_used`. A
 /// line gives the reason for each value that is not available.
 ///
-/// The json is an array of one object with `refinement`, the array `levels`, and the objects `largest` and `rms`. In
-/// these, `no_order` and `no_limit` are the reasons why there is no order or no limit. An infinite number is `inf`, in
-/// json `null`.
+/// The json is an array of one object with `refinement`, the array `levels`, and the objects `largest` and `rms`. Their
+/// entries `no_order` and `no_limit` give the reason for a missing order or limit. An infinite number is `inf`, in json
+/// `null`.
 ///
 /// The extrapolation assumes order 1 for stiffnesses, as for linear springs. For time steps it uses the observed order.
 ///
