@@ -1,31 +1,31 @@
-//! The lines of a file, numbered, one at a time in memory.
+//! The numbered lines of a file, one at a time in memory.
 
 use std::io::{BufRead, Read};
 
 use super::refusal::{Fault, Refusal};
 
-/// The longest line, in bytes.
+/// The maximum length of a line, in bytes.
 const LONGEST: usize = 1 << 16;
 
-/// U+FEFF, which some programs begin a text with.
+/// U+FEFF, the first character of some text files.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// A source of lines.
+/// A reader of lines.
 pub(super) struct Lines<R> {
     input: R,
     line: Vec<u8>,
     number: u64,
-    /// Whether the last line given is to be given again.
+    /// True if the next call repeats the last line.
     again: bool,
 }
 
 /// A line without its end.
 #[derive(Clone, Copy)]
 pub(super) struct Line<'l> {
-    /// Counted from 1.
+    /// The number of the line, counted from 1.
     pub(super) number: u64,
     pub(super) text: &'l str,
-    /// Whether it had an end: the last line of a file may lack it.
+    /// True if the line has an end. The last line of a file may lack it.
     pub(super) ended: bool,
 }
 
@@ -39,17 +39,17 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
-    /// The number of the last line given, or 1 before the first.
+    /// Returns the number of the last line, or 1 before the first.
     pub(super) fn number(&self) -> u64 {
         self.number.max(1)
     }
 
-    /// Gives the last line once more.
+    /// Repeats the last line at the next call.
     pub(super) fn put_back(&mut self) {
         self.again = self.number > 0;
     }
 
-    /// The next line; none at the end.
+    /// Returns the next line, or `None` at the end of the file.
     pub(super) fn next(&mut self) -> Result<Option<Line<'_>>, Refusal> {
         if !core::mem::take(&mut self.again) {
             self.line.clear();

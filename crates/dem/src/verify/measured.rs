@@ -1,9 +1,9 @@
-//! What was measured between two spheres.
+//! The measured force between two spheres.
 
-/// The most entries that are read, and the most contacts of a pile that they are compared with.
+/// The maximum number of entries that are read, and of contacts in a pile that are compared.
 pub const MAX_ENTRIES: u64 = 100_000_000;
 
-/// The force that was measured between two spheres.
+/// A measured force between two spheres.
 ///
 /// # Examples
 /// ```
@@ -16,14 +16,14 @@ pub const MAX_ENTRIES: u64 = 100_000_000;
 pub struct Measured {
     /// The numbers of the two spheres, from 1.
     pub ids: [u64; 2],
-    /// The force along the line between their centres; positive is push.
+    /// The force along the line between their centres; compressive forces are positive.
     pub force: f64,
-    /// The force on the first of them, z up, if it was measured.
+    /// The force on the first sphere, with z upwards, if it was measured.
     pub vector: Option<[f64; 3]>,
 }
 
 impl Measured {
-    /// A force of which the magnitude is known.
+    /// Returns a measurement of the magnitude only.
     ///
     /// # Examples
     /// ```
@@ -41,8 +41,8 @@ impl Measured {
         }
     }
 
-    /// A force of which the vector on the first of the two spheres is known. It pushes unless it pulls the upper sphere,
-    /// that with the lesser number, down.
+    /// Returns a measurement of the vector on the first sphere. The force is tensile if it pulls the upper sphere down,
+    /// and compressive otherwise. The upper sphere has the smaller number.
     ///
     /// # Examples
     /// ```
@@ -63,13 +63,13 @@ impl Measured {
         Self::new(ids, force).with_vector(vector)
     }
 
-    /// With the force on the first of the two spheres as a vector.
+    /// Adds the vector of the force on the first sphere.
     ///
     /// # Examples
     /// ```
     /// use cannonpile_dem::verify::Measured;
     ///
-    /// // The magnitude stays what was measured, that of the vector or not.
+    /// // The magnitude keeps its measured value, even if it disagrees with the vector.
     /// let turned = Measured::new([1, 4], 2.0).with_vector([0.0, 0.0, 2.5]);
     /// assert_eq!((turned.force, turned.vector), (2.0, Some([0.0, 0.0, 2.5])));
     /// ```
@@ -79,14 +79,15 @@ impl Measured {
         self
     }
 
-    /// Returns this contact with its two spheres swapped: the vector, now the force on the other, changes its sign.
+    /// Returns this measurement with its two spheres swapped. The vector then acts on the other sphere, so it changes
+    /// its sign.
     ///
     /// # Examples
     /// ```
     /// use cannonpile_dem::verify::Measured;
     ///
     /// let pull = Measured::new([1, 4], -2.0).with_vector([1.2, 0.0, -1.6]);
-    /// // Pull is pull, seen from either sphere.
+    /// // A tensile force is tensile for both spheres.
     /// assert_eq!((pull.reversed().ids, pull.reversed().force), ([4, 1], -2.0));
     /// assert_eq!(pull.reversed().reversed(), pull);
     /// ```
@@ -95,31 +96,31 @@ impl Measured {
         let [first, second] = self.ids;
         Self {
             ids: [second, first],
-            // 0 stays 0, not -0.
+            // The subtraction keeps 0 from becoming −0.
             vector: self.vector.map(|vector| vector.map(|x| 0.0 - x)),
             ..self
         }
     }
 
-    /// Whether there is no force at all: the two do not touch.
+    /// Returns whether the force and the vector are 0, so that the two spheres do not touch.
     pub(super) fn is_zero(&self) -> bool {
         self.magnitude() == 0.0
     }
 
-    /// The greater of the magnitude and that of the vector.
+    /// Returns the greater of the magnitude and the length of the vector.
     pub(super) fn magnitude(&self) -> f64 {
         let vector = self.vector.map_or(0.0, norm);
         self.force.abs().max(vector)
     }
 }
 
-/// |a − b|.
+/// Returns |a − b|.
 pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let [[x, y, z], [u, v, w]] = [a, b];
     norm([x - u, y - v, z - w])
 }
 
-/// √(x² + y² + z²), without squares that leave the floats.
+/// Returns √(x² + y² + z²), without overflow or underflow of the squares.
 pub(super) fn norm(vector: [f64; 3]) -> f64 {
     let scale = vector.iter().fold(0.0, |scale: f64, x| scale.max(x.abs()));
     if scale == 0.0 || !scale.is_finite() {

@@ -1,4 +1,4 @@
-//! What was measured between two spheres that are known by where they are.
+//! The measured force of a contact that is known by its position.
 
 use super::comparison::Comparison;
 use super::entry::{Entry, Force, Place, Sink, Spheres};
@@ -9,7 +9,7 @@ use super::read::checked_within;
 use super::refusal::{Fault, Refusal};
 use cannonpile::{Interrupt, Packing};
 
-/// The force that was measured between two spheres that touch at a place.
+/// A measured force between two spheres that are known by position.
 ///
 /// # Examples
 /// ```
@@ -25,7 +25,7 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// The force of a contact whose point is known, in m; a vector is that on either sphere.
+    /// Returns a measurement at a contact point, in m. A vector may be the force on either sphere.
     ///
     /// # Examples
     /// ```
@@ -45,7 +45,7 @@ impl Placed {
         Self { place, force }
     }
 
-    /// The force of a contact of two spheres whose centres are known, in m; a vector is that on the first.
+    /// Returns a measurement between two centres, in m. A vector is the force on the first sphere.
     ///
     /// # Examples
     /// ```
@@ -66,7 +66,7 @@ impl Placed {
         Self { place, force }
     }
 
-    /// As a row of a table, all of whose numbers are finite.
+    /// Returns the measurement as a row of a table, if all its numbers are finite.
     fn entry(&self) -> Result<Entry, Fault> {
         let points = match &self.place {
             Place::Centres(centres) => centres.as_slice(),
@@ -91,12 +91,13 @@ impl Placed {
 }
 
 impl Comparison {
-    /// Compares measured forces with those of a packing, the contacts found by where they are: each sphere `within` a share
-    /// of the radius of where it must be. Returns the frame of the places besides, where it is not that of the packing.
+    /// Compares measured forces with those of a packing, and matches contacts by position. Each sphere must be closer
+    /// to its exact position than `within` times the radius. Also returns the frame of the positions, if it differs
+    /// from that of the packing.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new); [`Refusal::Within`] unless 0 < `within` < 1/2; [`Refusal::Elsewhere`] for places in no
-    /// frame of the pile; [`Refusal::Entry`] for a force where no contact can be.
+    /// Those of [`new`](Self::new). [`Refusal::Within`] unless 0 < `within` < 1/2. [`Refusal::Elsewhere`] if no frame
+    /// matches the positions to the pile. [`Refusal::Entry`] for a force at a position without a contact.
     ///
     /// # Examples
     /// ```
@@ -105,7 +106,7 @@ impl Comparison {
     ///
     /// let pile = Pile::discs(2)?;
     /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
-    /// // Eight metres further up.
+    /// // These positions are eight metres higher than in the pile.
     /// let measured = [-0.6, 0.6].map(|x| Placed::at([x, 0.0, 8.8], Force::Along(0.625)));
     /// let (comparison, frame) = Comparison::of_places(&packing, measured, 0.1)?;
     /// assert_eq!(comparison.matched(), 2);
@@ -132,7 +133,7 @@ impl Comparison {
     }
 }
 
-/// Entries are counted where a file has lines.
+/// Converts the line of an error to the number of an entry.
 fn of_entry(refusal: Refusal) -> Refusal {
     match refusal {
         Refusal::Line { line, fault } => Refusal::Entry { entry: line, fault },

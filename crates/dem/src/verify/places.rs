@@ -1,4 +1,4 @@
-//! Spheres found by where they are.
+//! The spheres of a pile, found by position.
 
 use core::num::NonZero;
 
@@ -19,7 +19,7 @@ pub(super) struct Places {
     radius: f64,
 }
 
-/// A centre, the tree's copy of it, and its number there.
+/// The memory of a centre, its copy in the tree, and its index there.
 const BYTES_A_SPHERE: usize = size_of::<[f64; 6]>() + size_of::<u64>();
 
 const TWO: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(1);
@@ -45,7 +45,8 @@ impl Places {
         })
     }
 
-    /// Returns the numbers of the two spheres that touch at a place, each within a distance of where it must be.
+    /// Returns the numbers of the two spheres that touch at a position. Each must be within this distance of its exact
+    /// position.
     pub(super) fn find(&self, place: &Place, within: f64) -> Result<[u64; 2], Fault> {
         let (ids, off) = self.nearest(place);
         match ids {
@@ -61,7 +62,7 @@ impl Places {
         }
     }
 
-    /// Returns the two spheres nearest to a place, and how far they are from where they must be.
+    /// Returns the two spheres nearest to a position, and their greatest distance from their exact positions.
     pub(super) fn nearest(&self, place: &Place) -> (Option<[u64; 2]>, f64) {
         match place {
             Place::Centres(centres) => {
@@ -74,7 +75,7 @@ impl Places {
             }
             Place::Point(point) => {
                 let two = self.tree.nearest_n::<SquaredEuclidean>(point, TWO);
-                // Each is a radius away.
+                // The centres are one radius from the contact point.
                 let off = |distance: f64| (distance.sqrt() - self.radius).abs();
                 match two[..] {
                     [one, other] => {
@@ -90,9 +91,9 @@ impl Places {
 }
 
 impl Places {
-    /// Returns the force between two spheres that were found by where they are, its vector that on the first.
+    /// Returns the force between two spheres that were found by position, with its vector on the first sphere.
     ///
-    /// It pushes where its vector points from the second to the first.
+    /// The force is compressive if its vector points from the second sphere to the first.
     pub(super) fn on_first(&self, force: Force, ids: [u64; 2]) -> Result<Measured, Error> {
         Ok(match force {
             Force::Vector(vector) => {
@@ -103,8 +104,9 @@ impl Places {
         })
     }
 
-    /// Returns the force between two spheres of whose contact the point is known, and not which is the first: the vector is
-    /// that on the sphere that it pushes, or pulls if the force says so.
+    /// Returns the force between two spheres that were found by their contact point. A compressive vector acts on the
+    /// sphere that it pushes away from the contact. A tensile vector acts on the sphere that it pulls towards the
+    /// contact.
     pub(super) fn on_either(&self, force: Force, ids: [u64; 2]) -> Result<Measured, Error> {
         let (force, vector) = match force {
             Force::Along(_) => return Ok(force.between(ids)),
@@ -117,7 +119,7 @@ impl Places {
         Ok(Measured::new(ids, force).with_vector(vector))
     }
 
-    /// The part of a vector along the line from the second of two spheres to the first, times their distance.
+    /// Returns the component of a vector from the second of two spheres towards the first, times their distance.
     fn along(&self, vector: [f64; 3], ids: [u64; 2]) -> Result<f64, Error> {
         let [first, second] = self.centres_of(ids)?;
         let apart = minus(first, second);
@@ -134,14 +136,14 @@ impl Places {
         Ok([centre(one)?, centre(other)?])
     }
 
-    /// Returns the exact point between the two spheres that touch at a place.
+    /// Returns the exact point halfway between the two spheres that touch at a position.
     pub(super) fn point_of(&self, place: &Place, within: f64) -> Option<[f64; 3]> {
         let ids = self.find(place, within).ok()?;
         self.centres_of(ids).as_ref().map(middle).ok()
     }
 }
 
-/// Where contacts with a force are, each between its two centres; and the magnitudes of all forces, contact by contact.
+/// Returns the points of all contacts with a force, halfway between their centres, and the magnitudes of all forces.
 pub(super) fn loaded_points(pile: &NumberedPile<'_>) -> Result<(Vec<[f64; 3]>, Vec<f64>), Refusal> {
     let (mut points, mut forces) = (Vec::new(), Vec::new());
     for contact in pile.contacts().map_err(Refusal::of_forces)? {
@@ -156,17 +158,18 @@ pub(super) fn loaded_points(pile: &NumberedPile<'_>) -> Result<(Vec<[f64; 3]>, V
     Ok((points, forces))
 }
 
-/// Whether a force, of several up to the greatest, tells where a contact is; each does where there is none.
+/// Returns whether a force is large enough to mark the position of a contact. If the greatest force is 0, every contact
+/// counts.
 pub(super) fn is_loaded(force: f64, greatest: f64) -> bool {
     force >= greatest * 1e-9
 }
 
-/// The point between two.
+/// Returns the point halfway between two points.
 pub(super) fn middle([[x, y, z], [u, v, w]]: &[[f64; 3]; 2]) -> [f64; 3] {
     [x.midpoint(*u), y.midpoint(*v), z.midpoint(*w)]
 }
 
-/// a − b.
+/// Returns a − b.
 pub(super) fn minus([x, y, z]: [f64; 3], [u, v, w]: [f64; 3]) -> [f64; 3] {
     [x - u, y - v, z - w]
 }

@@ -1,4 +1,4 @@
-//! The tables of known codes.
+//! The columns of known codes.
 
 use core::fmt;
 use core::str::FromStr;
@@ -6,7 +6,7 @@ use core::str::FromStr;
 use super::columns::Columns;
 use crate::Error;
 
-/// A code whose tables of contacts are known: which columns hold what, and what identifies the spheres.
+/// A code with known contact tables: the meaning of its columns, and the identification of the spheres.
 ///
 /// # Examples
 /// ```
@@ -21,34 +21,38 @@ use crate::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Preset {
-    /// LAMMPS (22 Jul 2025, its own `dump local` files): `patom1 patom2` (or `natom1 natom2`) of `compute property/local` and
-    /// `force fx fy fz` of `compute pair/local`, with these names by `dump_modify colname`. By the numbers of the atoms.
+    /// LAMMPS (22 Jul 2025), its own `dump local` files: `patom1 patom2` (or `natom1 natom2`) of
+    /// `compute property/local`, and `force fx fy fz` of `compute pair/local`. `dump_modify colname` sets these names.
+    /// Matched by the numbers of the atoms.
     Lammps,
-    /// YADE (2023.02a, tables of scripts that it ran): `id1,id2,force`, bodies counted from 0 as `Interaction.id1` does.
+    /// YADE (2023.02a), tables written by scripts: `id1,id2,force`. Bodies are counted from 0, as in `Interaction.id1`.
     Yade,
-    /// exaDEM (1.2.2, `src/interaction/include/exaDEM/itools/writer.hpp`): the csv without header of
-    /// `write_interaction_data`, 21 columns. By place, both centres; the force on the second particle is its `fn + ft`; the
-    /// interactions 0 to 3 are between particles, 4 to 12 with drivers.
+    /// exaDEM (1.2.2, `src/interaction/include/exaDEM/itools/writer.hpp`): the csv of `write_interaction_data`, with 21
+    /// columns and no header. Matched by the positions of both centres. The force on the second particle is its
+    /// `fn + ft`. The interactions 0 to 3 are between particles, and 4 to 12 with drivers.
     ExaDem,
-    /// exaDEM (1.2.2, `src/interaction/include/exaDEM/network.hpp`): the contact network of `dump_contact_network` in `.vtp`,
-    /// lines between centres with the vectors `fn` and `ft`. By place, both centres; as above on the second one.
+    /// exaDEM (1.2.2, `src/interaction/include/exaDEM/network.hpp`): the contact network of `dump_contact_network` in
+    /// `.vtp`. Lines between centres carry the vectors `fn` and `ft`. Matched by the positions of both centres. The
+    /// force on the second particle is `fn + ft`.
     ExaDemVtp,
-    /// DEM-Engine (2.1.0, `src/DEM/dT.cpp`, `writeContactsAsCsv`, and `Structs.h`): `contact_type,A,B,f_x,f_y,f_z,X,Y,Z`. By
-    /// place, the contact point; contacts of type `SS`, of two spheres.
+    /// DEM-Engine (2.1.0, `src/DEM/dT.cpp`, `writeContactsAsCsv`, and `Structs.h`):
+    /// `contact_type,A,B,f_x,f_y,f_z,X,Y,Z`. Matched by the position of the contact point. Contacts of type `SS` are
+    /// between two spheres.
     DemEngine,
-    /// MDDEM (0.1.3, `crates/dem_contact_analysis/src/lib.rs`): `i_tag,j_tag,overlap,cx,cy,cz,nx,ny,nz`. By place, the
-    /// contact point. There is no force in it: name the stiffness k of the linear spring, `force=k*overlap`.
+    /// MDDEM (0.1.3, `crates/dem_contact_analysis/src/lib.rs`): `i_tag,j_tag,overlap,cx,cy,cz,nx,ny,nz`. Matched by the
+    /// position of the contact point. The table contains no force: add the stiffness k of the linear spring with
+    /// `force=k*overlap`.
     Mddem,
-    /// Lethe (`source/dem/force_chains_visualization.cc`): the force chains, lines between centres with the normal force
-    /// `force`, in `.vtu`. By place, both centres.
+    /// Lethe (`source/dem/force_chains_visualization.cc`): the force chains in `.vtu`, lines between centres with the
+    /// normal force `force`. Matched by the positions of both centres.
     Lethe,
 }
 
 impl Preset {
-    /// All of them.
+    /// All presets.
     ///
-    /// Kratos is not among them: its DEM application writes no table of contacts; `dem_vtk_output.py` notes the method as
-    /// still to be added.
+    /// Kratos is missing because its DEM application writes no table of contacts. Its `dem_vtk_output.py` lists the
+    /// method as still to be added.
     ///
     /// # Examples
     /// ```
@@ -68,7 +72,7 @@ impl Preset {
         Self::Lethe,
     ];
 
-    /// Returns its name.
+    /// Returns the name of the preset.
     ///
     /// # Examples
     /// ```
@@ -89,7 +93,7 @@ impl Preset {
         }
     }
 
-    /// Returns the columns of its tables.
+    /// Returns the columns of the tables.
     ///
     /// # Examples
     /// ```
@@ -110,11 +114,11 @@ impl Preset {
             Self::DemEngine => "kind=contact_type:SS,fx=f_x,fy=f_y,fz=f_z,x=X,y=Y,z=Z",
             Self::Mddem => "x=cx,y=cy,z=cz,force=overlap",
         };
-        // Not a default: all of these are read in the tests, none is refused.
+        // The default is never used: the tests parse the columns of every preset.
         named.parse().unwrap_or_default()
     }
 
-    /// Returns whether its tables say where spheres are, and their numbers are its own.
+    /// Returns whether the tables identify contacts by position. Their sphere numbers then differ from those of the scene.
     ///
     /// # Examples
     /// ```

@@ -1,4 +1,4 @@
-//! Files of any kind.
+//! Files of any supported format.
 
 use std::io::BufRead;
 
@@ -19,9 +19,10 @@ use super::unbalanced::Unbalanced;
 use super::vtk_file;
 use cannonpile::Packing;
 
-/// Reads measured forces from a file of either kind: a LAMMPS dump if its first line begins with `ITEM:`, else csv.
+/// Reads measured forces from a file: a LAMMPS dump if its first line begins with `ITEM:`, otherwise a csv table.
 ///
-/// Of what scene they are is not known yet: a [`Reader`] compares while it reads, and refuses sooner what does not fit.
+/// This function does not know the scene. A [`Reader`] compares while it reads, so it rejects rows that do not match
+/// the pile earlier.
 ///
 /// # Errors
 /// Those of [`read_csv`](super::read_csv) and [`read_dump`](super::read_dump).
@@ -40,10 +41,10 @@ pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
     Ok(reading)
 }
 
-/// How a code's table is read: which columns hold what, and how its contacts are those of a pile.
+/// A reader of a code's tables: the meaning of the columns, and the method that matches contacts.
 ///
 /// # Examples
-/// DEM-Engine has numbers of its own, and says where spheres touch:
+/// DEM-Engine numbers its spheres in its own way, and writes contact points:
 /// ```
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile_dem::verify::{Preset, Reader};
@@ -63,31 +64,31 @@ pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reader {
     columns: Columns,
-    /// How far off a sphere may be that is known by where it is, in radii; none if it is known by its number.
+    /// The largest distance of a sphere from its exact position, in radii, if contacts are matched by position.
     within: Option<f64>,
     with_balance: bool,
 }
 
-/// A file that was read and compared.
+/// The result of reading and comparing a file.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Compared {
-    /// What it says of the forces.
+    /// The comparison with the exact forces.
     pub comparison: Comparison,
-    /// What the forces on each sphere add up to, if that was asked for.
+    /// The residual force on each sphere, if the reader was asked for it.
     pub unbalanced: Option<Unbalanced>,
-    /// How many snapshots a dump had, the last of which was kept; 0 for other files.
+    /// The number of snapshots of a dump, of which the last was kept; 0 for other files.
     pub snapshots: u64,
-    /// The time step of the snapshot that was kept.
+    /// The time step of the kept snapshot.
     pub timestep: Option<i64>,
-    /// How many rows are contacts with walls.
+    /// The number of rows that are contacts with walls.
     pub walls: u64,
-    /// Where the table's origin and axes are, if contacts were found by place in a frame other than that of the scene.
+    /// The frame of the table, if contacts were matched by position and the frame differs from that of the scene.
     pub frame: Option<Frame>,
 }
 
 impl Reader {
-    /// The distance in radii within which a sphere is found at a place, unless another is named.
+    /// The default for the largest distance of a sphere from its exact position, in radii.
     ///
     /// # Examples
     /// ```
@@ -99,7 +100,8 @@ impl Reader {
     /// ```
     pub const WITHIN: f64 = 0.1;
 
-    /// A reader of tables with this crate's or LAMMPS' names, by the numbers of the spheres.
+    /// Returns a reader of tables with the column names of this crate or of LAMMPS. It matches contacts by the numbers
+    /// of the spheres.
     ///
     /// # Examples
     /// ```
@@ -122,7 +124,7 @@ impl Reader {
         Self::default()
     }
 
-    /// The reader of a known code's tables.
+    /// Returns a reader of the tables of a known code.
     ///
     /// # Examples
     /// ```
@@ -139,7 +141,7 @@ impl Reader {
         }
     }
 
-    /// Returns it for other columns.
+    /// Returns this reader with other columns.
     ///
     /// # Examples
     /// ```
@@ -160,12 +162,12 @@ impl Reader {
         Self { columns, ..self }
     }
 
-    /// Returns it for tables that say where contacts are: by both centres, or by the point where they touch. A sphere is
-    /// found within a share of its radius; a shift or a turn of the whole table, axes with other names and a mirror image
-    /// are found, and told as the [`Frame`].
+    /// Returns this reader for tables with the positions of contacts: both centres, or the contact point. Each sphere
+    /// must be closer to its exact position than `within` times the radius. The reader finds translations and rotations
+    /// of the whole table, renamed axes and mirror images, and returns them as the [`Frame`].
     ///
     /// # Errors
-    /// [`Refusal::Within`] unless the share is positive and below a half.
+    /// [`Refusal::Within`] unless 0 < `within` < 1/2.
     ///
     /// # Examples
     /// ```
@@ -179,7 +181,7 @@ impl Reader {
         Ok(self)
     }
 
-    /// Returns it for tables with the numbers of the spheres.
+    /// Returns this reader for tables with the numbers of the spheres.
     ///
     /// # Examples
     /// ```
@@ -194,7 +196,7 @@ impl Reader {
         self
     }
 
-    /// Returns it to add up the forces on each sphere besides: 24 bytes a sphere.
+    /// Returns this reader with a sum of the forces on each sphere, for 24 bytes per sphere.
     ///
     /// # Examples
     /// ```
@@ -218,19 +220,19 @@ impl Reader {
         }
     }
 
-    /// Reads a file, and compares it with the exact forces of a packing: a LAMMPS dump if its first line begins with
-    /// `ITEM:`, lines with data in VTK's XML if it begins with `<`, else a table whose columns are separated by commas,
-    /// semicolons, tabs or blanks.
+    /// Reads a file, and compares it with the exact forces of a packing. The first line determines the format: `ITEM:`
+    /// begins a LAMMPS dump, and `<` begins an XML file of VTK with lines and data. Any other file is a table with
+    /// commas, semicolons, tabs or blanks as separators.
     ///
-    /// Memory is eight bytes a contact of the pile, 24 more where there are vectors. By place it is some 60 a sphere more for
-    /// the search, and where the frame is another one, 250 a row. VTK's XML is kept whole besides; a table is read line by
-    /// line, however long.
+    /// Memory is eight bytes for each contact of the pile, and 24 more if there are vectors. Matching by position takes
+    /// about 60 more bytes for each sphere. If the frame differs from that of the scene, it also takes 250 bytes for each
+    /// row. A table is read line by line, whatever its length, but a VTK file is kept in memory as a whole.
     ///
     /// # Errors
-    /// [`Refusal::Line`] for what cannot be read, the number of a sphere that the pile has not got, a pair that is there
-    /// twice, and a place where no spheres touch; [`Refusal::Elsewhere`] if there is no frame for the places.
-    /// [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for more contacts than are compared;
-    /// [`Refusal::OutOfRange`] for exact forces beyond the normal `f64`; [`Refusal::Io`].
+    /// [`Refusal::Line`] for a line that cannot be read, an unknown sphere number, a repeated pair, or a position where
+    /// no spheres touch. [`Refusal::Elsewhere`] if no frame matches the positions to the pile. [`Refusal::Scene`] with
+    /// [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with too many contacts. [`Refusal::OutOfRange`] for
+    /// exact forces outside the normal range of `f64`. [`Refusal::Io`] for errors of the input.
     ///
     /// # Examples
     /// ```
@@ -295,7 +297,7 @@ fn read_any(mut input: impl BufRead, format: &Format, sink: &mut impl Sink) -> R
     }
 }
 
-/// The distance, as a share of the radius, if spheres can be told apart by it.
+/// Returns this fraction of the radius, if it is small enough to distinguish spheres.
 pub(super) fn checked_within(within: f64) -> Result<f64, Refusal> {
     if within > 0.0 && within < 0.5 {
         return Ok(within);

@@ -1,4 +1,4 @@
-//! What was read from a file, and from which lines.
+//! The measured forces in a file, with their lines.
 
 use super::comparison::Comparison;
 use super::entry::{Entry, Sink};
@@ -10,14 +10,14 @@ use cannonpile::Packing;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     entries: Vec<Measured>,
-    /// The entries that do not stand a line below the one before, and their lines.
+    /// The entries that are not on the line after the previous entry, with their lines.
     jumps: Vec<(usize, u64)>,
     snapshots: u64,
     timestep: Option<i64>,
 }
 
 impl Reading {
-    /// What was measured, in the order of the file.
+    /// Returns the measured forces, in the order of the file.
     ///
     /// # Examples
     /// ```
@@ -33,7 +33,7 @@ impl Reading {
         &self.entries
     }
 
-    /// How many snapshots a dump had, the last of which was kept; 0 for csv.
+    /// Returns the number of snapshots of a dump. Only the last one was kept. For csv it is 0.
     ///
     /// # Examples
     /// ```
@@ -50,7 +50,7 @@ impl Reading {
         self.snapshots
     }
 
-    /// The time step of the snapshot that was kept.
+    /// Returns the time step of the kept snapshot.
     ///
     /// # Examples
     /// ```
@@ -60,7 +60,7 @@ impl Reading {
     ///             ITEM: ENTRIES id1 id2 force\n1 2 0.5\n";
     /// let later = dump.replacen("\n0\n", "\n500\n", 1);
     /// assert_eq!(verify::read([dump, &later].concat().as_bytes())?.timestep(), Some(500));
-    /// // A csv table has none.
+    /// // A csv table has no time step.
     /// assert_eq!(verify::read(&b"id1,id2,force\n"[..])?.timestep(), None);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
@@ -69,13 +69,13 @@ impl Reading {
         self.timestep
     }
 
-    /// The line of an entry, counted from 1; entries are counted from 0.
+    /// Returns the line of an entry. Lines are counted from 1, and entries from 0.
     ///
     /// # Examples
     /// ```
     /// use cannonpile_dem::verify;
     ///
-    /// // Empty lines are no entries, and count as lines.
+    /// // Empty lines count as lines, but not as entries.
     /// let reading = verify::read(&b"id1,id2,force\n1,2,0.5\n\n1,3,0.5\n"[..])?;
     /// assert_eq!([0, 1].map(|entry| reading.line(entry)), [2, 4]);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -89,10 +89,10 @@ impl Reading {
         line.saturating_add(below)
     }
 
-    /// Compares what was read with the exact forces.
+    /// Compares the measured forces with the exact ones.
     ///
     /// # Errors
-    /// Those of [`Comparison::new`], with the line of the file.
+    /// Those of [`Comparison::new`], with the line in the file.
     ///
     /// # Examples
     /// ```

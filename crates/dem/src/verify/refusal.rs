@@ -1,4 +1,4 @@
-//! Why measured forces were refused: one line, with the place, the value and the remedy.
+//! The reasons why measured forces are rejected: one line, with the place, the value and the remedy.
 
 use core::fmt;
 use std::io;
@@ -6,7 +6,7 @@ use std::io;
 use crate::Error;
 use crate::error::bug;
 
-/// Why measured forces were not compared.
+/// The reason why measured forces were not compared.
 ///
 /// # Examples
 /// ```
@@ -18,148 +18,148 @@ use crate::error::bug;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// A line of the file, counted from 1.
+    /// A fault in a line of a file.
     Line {
-        /// The line.
+        /// The line, counted from 1.
         line: u64,
-        /// What is wrong with it.
+        /// The fault.
         fault: Fault,
     },
-    /// An entry of a list that is no file, counted from 1.
+    /// A fault in an entry of a list.
     Entry {
-        /// The entry.
+        /// The entry, counted from 1.
         entry: u64,
-        /// What is wrong with it.
+        /// The fault.
         fault: Fault,
     },
     /// The scene has no exact forces to compare with.
     Scene(Error),
-    /// Exact forces that no normal `f64` is near to.
+    /// Exact forces outside the normal range of `f64`.
     OutOfRange,
-    /// The places are not those of the pile, however the table is turned.
+    /// The positions do not match the pile in any frame.
     Elsewhere {
-        /// How many places of a sample are, in the best of frames.
+        /// The number of positions of a sample that match in the best frame.
         found: usize,
-        /// How many the sample has.
+        /// The size of the sample.
         sample: usize,
     },
-    /// A share of the radius that cannot be one.
+    /// A distance, in radii, that is not between 0 and 1/2.
     Within(f64),
-    /// A picture file that cannot be read as lines with data.
+    /// A VTK file that is not valid XML with lines and data.
     Vtk(String),
     /// The file could not be read.
     Io(io::Error),
 }
 
-/// What is wrong with an entry, or with the file around it.
+/// A fault in an entry, or in the file around it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {
-    /// There is nothing.
+    /// The table is empty.
     Empty,
-    /// A column is not there.
+    /// A necessary column is missing.
     NoColumn {
-        /// The column.
+        /// The name of the column.
         column: &'static str,
-        /// Those that are.
+        /// The columns that were found.
         found: String,
     },
-    /// A column that was named is not there.
+    /// A column that the user named is missing.
     NoNamedColumn {
-        /// What it would hold.
+        /// The quantity of the column.
         column: &'static str,
-        /// Its name.
+        /// The name that the user gave.
         name: String,
-        /// Those that are.
+        /// The columns that were found.
         found: String,
     },
-    /// Two columns could be meant.
+    /// Two columns match one quantity.
     TwoColumns {
-        /// What they could be.
+        /// The quantity.
         column: &'static str,
-        /// The one.
+        /// The first column.
         first: String,
-        /// The other.
+        /// The second column.
         second: String,
     },
-    /// A line with another number of fields than the header has columns.
+    /// A line has another number of fields than the header.
     Fields {
-        /// The columns of the header.
+        /// The number of columns in the header.
         columns: usize,
-        /// The fields of the line.
+        /// The number of fields in the line.
         fields: usize,
     },
-    /// A field that is not what its column holds.
+    /// A field does not match the quantity of its column.
     Field {
-        /// The column.
+        /// The quantity.
         column: &'static str,
-        /// The field, as far as it is shown, with what was expected.
+        /// The field, shortened if it is long, with the expected form.
         error: Box<Error>,
     },
-    /// A force beyond the floats, or none.
+    /// A number is infinite or NaN.
     NotFinite {
-        /// The column.
+        /// The quantity.
         column: &'static str,
         /// The value.
         value: f64,
     },
-    /// The number of a sphere that the pile has not got.
+    /// The number of a sphere is not in the pile.
     NoSuchSphere {
         /// The number.
         id: u64,
-        /// How many spheres the pile has.
+        /// The number of spheres of the pile.
         spheres: u64,
     },
-    /// A sphere and itself.
+    /// A sphere is paired with itself.
     OneSphere {
-        /// Its number.
+        /// The number of the sphere.
         id: u64,
     },
-    /// A pair that was there before, this way round or the other.
+    /// A pair occurs twice, in the same or in reverse order.
     Twice {
-        /// The pair.
+        /// The numbers of the two spheres.
         ids: [u64; 2],
-        /// Where it was first, if that is known: a line, or an entry.
+        /// The line or the entry of the first occurrence, if it is known.
         first: Option<u64>,
     },
-    /// A place where no sphere is.
+    /// No two spheres touch at a position.
     NoSphereAt {
-        /// The place, in the axes of the scene, in m.
+        /// The position in the axes of the scene, in m.
         point: [f64; 3],
-        /// How far off it may be, in radii.
+        /// The largest accepted distance from an exact position, in radii.
         within: f64,
-        /// How far off the nearest one is, in radii.
+        /// The distance of the nearest sphere from its exact position, in radii.
         nearest: f64,
     },
-    /// A quote that does not end on its line, or has something after its end.
+    /// A quoted field does not end on its line, or its quote is followed by other text.
     Quote,
-    /// A line that is no text.
+    /// A line is not UTF-8 text.
     Encoding,
-    /// A line too long to be one.
+    /// A line is too long for a row of a table.
     LongLine {
-        /// The most bytes.
+        /// The largest accepted length, in bytes.
         limit: usize,
     },
-    /// A line of a dump that is not the one expected here.
+    /// A line of a dump differs from the expected one.
     Dump {
-        /// What was expected, with what was found.
+        /// The line, with the expected form.
         error: Box<Error>,
     },
-    /// A snapshot that ends before all its entries are there.
+    /// A snapshot ends before its last announced entry.
     Truncated {
-        /// How many were announced.
+        /// The announced number of entries.
         announced: u64,
-        /// How many there are.
+        /// The number of entries found.
         found: u64,
     },
-    /// A dump that ends within a line, or within its header.
+    /// A dump ends within a line or within its header.
     Cut,
-    /// More entries than are read.
+    /// The file has too many entries.
     TooMany {
-        /// The most that are.
+        /// The largest accepted number of entries.
         limit: u64,
     },
-    /// Something that cannot be: a fault of this library and of no table.
+    /// An internal error of this library.
     Bug {
         /// [`Error::Bug`](cannonpile::Error::Bug).
         error: Box<Error>,
@@ -282,7 +282,7 @@ impl fmt::Display for Fault {
 }
 
 impl std::error::Error for Refusal {
-    /// Returns the cause of the inner error, whose own text is part of this message.
+    /// Returns the cause of the inner error. The text of the inner error is part of this message.
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Scene(error) => error.source(),
@@ -311,7 +311,7 @@ impl From<io::Error> for Refusal {
 }
 
 impl Refusal {
-    /// Why there are no exact forces to compare with.
+    /// Converts an error in the exact forces.
     pub(super) fn of_forces(error: impl Into<Error>) -> Self {
         match error.into() {
             Error::Core(cannonpile::Error::Overflow { .. }) => Self::OutOfRange,
@@ -321,14 +321,14 @@ impl Refusal {
 }
 
 impl Fault {
-    /// A case that an invariant rules out.
+    /// Returns the fault for a violated invariant.
     pub(super) fn of_bug(invariant: &'static str) -> Self {
         Self::Bug {
             error: Box::new(bug(invariant)),
         }
     }
 
-    /// At a line.
+    /// Returns this fault with its line.
     pub(super) fn at(self, line: u64) -> Refusal {
         Refusal::Line { line, fault: self }
     }

@@ -1,10 +1,13 @@
-//! The frame in which a table's places are those of a pile.
+//! Registration: finds the frame in which the positions of a table match a pile.
 //!
-//! Contacts with a force are points, in the table and in the pile. Six axes can be the vertical, and the table may be a
-//! mirror image; for each, the points' middles give the shift, and the point farthest from the middle axis the angles
-//! that bring it onto one that is as far and as high. The frame in which most places of a sample are found is taken, of
-//! equals the one whose forces are shared out more as the exact ones are, then the one with the least change; it is fitted
-//! by least squares to what was found.
+//! Contacts with a force form a set of points, both in the table and in the pile. Each of six axes can be the vertical,
+//! and the table may be a mirror image. In each of these cases the centroids of the two sets give the shift. The point
+//! farthest from the vertical through the centroid gives candidate angles: each rotates it onto a point of the pile
+//! with a similar distance and height.
+//!
+//! The best frame matches the most positions of a sample. Among equals, it is the frame in which the measured forces
+//! are distributed most similarly to the exact ones, then the one with the smallest change. A least-squares fit to the
+//! matched positions refines it.
 
 use core::f64::consts::PI;
 
@@ -13,32 +16,33 @@ use super::entry::Place;
 use super::frame::Frame;
 use super::places::{Places, is_loaded, middle, minus};
 
-/// How many places are looked up to judge a frame, and to fit one.
+/// The number of positions in the sample that judges a frame, and in the fit of a frame.
 const SAMPLE: usize = 200;
 const FITTED: usize = 5000;
 
-/// How many turns are tried for one vertical.
+/// The largest number of angles tried for one vertical axis.
 const MAX_TURNS: usize = 200;
 
-/// Angles this near to a multiple of 30° are that multiple, and shifts this near to nothing, in R, are none: spheres give
-/// way by more.
+/// The tolerance for rounding. Angles closer than this to a multiple of 30°, in radians, are rounded to it, and shifts
+/// below it, in R, to 0. Compliant spheres are displaced by more.
 const EXACT: f64 = 1e-3;
 
-/// Which angles and shifts are taken for rounder ones.
+/// The rounding of angles and shifts.
 #[derive(Clone, Copy)]
 struct Rounding {
     radius: f64,
-    /// How far that may move a place.
+    /// The largest displacement of a position by rounding.
     most: f64,
 }
 
 impl Rounding {
-    /// An angle, or the multiple of 30° that it is near to, of a frame whose places are no farther than this from its axis.
+    /// Rounds an angle to the nearest multiple of 30°, if it is close enough. All positions of the frame are at most
+    /// `far` from its axis.
     fn angle(self, angle: f64, far: f64) -> f64 {
         let step = PI / 6.0;
         let multiple = (angle / step).round();
         let round = multiple * step;
-        // At most infinite, where all are on the axis.
+        // The quotient is infinite if all positions are on the axis.
         if (angle - round).abs() < EXACT.min(self.most / far) {
             round
         } else {
@@ -46,7 +50,7 @@ impl Rounding {
         }
     }
 
-    /// A part of a shift, or none.
+    /// Rounds a component of a shift to 0, if it is small enough.
     fn shift(self, x: f64) -> f64 {
         if x.abs() < self.most.min(EXACT * self.radius) {
             0.0
@@ -56,19 +60,19 @@ impl Rounding {
     }
 }
 
-/// A frame, and the share of a sample that is found in it.
+/// A frame, with the share of a sample that it matches.
 pub(super) struct Fit {
     pub(super) frame: Frame,
     pub(super) found: usize,
     pub(super) sample: usize,
-    /// How far off those that are found are, in the mean, in R.
+    /// The mean distance of the matched positions from the exact ones, in R.
     off: f64,
-    /// How far the shares of their forces are from the exact ones, in all.
+    /// The total difference between the distributions of measured and exact forces.
     unlike: f64,
 }
 
 impl Fit {
-    /// Whether it is so much better that a greater change is worth it.
+    /// Returns whether this frame is better by enough to justify a greater change.
     fn is_better_than(&self, other: &Self) -> bool {
         if self.found != other.found {
             return self.found > other.found;
@@ -78,23 +82,23 @@ impl Fit {
     }
 }
 
-/// A mean distance that tells one frame from another, in R.
+/// The smallest difference between mean distances that distinguishes two frames, in R.
 const NOTABLE: f64 = 0.01;
 
-/// What rounding may change in the shares of forces.
+/// The rounding error in the distribution of forces.
 const ROUNDED: f64 = 1e-9;
 
-/// A place of a table, and the magnitude of the force there.
+/// A position in a table, and the magnitude of the force there.
 pub(super) type Loaded = (Place, f64);
 
-/// What a pile has: where contacts with a force are, and the exact magnitude between two spheres.
+/// The exact data of a pile: the points of contacts with a force, and the force between two spheres.
 pub(super) struct Exact<'e> {
     pub(super) points: &'e [[f64; 3]],
     pub(super) places: &'e Places,
     pub(super) force: &'e dyn Fn([u64; 2]) -> f64,
 }
 
-/// Finds the frame of a table with these places.
+/// Finds the frame in which these positions match the pile.
 pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64) -> Fit {
     let places = pile.places;
     let sample = spread(table, SAMPLE);
@@ -127,7 +131,7 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
         .iter()
         .filter(|(_, force)| is_loaded(*force, greatest));
     let points: Vec<[f64; 3]> = loaded.map(|(place, _)| point(place)).collect();
-    // A shift by missing contacts is less than this.
+    // Missing contacts displace the centroid by less than this.
     let near = (radius / 2.0).max(within);
     let rounding = Rounding {
         radius,
@@ -147,11 +151,11 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
     judge(frame, within)
 }
 
-/// Frames worth trying, those with the least change first.
+/// Returns the candidate frames, those with the smallest change first.
 fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec<Frame> {
     let mut frames = Vec::new();
     let own = Axes::all().filter(|axes| {
-        // One of each vertical, and of its mirror images: the rest is a turn.
+        // One permutation for each vertical axis, and one for its mirror image. Rotations give the others.
         let [x, _, z] = axes.get();
         !x.is_reversed && x.coordinate == z.coordinate.next()
     });
@@ -160,7 +164,7 @@ fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec
     for axes in all {
         let named: Vec<[f64; 3]> = points.iter().map(|p| axes.turned(*p)).collect();
         let [from, to] = [&named[..], pile].map(mean);
-        // Where contacts are missing, the lowest may still be there.
+        // If contacts are missing, the lowest point may still be present.
         let sunk = lowest(pile) - lowest(&named);
         for angle in angles(&named, pile, rounding) {
             let turn = Frame {
@@ -178,7 +182,7 @@ fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec
     frames
 }
 
-/// The angles that bring the point farthest from the middle axis onto one as far and as high, 0 first, the least next.
+/// Returns the candidate angles, by increasing magnitude. The first is 0.
 fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec<f64> {
     let [from, to] = [points, pile].map(mean);
     let around = |point: &[f64; 3], middle: [f64; 3]| {
@@ -211,7 +215,7 @@ fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec<f64
     angles
 }
 
-/// Fits the turn and the shift of a frame to the places that are found in it.
+/// Fits the rotation and the shift of a frame to the matched positions.
 fn fitted(
     frame: Frame,
     table: &[Loaded],
@@ -241,7 +245,7 @@ fn fitted(
     }
     let angle = rounding.angle(across.atan2(along), far);
     let turned = Frame { angle, ..upright };
-    // Turned already as far as its axes go.
+    // The axes are already permuted in these points.
     let spun = Frame {
         axes: Axes::OWN,
         ..turned
@@ -250,7 +254,7 @@ fn fitted(
     Frame { shift, ..turned }
 }
 
-/// How far the shares that measured forces have of their sum are from those that the exact ones have of theirs, in all.
+/// Returns the total difference between the shares of the measured forces in their sum and those of the exact forces.
 fn unlike(forces: &[(f64, f64)]) -> f64 {
     let (sums, exact) = forces
         .iter()
@@ -259,7 +263,7 @@ fn unlike(forces: &[(f64, f64)]) -> f64 {
     apart.sum()
 }
 
-/// A place of the table in a frame.
+/// Returns a position of the table, transformed by a frame.
 pub(super) fn moved(place: &Place, frame: &Frame) -> Place {
     match place {
         Place::Centres(centres) => Place::Centres(centres.map(|centre| frame.place(centre))),
@@ -274,7 +278,7 @@ fn point(place: &Place) -> [f64; 3] {
     }
 }
 
-/// Some of many, evenly.
+/// Returns an evenly spaced selection of positions.
 fn spread(places: &[Loaded], most: usize) -> Vec<&Loaded> {
     let step = places.len().div_ceil(most).max(1);
     places.iter().step_by(step).collect()
