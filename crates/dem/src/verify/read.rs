@@ -77,7 +77,7 @@ pub struct Compared {
     pub comparison: Comparison,
     /// The residual force on each sphere, if the reader was asked for it.
     pub unbalanced: Option<Unbalanced>,
-    /// The number of snapshots of a dump, of which the last was kept; 0 for other files.
+    /// The number of snapshots of a dump; 0 for other files. The last snapshot was kept.
     pub snapshots: u64,
     /// The time step of the kept snapshot.
     pub timestep: Option<i64>,

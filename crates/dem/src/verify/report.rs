@@ -1,4 +1,4 @@
-//! A comparison as a table, and as json.
+//! A comparison as a table and as json.
 
 use std::io::Write;
 
@@ -11,15 +11,18 @@ use super::unbalanced::float;
 use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 use cannonpile::lattice::{Dimension, Site};
 
-/// How many missing and how many extra contacts the text shows.
+/// The number of missing contacts, and of extra pairs, that the text shows.
 const SHOWN: usize = 5;
 
-/// What a comparison says at an accepted error.
+/// The report of a comparison at an accepted error.
 ///
-/// As text and csv one row: `accepted, accept, contacts, matched, missing, extra, noise, fixed, largest_error, rms_error,
-/// worst, beyond, factor, walls, frame, unbalanced, findings`; in the text what they count stands behind them, and it goes on with the first of the missing and the greatest of the extra contacts. As json an array of one
-/// object with the same keys and `largest_force`; `worst` is an object, and up to a thousand of each are in the arrays
-/// `missing_contacts` and `extra_pairs`. An infinite error is `inf`, in json `null`.
+/// Text and csv have one row: `accepted, accept, contacts, matched, missing, extra, noise, fixed, largest_error,
+/// rms_error, worst, beyond, factor, walls, frame, unbalanced, findings`. The text adds the meaning of each count. It
+/// also lists the first missing contacts, and the extra pairs with the greatest forces.
+///
+/// The json is an array of one object with the same keys and `largest_force`. Its entry `worst` is an object, and the
+/// arrays `missing_contacts` and `extra_pairs` have at most a thousand entries. An infinite error is `inf`, in json
+/// `null`.
 ///
 /// # Examples
 /// ```
@@ -47,21 +50,21 @@ pub struct Report<'c> {
     source: Option<&'c Source>,
 }
 
-/// What was compared with what: for a record that is kept.
+/// The origin of the compared data, for a record that is kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     /// The scene, as TOML.
     pub scene: String,
-    /// The file's name.
+    /// The name of the file.
     pub file: String,
-    /// Its length.
+    /// The length of the file, in bytes.
     pub bytes: u64,
-    /// Its SHA-256, in hexadecimal digits.
+    /// The SHA-256 digest of the file, in hexadecimal digits.
     pub sha256: String,
 }
 
 impl<'c> Report<'c> {
-    /// The report at an accepted error.
+    /// Returns the report of a comparison at an accepted error.
     ///
     /// # Examples
     /// ```
@@ -91,7 +94,7 @@ impl<'c> Report<'c> {
         }
     }
 
-    /// The report of a file that was compared: with its contacts with walls, its frame, and what is unbalanced.
+    /// Returns the report of a compared file, with its contacts with walls, its frame and its residual forces.
     ///
     /// # Examples
     /// ```
@@ -120,7 +123,7 @@ impl<'c> Report<'c> {
         }
     }
 
-    /// Returns the report with what was compared with what, in json.
+    /// Returns the report with the origin of the data, which only json contains.
     ///
     /// # Examples
     /// ```
@@ -152,7 +155,7 @@ impl<'c> Report<'c> {
         }
     }
 
-    /// Writes it.
+    /// Writes the report.
     ///
     /// # Errors
     /// [`WriteError::Io`].
@@ -172,7 +175,7 @@ impl<'c> Report<'c> {
     /// Report::new(&comparison, 0.01).write(FileFormat::Text, &mut text)?;
     /// let text = String::from_utf8(text)?;
     /// assert!(text.starts_with("accepted "));
-    /// // Those with spheres 2 and 4, a line each.
+    /// // The text lists each missing contact: those with spheres 2 and 4.
     /// assert_eq!(text.matches("\nmissing: contact of sphere 1 (k=0, i=0, j=0) with sphere ").count(), 2);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -244,12 +247,12 @@ impl<'c> Report<'c> {
         ])
     }
 
-    /// Where the table's origin and axes are, if not where the scene has them.
+    /// Returns the frame of the table, if it differs from that of the scene.
     fn frame(self) -> Option<String> {
         self.file?.frame.map(|frame| frame.to_string())
     }
 
-    /// The greatest unbalanced force.
+    /// Returns the greatest residual force.
     fn unbalanced(self) -> Option<String> {
         let unbalanced = self.file?.unbalanced.as_ref()?;
         Some(unbalanced.to_string())
@@ -296,7 +299,7 @@ impl<'c> Report<'c> {
         Value::Array(vec![record])
     }
 
-    /// Those of the pairs without a contact that are no noise.
+    /// Returns the pairs without a contact whose force is more than noise.
     fn extra_pairs(self) -> &'c [Extra] {
         let pairs = self.comparison.extra_pairs();
         let extra = pairs.partition_point(|pair| pair.error > self.accept);
@@ -304,7 +307,7 @@ impl<'c> Report<'c> {
     }
 }
 
-/// A few of many, a line each.
+/// Writes a few of many items, one for each line.
 fn list<T: ToString>(
     what: &str,
     items: &[T],
@@ -322,7 +325,7 @@ fn list<T: ToString>(
     Ok(())
 }
 
-/// A column with what it counts.
+/// Returns a column with its meaning.
 fn said(name: &'static str, meaning: &'static str) -> Column {
     Column {
         quantity: false,
@@ -364,12 +367,13 @@ fn pair(extra: &Extra) -> Value {
     })
 }
 
-/// k, i and j, as far as they fit: a pile of so few contacts may have a single layer that is wide.
+/// Returns k, i and j, or `None` for an index beyond `i64`. A pile with few contacts may still have one very wide
+/// layer.
 fn indices(Site { i, j, k }: Site) -> [Option<i64>; 3] {
     [k, i, j].map(|index| i64::try_from(index).ok())
 }
 
-/// Discs have no j.
+/// Removes j for discs.
 fn without_j(mut place: Value, dimension: Dimension) -> Value {
     if let (Dimension::Two, Value::Object(entries)) = (dimension, &mut place) {
         entries.shift_remove("j");

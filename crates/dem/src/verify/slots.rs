@@ -1,23 +1,24 @@
-//! The contacts of a pile by the numbers of their spheres.
+//! The index of each contact of a pile, found by the numbers of its two spheres.
 
 use crate::Error;
 use crate::NumberedPile;
 use crate::error::bug;
 
-/// Where the contacts of a pile stand in the order of [`NumberedPile::contacts`].
+/// The index of each contact in the order of [`NumberedPile::contacts`].
 ///
-/// Spheres above the floor are numbered one after another, and each touches as many below; along a row the numbers of both
-/// follow each other. So a contact is found from the row of its upper sphere, without a table of contacts.
+/// Spheres above the floor have consecutive numbers, and each touches the same number of spheres below. Along a row,
+/// the numbers of both spheres of a contact increase together. So the row of the upper sphere determines the index,
+/// without a table of contacts.
 pub(super) struct Slots {
     rows: Vec<Row>,
-    /// How many spheres below a sphere touches.
+    /// The number of contacts of a sphere with the layer below.
     below: usize,
     sloping: usize,
-    /// The pairs of the horizontal contacts with a force, sorted, and where they stand.
+    /// The pairs of the horizontal contacts with a force, sorted, with their indices.
     horizontal: Vec<([u64; 2], usize)>,
 }
 
-/// The number of the first sphere of a row, how many there are, and the numbers of those below the first.
+/// A row: the number of its first sphere, its length, and the numbers of the spheres below the first one.
 struct Row {
     upper: u64,
     spheres: u64,
@@ -56,12 +57,12 @@ impl Slots {
         })
     }
 
-    /// Returns how many contacts there are.
+    /// Returns the number of contacts.
     pub(super) fn len(&self) -> usize {
         self.sloping + self.horizontal.len()
     }
 
-    /// Returns where the contact of two spheres stands, the one with the lesser number first.
+    /// Returns the index of the contact between two spheres. The smaller number comes first.
     pub(super) fn find(&self, ids: [u64; 2]) -> Option<usize> {
         let [upper, lower] = ids;
         let after = self.rows.partition_point(|row| row.upper <= upper);
@@ -82,7 +83,7 @@ impl Slots {
     }
 }
 
-/// The lesser number first.
+/// Returns the two numbers, the smaller first.
 fn sorted([one, other]: [u64; 2]) -> [u64; 2] {
     [one.min(other), one.max(other)]
 }

@@ -1,4 +1,4 @@
-//! What measured and exact forces show together, contact by contact.
+//! Patterns in measured and exact forces, collected contact by contact.
 
 use std::collections::BTreeMap;
 
@@ -8,24 +8,24 @@ use super::measured::{Measured, distance, norm};
 use crate::NumberedContact;
 use cannonpile::lattice::ContactKind;
 
-/// How far off a turn of the axes may be and still be followed.
+/// The error above which a permutation of the axes is discarded.
 const FOLLOWED: f64 = 0.25;
 
-/// What rounding may leave of a force along the surfaces, as a share of it.
+/// The rounding error of a tangential force, relative to the exact force.
 const ROUNDED: f64 = 1e-14;
 
-/// What the contacts with a force have shown so far.
+/// The patterns in the contacts with a force so far.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Symptoms {
-    /// The least and the greatest ratio of a measured to an exact force, and how many there are.
+    /// The smallest and the greatest ratio of a measured to an exact force, and the number of ratios.
     ratios: Option<([f64; 2], u64)>,
-    /// How many have vectors.
+    /// The number of measured vectors.
     vectors: u64,
-    /// The axes in which the vectors may be right, with the greatest error in each.
+    /// The permutations of the axes that may explain the vectors, each with its greatest error.
     axes: Vec<(Axes, f64)>,
-    /// The greatest share of a force along the surfaces.
+    /// The greatest tangential force, relative to the exact force.
     tangential: f64,
-    /// For each layer how many contacts with a force it has with the one below, and how many of them are missing.
+    /// For each layer, the number of contacts with a force to the next layer, and the number of these that are missing.
     layers: BTreeMap<i128, [u64; 2]>,
 }
 
@@ -42,12 +42,12 @@ impl Default for Symptoms {
 }
 
 impl Symptoms {
-    /// A contact with a force was not measured.
+    /// Adds a contact with a force that was not measured.
     pub(super) fn miss(&mut self, exact: &NumberedContact) {
         self.count(exact, 1);
     }
 
-    /// A contact with a force was measured.
+    /// Adds a contact with a force that was measured.
     pub(super) fn see(&mut self, exact: &NumberedContact, measured: &Measured) {
         self.count(exact, 0);
         let ratio = measured.force / exact.force;
@@ -72,7 +72,8 @@ impl Symptoms {
         self.tangential = self.tangential.max(norm(across) / magnitude);
     }
 
-    /// Counts a contact with a force of a layer and the one below, with how many of it are missing: 0 or 1.
+    /// Counts a contact with a force between a layer and the next one. The number of missing contacts increases by
+    /// `missing`: 0 or 1.
     fn count(&mut self, exact: &NumberedContact, missing: u64) {
         if let ContactKind::Sloping(_) = exact.direction {
             let [there, lost] = self.layers.entry(exact.site.k).or_default();
@@ -81,7 +82,7 @@ impl Symptoms {
         }
     }
 
-    /// The one factor of all measured forces, if there is one other than 1.
+    /// Returns the common factor of all measured forces, if it differs from 1.
     pub(super) fn factor(&self, tolerance: f64) -> Option<f64> {
         let ([least, greatest], count) = self.ratios?;
         let factor = least + (greatest - least) / 2.0;
@@ -90,7 +91,7 @@ impl Symptoms {
         (count > 1 && alike && is_other).then_some(factor)
     }
 
-    /// All that can be told at an accepted error.
+    /// Returns all explanations at an accepted error.
     pub(super) fn findings(&self, tolerance: f64) -> Vec<Finding> {
         let factor = self.factor(tolerance);
         let turned = self.turned(tolerance);
@@ -112,7 +113,7 @@ impl Symptoms {
                 is_lowest: Some(k) == lowest,
             })
         });
-        // A list with nothing in it has not lost a layer.
+        // An empty list does not count as a missing layer.
         let has_some = self.ratios.is_some();
         factor
             .map(Finding::Factor)
@@ -123,7 +124,7 @@ impl Symptoms {
             .collect()
     }
 
-    /// The axes in which all vectors are right, if they are not so as they are.
+    /// Returns the axes in which all vectors agree, if they disagree in the axes of the scene.
     fn turned(&self, tolerance: f64) -> Option<Axes> {
         let right = |axes: &&(Axes, f64)| axes.1 <= tolerance;
         let own = self.axes.iter().find(|(axes, _)| *axes == Axes::OWN);

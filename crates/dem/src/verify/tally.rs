@@ -1,4 +1,4 @@
-//! Contacts counted, and their errors kept, while they go by.
+//! A running count of the contacts, with their errors.
 
 use super::difference::{Difference, Extra};
 use super::measured::{Measured, distance};
@@ -7,20 +7,20 @@ use crate::{NumberedContact, NumberedPile};
 use cannonpile::lattice::Dimension;
 use cannonpile::shape::Numbering;
 
-/// How many missing and how many extra contacts are kept; all of them are counted.
+/// The number of missing contacts, and of extra pairs, that are kept. All of them are counted.
 const KEPT: usize = 1000;
 
-/// What is known while contacts go by.
+/// The result for the contacts so far.
 pub(super) struct Tally {
     dimension: Dimension,
     with_vectors: bool,
     judged: Judged,
-    /// Of contacts without a force: their errors are relative to the largest force, which is known at the end only.
+    /// The errors of contacts without a force. They are relative to the largest force, which is known only at the end.
     idle: Vec<f64>,
     worst_idle: Option<Difference>,
 }
 
-/// What is known of a comparison.
+/// The result of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Judged {
     pub(super) contacts: u64,
@@ -28,13 +28,13 @@ pub(super) struct Judged {
     pub(super) first_missing: Vec<Difference>,
     pub(super) fixed: u64,
     pub(super) largest_force: f64,
-    /// The relative errors of the contacts that were measured, from the greatest down.
+    /// The relative errors of the measured contacts, in decreasing order.
     pub(super) errors: Vec<f64>,
-    /// What pairs without a contact carry, over the largest force, from the greatest down.
+    /// The forces of pairs without a contact, relative to the largest force, in decreasing order.
     pub(super) strays: Vec<f64>,
     pub(super) greatest_strays: Vec<Extra>,
     pub(super) worst: Option<Difference>,
-    /// The least and the greatest of measured over exact, and of how many contacts.
+    /// The patterns in the contacts with a force.
     pub(super) symptoms: Symptoms,
 }
 
@@ -49,7 +49,8 @@ impl Tally {
         }
     }
 
-    /// Adds a contact of the pile, with what was measured of it.
+    /// Adds a contact of the pile with its measured force. Returns the relative error, if the contact has a force and
+    /// was measured.
     pub(super) fn add(
         &mut self,
         exact: &NumberedContact,
@@ -94,7 +95,7 @@ impl Tally {
         None
     }
 
-    /// Judges what was seen, with all contacts seen, and the pairs that are none.
+    /// Finishes the comparison after the last contact, and judges the pairs without a contact.
     pub(super) fn close<'m>(
         self,
         errors: Vec<f64>,
@@ -127,7 +128,7 @@ impl Tally {
                 strays.push((relative(stray.magnitude(), largest), stray));
             }
         }
-        // The greatest first, of equals the one with the lesser numbers.
+        // Decreasing forces. Among equals, the pair with the smaller numbers comes first.
         strays.sort_by(|(a, one), (b, other)| b.total_cmp(a).then(one.ids.cmp(&other.ids)));
         let kept = strays.iter().take(KEPT);
         let greatest_strays = kept.filter_map(|(error, stray)| {
@@ -147,7 +148,7 @@ impl Tally {
 }
 
 impl Judged {
-    /// How many numbers, sorted from the greatest down, are over a limit.
+    /// Returns how many numbers exceed a limit, in a list in decreasing order.
     pub(super) fn over(sorted: &[f64], limit: f64) -> u64 {
         sorted.partition_point(|error| *error > limit) as u64
     }
@@ -156,10 +157,10 @@ impl Judged {
         self.errors.len() as u64
     }
 
-    /// The root of the mean square of the errors.
+    /// Returns the root mean square of the errors.
     #[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
     pub(super) fn rms_error(&self) -> f64 {
-        // Over the greatest, so that no square leaves the floats.
+        // Errors are divided by the greatest one, so that no square overflows.
         match self.errors.first() {
             None | Some(0.0) => 0.0,
             Some(greatest) if greatest.is_infinite() => *greatest,
@@ -171,7 +172,7 @@ impl Judged {
     }
 }
 
-/// A difference over a force. Only a difference of 0 gives 0.
+/// Returns a difference relative to a force. Only a difference of 0 gives 0.
 fn relative(difference: f64, force: f64) -> f64 {
     if difference == 0.0 {
         0.0

@@ -1,4 +1,4 @@
-//! The force on each sphere that measured forces leave unbalanced.
+//! The residual force on each sphere.
 
 use core::fmt;
 use std::collections::BTreeMap;
@@ -19,10 +19,10 @@ use cannonpile::Packing;
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
 
-/// What the measured forces, the weight and the load of a sphere add up to: nothing for a pile at rest.
+/// The sum of the measured forces, the weight and the load of each sphere. It is zero for a pile at rest.
 ///
-/// For a sphere above the floor **r** = Σ **F** − (w + l)·**e**_z, in N, over all pairs that were measured, contacts of the pile
-/// or not. Where a force has no vector, it acts along the line between the exact centres.
+/// For a sphere above the floor, **r** = Σ **F** − (w + l)·**e**_z, in N. The sum covers all measured pairs, with or
+/// without a contact in the pile. A force without a vector acts along the line between the exact centres.
 ///
 /// # Examples
 /// ```
@@ -46,7 +46,7 @@ pub struct Unbalanced {
 }
 
 impl Unbalanced {
-    /// Returns the unbalanced force of each sphere above the floor, in N, in the order of their numbers from 1.
+    /// Returns the residual force on each sphere above the floor, in N, in the order of the sphere numbers from 1.
     ///
     /// # Examples
     /// ```
@@ -56,7 +56,7 @@ impl Unbalanced {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Nothing holds it.
+    /// // No force supports the sphere.
     /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n"[..])?;
     /// assert_eq!(read.unbalanced.unwrap().forces(), [[0.0, 0.0, -1.0]]);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -66,7 +66,7 @@ impl Unbalanced {
         &self.forces
     }
 
-    /// Returns the number of the sphere with the greatest unbalanced force, and its magnitude in N.
+    /// Returns the number of the sphere with the greatest residual force, and its magnitude in N.
     ///
     /// # Examples
     /// ```
@@ -86,10 +86,10 @@ impl Unbalanced {
         (1..).zip(norms).max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
-    /// Returns a table, a row a sphere above the floor: `id,k,i,j,x,y,z,unbalanced`, forces in N.
+    /// Returns a table with one row for each sphere above the floor: `id,k,i,j,x,y,z,unbalanced`, forces in N.
     ///
     /// # Errors
-    /// None for the packing that was compared.
+    /// None, if the packing is the compared one.
     ///
     /// # Examples
     /// ```
@@ -133,16 +133,16 @@ impl fmt::Display for Unbalanced {
     }
 }
 
-/// Forces added up while contacts go by.
+/// The residual forces, added up contact by contact.
 pub(super) struct Balance<'p> {
     pile: NumberedPile<'p>,
     unbalanced: Unbalanced,
-    /// The layer whose contacts went by last, and their directions from below.
+    /// The layer of the last contact, with the unit vectors of its contact directions from below.
     layer: Option<(i128, BTreeMap<usize, [f64; 3]>)>,
 }
 
 impl<'p> Balance<'p> {
-    /// The weights and loads of all spheres above the floor.
+    /// Starts with the weights and loads of all spheres above the floor.
     pub(super) fn new(numbered: &NumberedPile<'p>) -> Result<Self, Refusal> {
         let packing = numbered.packing();
         let pile = packing.pile();
@@ -166,7 +166,7 @@ impl<'p> Balance<'p> {
         })
     }
 
-    /// Adds what was measured at a contact of the pile.
+    /// Adds the measured force of a contact of the pile.
     pub(super) fn add(
         &mut self,
         contact: &NumberedContact,
@@ -182,7 +182,7 @@ impl<'p> Balance<'p> {
         Ok(())
     }
 
-    /// Adds what was measured between two spheres that are no contact.
+    /// Adds the measured force of a pair without a contact.
     pub(super) fn add_stray(&mut self, stray: &Measured) -> Result<(), Error> {
         let vector = if let Some(vector) = stray.vector {
             vector
@@ -202,7 +202,7 @@ impl<'p> Balance<'p> {
         self.unbalanced
     }
 
-    /// A force on the first of two spheres, and its reaction on the second.
+    /// Adds a force to the first of two spheres, and its reaction to the second.
     fn act(&mut self, [first, second]: [u64; 2], vector: [f64; 3]) {
         let forces = &mut self.unbalanced.forces;
         if let Some([x, y, z]) = place(forces, first) {
@@ -214,7 +214,8 @@ impl<'p> Balance<'p> {
         }
     }
 
-    /// The direction from the second to the first sphere of a contact: along a layer all of a kind are alike.
+    /// Returns the unit vector from the second to the first sphere of a contact. It is the same for all contacts of one
+    /// direction in a layer.
     fn direction(&mut self, contact: &NumberedContact) -> Result<[f64; 3], Error> {
         let Some(direction) = contact.direction.direction() else {
             let numbering = self.pile.numbering();
@@ -241,7 +242,7 @@ impl<'p> Balance<'p> {
     }
 }
 
-/// The unit vector from one site to another.
+/// Returns the unit vector from one site to another.
 fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f64; 3], Error> {
     let centre = |site| rounded(&packing.position(site)?, "a position");
     let (to, from) = (centre(to)?, centre(from)?);
@@ -250,12 +251,12 @@ fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f64; 3], Erro
     Ok(apart.map(|component| component / length))
 }
 
-/// The force of a sphere above the floor.
+/// Returns the force on a sphere above the floor, or `None` for other spheres.
 fn place(forces: &mut [[f64; 3]], id: u64) -> Option<&mut [f64; 3]> {
     forces.get_mut(usize::try_from(id.checked_sub(1)?).ok()?)
 }
 
-/// A float as the exact number it is.
+/// Returns the exact value of a float.
 pub(super) fn float(x: f64) -> Cell {
     let exact = BigRational::from_float(x);
     exact.map_or(Cell::Word("inf".into()), Cell::from)

@@ -1,4 +1,4 @@
-//! The numbers of an array in VTK's XML: as text, in base64, or appended; compressed or not.
+//! The numbers of an array in VTK's XML: as text, in base64 or appended, possibly compressed.
 
 use std::io::Read;
 
@@ -9,10 +9,10 @@ use flate2::read::ZlibDecoder;
 use crate::Error;
 use cannonpile::engine::refuse_beyond_memory;
 
-/// The most bytes that one array may have.
+/// The largest size of an array, in bytes.
 const MOST: u64 = 1 << 33;
 
-/// Numbers.
+/// The numbers of an array.
 pub(super) enum Values {
     Floats(Vec<f64>),
     Integers(Vec<i64>),
@@ -26,7 +26,7 @@ impl Values {
         }
     }
 
-    /// The n-th number as a text that is read as this number.
+    /// Returns the n-th number as text that parses to the same number.
     pub(super) fn text(&self, n: usize) -> Option<String> {
         match self {
             Self::Floats(values) => values.get(n).map(|value| format!("{value:?}")),
@@ -34,7 +34,7 @@ impl Values {
         }
     }
 
-    /// The n-th number as an index.
+    /// Returns the n-th number as an index.
     pub(super) fn index(&self, n: usize) -> Option<usize> {
         match self {
             Self::Floats(_) => None,
@@ -43,7 +43,7 @@ impl Values {
     }
 }
 
-/// How arrays are written.
+/// The encoding of the arrays of a file.
 #[derive(Default)]
 pub(super) struct Coding<'f> {
     order: Order,
@@ -53,7 +53,7 @@ pub(super) struct Coding<'f> {
     is_appended_raw: bool,
 }
 
-/// Which byte of a number is first.
+/// The byte order of numbers.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum Order {
     #[default]
@@ -61,7 +61,7 @@ enum Order {
     Big,
 }
 
-/// The numbers before an array.
+/// The type of the header numbers before an array.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum HeaderType {
     #[default]
@@ -70,7 +70,7 @@ enum HeaderType {
 }
 
 impl<'f> Coding<'f> {
-    /// Takes note of an attribute of the file.
+    /// Sets an attribute of the file.
     pub(super) fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
         match (key, value) {
             ("byte_order", "BigEndian") => self.order = Order::Big,
@@ -86,7 +86,7 @@ impl<'f> Coding<'f> {
         Ok(())
     }
 
-    /// Takes note of what is appended, from its tag on.
+    /// Sets the appended data, which begin with their tag.
     pub(super) fn append(&mut self, appended: &'f [u8]) {
         let tag = appended.iter().position(|byte| *byte == b'>');
         let (tag, rest) = appended.split_at(tag.map_or(appended.len(), |end| end + 1));
@@ -95,7 +95,7 @@ impl<'f> Coding<'f> {
         self.appended = begin.map_or(&[], |begin| rest.get(begin + 1..).unwrap_or(&[]));
     }
 
-    /// Reads an array of a type, in a format: the text of its tag, or what is appended from an offset on.
+    /// Reads an array of a given type and format, from the text of its tag or from an offset in the appended data.
     pub(super) fn read(
         &self,
         kind: Option<&str>,
@@ -130,7 +130,7 @@ impl<'f> Coding<'f> {
         }
     }
 
-    /// The bytes of a header's number.
+    /// Returns the size of a header number, in bytes.
     const fn size(&self) -> usize {
         match self.header {
             HeaderType::UInt32 => 4,
@@ -148,12 +148,12 @@ impl<'f> Coding<'f> {
         let number = digits
             .iter()
             .fold(0_u64, |sum, byte| sum << 8 | u64::from(*byte));
-        // Compared before the cast: an address may have 32 bits.
+        // The comparison precedes the conversion, because `usize` may have 32 bits.
         let number = Some(number).filter(|number| *number <= MOST)?;
         usize::try_from(number).ok()
     }
 
-    /// The n-th number of a header.
+    /// Returns the n-th number of a header.
     fn length(&self, bytes: &[u8], n: usize) -> Result<usize, String> {
         let begin = n.checked_mul(self.size());
         let part = begin.and_then(|begin| bytes.get(begin..begin.checked_add(self.size())?));
@@ -161,7 +161,7 @@ impl<'f> Coding<'f> {
         number.ok_or_else(|| "it is cut off, or too long".to_owned())
     }
 
-    /// What is written in base64: the header alone if it is compressed, with the numbers if not.
+    /// Decodes base64. In compressed data the header is encoded alone, otherwise together with the numbers.
     fn based(&self, text: &[u8]) -> Result<Vec<u8>, String> {
         let decoded = |length: usize| {
             let length = length.div_ceil(3).checked_mul(4);
@@ -192,7 +192,7 @@ impl<'f> Coding<'f> {
         self.unpacked(&head, &packed.map_err(|error| error.to_string())?)
     }
 
-    /// What is appended as it is.
+    /// Reads raw appended data.
     fn raw(&self, bytes: &[u8]) -> Result<Vec<u8>, String> {
         if !self.is_compressed {
             let length = self.length(bytes, 0)?;
@@ -208,7 +208,7 @@ impl<'f> Coding<'f> {
         self.unpacked(head, packed)
     }
 
-    /// The blocks behind a header, unpacked.
+    /// Decompresses the blocks after a header.
     fn unpacked(&self, head: &[u8], mut packed: &[u8]) -> Result<Vec<u8>, String> {
         let blocks = self.length(head, 0)?;
         let mut bytes = Vec::new();
@@ -223,7 +223,7 @@ impl<'f> Coding<'f> {
         Ok(bytes)
     }
 
-    /// The numbers of an array, of eight bytes each, however few they had in the file.
+    /// Converts the bytes of an array to its numbers, each of eight bytes in memory.
     fn of_bytes(&self, kind: &str, bytes: &[u8]) -> Result<Values, String> {
         macro_rules! numbers {
             ($kind:ty, $values:ident, $to:ty) => {{
@@ -236,7 +236,7 @@ impl<'f> Coding<'f> {
                 )
                 .map_err(|error| error.to_string())?;
                 let numbers = parts.map(|part| {
-                    // A chunk has this many bytes.
+                    // Each chunk has this length, so the default is never used.
                     let part = part.try_into().unwrap_or([0; size_of::<$kind>()]);
                     let number = if self.order == Order::Big {
                         <$kind>::from_be_bytes(part)

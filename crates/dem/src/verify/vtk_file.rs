@@ -1,8 +1,9 @@
-//! Forces on lines, in VTK's XML files: `.vtp` and `.vtu`.
+//! Forces on lines in VTK's XML files: `.vtp` and `.vtu`.
 //!
-//! A line between two points is a row. Its columns are `x1` to `z2`, the points, and the data of lines, or else of points,
-//! there those of a line's first point: an array of one component by its name, one of three by its name with `_x`, `_y`
-//! and `_z`. <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>
+//! Each line between two points is a row of a table. Its columns are the coordinates `x1` to `z2` of the points, and
+//! the data of the line. The data of points serve too: those of the first point of the line. An array with one
+//! component is a column with the name of the array. An array with three components is three columns with `_x`, `_y`
+//! and `_z` after the name. <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>
 
 use std::collections::BTreeMap;
 
@@ -17,7 +18,7 @@ use super::vtk_array::{Coding, Values};
 use crate::Error;
 use crate::error::quoted;
 
-/// Reads the lines of a file.
+/// Reads the lines of a file as rows.
 pub(super) fn read_lines(
     bytes: &[u8],
     format: &Format,
@@ -30,7 +31,7 @@ pub(super) fn read_lines(
     Ok(())
 }
 
-/// What a section of a piece holds.
+/// The sections of a piece that are read.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Section {
     Points,
@@ -51,7 +52,7 @@ impl Section {
     }
 }
 
-/// An array: its name, how many numbers go together, and these.
+/// An array: its name, the number of components, and the values.
 struct Array {
     name: String,
     components: usize,
@@ -62,11 +63,11 @@ struct Array {
 #[derive(Default)]
 struct Piece(BTreeMap<Section, Vec<Array>>);
 
-/// A column of the table that a piece is.
+/// A column of the table that a piece forms.
 struct Column<'a> {
     name: String,
     values: &'a Values,
-    /// How many numbers there are a thing, and which of them is meant.
+    /// The number of components for each point or line, and the component of this column.
     components: usize,
     component: usize,
     of_points: bool,
@@ -168,7 +169,7 @@ impl Array {
     }
 }
 
-/// The pieces of a file.
+/// Returns the pieces of a file.
 fn pieces(bytes: &[u8]) -> Result<Vec<Piece>, Refusal> {
     let (text, appended) = split(bytes);
     let mut xml = quick_xml::Reader::from_reader(text);
@@ -219,7 +220,7 @@ fn keep(pieces: &mut [Piece], section: Option<Section>, array: Array) {
     }
 }
 
-/// The array of a tag with its text.
+/// Reads the array of a tag and its text.
 fn found(tag: &BytesStart<'_>, text: &str, coding: &Coding<'_>) -> Result<Array, Refusal> {
     let attributes: BTreeMap<String, String> = attributes(tag)?.into_iter().collect();
     let get = |key: &str| attributes.get(key).map(String::as_str);
@@ -252,7 +253,7 @@ fn attributes(tag: &BytesStart<'_>) -> Result<Vec<(String, String)>, Refusal> {
     Ok(found)
 }
 
-/// Parts the XML from what is appended to it, which need not be text: what follows `_`, and its encoding.
+/// Splits the XML from the appended data after it, which may be binary.
 fn split(bytes: &[u8]) -> (&[u8], &[u8]) {
     const TAG: &[u8] = b"<AppendedData";
     let place = bytes.windows(TAG.len()).position(|part| part == TAG);
