@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_end_as_on_any_system_and_the_last_need_not() {
+    fn all_line_ends_are_accepted_and_the_last_is_optional() {
         let mut lines = Lines::new(&b"\xef\xbb\xbfa\r\n\nb\xc3\xa9"[..]);
         let mut seen = Vec::new();
         while let Some(line) = lines.next().unwrap() {
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_of_any_length_takes_no_more_memory() {
+    fn long_lines_are_rejected_without_more_memory() {
         let mut lines = Lines::new(std::io::BufReader::new(std::io::repeat(b'1')));
         assert!(matches!(
             lines.next(),

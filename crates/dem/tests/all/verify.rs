@@ -1,4 +1,4 @@
-//! Measured forces are compared as they should be: what is exact is accepted, and every planted fault is found.
+//! Measured forces are compared with exact ones: exact forces are accepted, and every planted fault is reported.
 
 #![expect(clippy::float_cmp, reason = "errors are exact where they are compared")]
 
@@ -36,7 +36,7 @@ fn site(pile: &Pile, measured: &Measured) -> Site {
     pile.numbering().unwrap().site(first).unwrap()
 }
 
-/// What a perfect simulation would measure: each force alone, the nearest float, told of the upper sphere.
+/// Returns the forces that a perfect simulation would measure: each force correctly rounded, on the upper sphere.
 fn perfect(packing: &Packing<'_>) -> Vec<Measured> {
     let pile = packing.pile();
     let contacts = packing.contacts(Selection::All).unwrap();
@@ -71,13 +71,13 @@ fn piles() -> Vec<Pile> {
         Pile::isosceles(4, ratio(2, 5)).unwrap(),
         Pile::under(Region::SITE, Stacking::hcp(6).unwrap()).unwrap(),
         Pile::on(Region::hexagon(4, 3).unwrap(), "+-".parse().unwrap()).unwrap(),
-        // Three lines carry, all other contacts are exactly 0.
+        // Three lines of contacts carry the load. All other forces are exactly 0.
         apex.with_load(Site::APEX, ratio(1, 1)).unwrap(),
     ]
 }
 
 #[test]
-fn the_exact_forces_are_accepted_with_an_error_of_zero() {
+fn exact_forces_are_accepted_with_zero_error() {
     for pile in piles() {
         let packing = packing(&pile, ratio(6, 5));
         let perfect = perfect(&packing);
@@ -95,7 +95,7 @@ fn the_exact_forces_are_accepted_with_an_error_of_zero() {
 }
 
 #[test]
-fn the_order_does_not_matter_nor_which_sphere_comes_first() {
+fn the_order_of_entries_and_of_spheres_is_irrelevant() {
     for pile in piles() {
         let packing = packing(&pile, ratio(6, 5));
         let mut measured = perfect(&packing);
@@ -110,9 +110,9 @@ fn the_order_does_not_matter_nor_which_sphere_comes_first() {
     }
 }
 
-/// The last bit of any force alone.
+/// Changes the last bit of each force in turn.
 #[test]
-fn a_wrong_force_is_found_wherever_it_is() {
+fn any_single_wrong_force_is_reported() {
     for pile in piles() {
         let packing = packing(&pile, ratio(6, 5));
         let perfect = perfect(&packing);
@@ -131,7 +131,7 @@ fn a_wrong_force_is_found_wherever_it_is() {
                     exact.abs()
                 };
                 let error = (exact.next_up() - exact) / unit;
-                // One over a force of 0 is the least float there is.
+                // Relative to a force of 0, the error is the smallest positive float.
                 assert_eq!(comparison.largest_error(), error.max(f64::from_bits(1)));
                 assert!(comparison.accepted(1e-15));
             }
@@ -140,7 +140,7 @@ fn a_wrong_force_is_found_wherever_it_is() {
 }
 
 #[test]
-fn a_missing_contact_is_found_wherever_it_is() {
+fn any_single_missing_contact_is_reported() {
     for pile in piles() {
         let packing = packing(&pile, ratio(6, 5));
         let perfect = perfect(&packing);
@@ -162,7 +162,7 @@ fn a_missing_contact_is_found_wherever_it_is() {
 }
 
 #[test]
-fn a_turned_force_is_found_though_its_magnitude_is_right() {
+fn a_rotated_force_of_correct_magnitude_is_reported() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let (sin, cos) = 1e-3_f64.sin_cos();
@@ -173,7 +173,7 @@ fn a_turned_force_is_found_though_its_magnitude_is_right() {
         measured[place].vector = Some([cos * x - sin * y, sin * x + cos * y, z]);
         let comparison = compare(&packing, &measured);
         assert!(!comparison.accepted(1e-4));
-        // A chord of the circle that the horizontal part goes round.
+        // The change of the vector is a chord of the circle that its horizontal part describes.
         let chord = 2.0 * (0.5e-3_f64).sin() * x.hypot(y) / force;
         assert!((comparison.largest_error() - chord).abs() < 1e-15);
         assert!(compare(&packing, &magnitudes(&measured)).accepted(0.0));
@@ -183,7 +183,7 @@ fn a_turned_force_is_found_though_its_magnitude_is_right() {
 }
 
 #[test]
-fn a_vector_of_the_other_sphere_is_twice_too_much() {
+fn a_vector_on_the_wrong_sphere_has_an_error_of_two() {
     let pile = Pile::triangular(2).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let mut measured = perfect(&packing);
@@ -196,21 +196,21 @@ fn a_vector_of_the_other_sphere_is_twice_too_much() {
 }
 
 #[test]
-fn a_magnitude_that_is_not_that_of_its_vector_is_found() {
+fn a_magnitude_that_disagrees_with_its_vector_is_reported() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let mut measured = perfect(&packing);
     measured[4].force *= 1.5;
     let error = compare(&packing, &measured).largest_error();
     assert!((error - 0.5).abs() < 1e-15, "{error}");
-    // As in a simulation with friction: the vector has more than the normal force.
+    // With friction, a vector is longer than the normal force.
     let mut measured = perfect(&packing);
     measured[4].vector = measured[4].vector.map(|[x, y, z]| [x, y, z + 0.1]);
     assert!(!compare(&packing, &measured).accepted(1e-2));
 }
 
 #[test]
-fn pull_is_a_difference_and_no_refusal() {
+fn tensile_forces_are_compared_not_rejected() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let mut measured = magnitudes(&perfect(&packing));
@@ -222,7 +222,7 @@ fn pull_is_a_difference_and_no_refusal() {
 }
 
 #[test]
-fn spheres_numbered_otherwise_are_found() {
+fn wrong_sphere_numbers_are_reported() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let perfect = perfect(&packing);
@@ -244,14 +244,14 @@ fn spheres_numbered_otherwise_are_found() {
 }
 
 #[test]
-fn an_extra_contact_is_noise_up_to_the_accepted_part_of_the_largest_force() {
+fn extra_pairs_with_small_forces_are_noise() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let perfect = perfect(&packing);
     let largest = perfect
         .iter()
         .fold(0.0, |most: f64, one| most.max(one.force));
-    // Neighbours in a layer, two layers apart, and one on the floor with one that is not over it.
+    // Neighbours in a layer, spheres two layers apart, and a floor sphere with one that it does not support.
     for ids in [[2, 3], [1, 8], [3, 12], [12, 3]] {
         let with = |force| {
             let mut measured = perfect.clone();
@@ -269,14 +269,14 @@ fn an_extra_contact_is_noise_up_to_the_accepted_part_of_the_largest_force() {
             (extra.ids[0].min(extra.ids[1]), extra.error),
             (ids[0].min(ids[1]), 0.25)
         );
-        // Pull too, and the least there is.
+        // Tensile forces count too, and so does the smallest force.
         assert!(!with(-0.25 * largest).accepted(over));
         assert!(!with(f64::from_bits(1)).accepted(0.0));
-        // A pair that was listed and does not touch.
+        // A listed pair that does not touch.
         let comparison = with(-0.0);
         assert!(comparison.accepted(0.0));
         assert_eq!((comparison.extra(0.0), comparison.noise(0.0)), (0, 0));
-        // A vector counts though the magnitude says nothing.
+        // A vector counts even if the magnitude is 0.
         let mut measured = perfect.clone();
         measured.push(Measured::new(ids, 0.0).with_vector([0.0, 0.1, 0.0]));
         assert!(!compare(&packing, &measured).accepted(1e-3));
@@ -284,7 +284,7 @@ fn an_extra_contact_is_noise_up_to_the_accepted_part_of_the_largest_force() {
 }
 
 #[test]
-fn extra_pairs_are_named_from_the_greatest_down() {
+fn extra_pairs_are_sorted_by_decreasing_force() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let mut measured = perfect(&packing);
@@ -301,7 +301,7 @@ fn extra_pairs_are_named_from_the_greatest_down() {
 }
 
 #[test]
-fn horizontal_neighbours_that_touch_are_extra() {
+fn touching_horizontal_neighbours_are_extra() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(1, 1));
     assert!(!packing.touching().is_empty());
@@ -320,7 +320,7 @@ fn horizontal_neighbours_that_touch_are_extra() {
 }
 
 #[test]
-fn a_contact_without_force_is_measured_against_the_largest() {
+fn errors_at_contacts_without_force_are_relative_to_the_largest_force() {
     let pile = Pile::triangular(4).unwrap().weightless();
     let pile = pile.with_load(Site::APEX, ratio(7, 1)).unwrap();
     let packing = packing(&pile, ratio(6, 5));
@@ -328,7 +328,7 @@ fn a_contact_without_force_is_measured_against_the_largest() {
         .into_iter()
         .filter(|one| one.force != 0.0)
         .collect();
-    // Three lines of three.
+    // Three lines of three contacts.
     assert_eq!(carrying.len(), 9);
     let comparison = compare(&packing, &carrying);
     assert_eq!((comparison.matched(), comparison.missing()), (9, 0));
@@ -344,9 +344,9 @@ fn a_contact_without_force_is_measured_against_the_largest() {
     assert!((comparison.rms_error() - 0.025_f64.sqrt()).abs() < 1e-15);
 }
 
-/// Over the largest force it is less than any float, and not 0 all the same.
+/// The ratio to the largest force is smaller than any positive float, but the error must not be 0.
 #[test]
-fn the_faintest_force_where_none_should_be_is_an_error() {
+fn the_smallest_spurious_force_has_a_positive_error() {
     let pile = Pile::triangular(3).unwrap();
     let mass = cannonpile_dem::scene::parse::rational("1e200").unwrap();
     let packing = packing(&pile, ratio(6, 5)).with_mass(mass).unwrap();
@@ -357,9 +357,9 @@ fn the_faintest_force_where_none_should_be_is_an_error() {
     assert!(comparison.accepted(1e-300));
 }
 
-/// Nothing carries: any force is infinitely wrong.
+/// All exact forces are 0, so any measured force has an infinite error.
 #[test]
-fn a_pile_without_any_force_accepts_none() {
+fn any_force_in_a_pile_without_forces_has_an_infinite_error() {
     let pile = Pile::triangular(3).unwrap().weightless();
     let packing = packing(&pile, ratio(6, 5));
     assert!(compare(&packing, &[]).accepted(0.0));
@@ -370,7 +370,7 @@ fn a_pile_without_any_force_accepts_none() {
 }
 
 #[test]
-fn pairs_of_fixed_spheres_are_counted_and_not_judged() {
+fn pairs_of_fixed_spheres_are_counted_but_not_judged() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(1, 1));
     let mut measured = perfect(&packing);
@@ -379,7 +379,7 @@ fn pairs_of_fixed_spheres_are_counted_and_not_judged() {
     let comparison = compare(&packing, &measured);
     assert_eq!(comparison.fixed(), 2);
     assert!(comparison.accepted(0.0));
-    // One layer is all fixed.
+    // A pile of one layer consists of fixed spheres.
     let pile = Pile::under(Region::triangle(3).unwrap(), Stacking::fcc(1).unwrap()).unwrap();
     let packing = self::packing(&pile, ratio(1, 1));
     let comparison = compare(&packing, &[Measured::new([1, 2], 3.0)]);
@@ -388,7 +388,7 @@ fn pairs_of_fixed_spheres_are_counted_and_not_judged() {
 }
 
 #[test]
-fn the_rms_is_that_of_the_errors() {
+fn the_rms_error_matches_the_errors_of_all_contacts() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let mut measured = magnitudes(&perfect(&packing));
@@ -401,9 +401,9 @@ fn the_rms_is_that_of_the_errors() {
     assert!((got - want).abs() < 1e-12 * want.max(1e-3), "{got} {want}");
 }
 
-/// Squares of these would leave the floats.
+/// The squares of these forces overflow or underflow.
 #[test]
-fn forces_near_the_ends_of_the_floats_are_compared() {
+fn forces_near_the_limits_of_f64_are_compared() {
     let pile = Pile::triangular(3).unwrap();
     for mass in ["1e305", "1e-305"] {
         let mass = cannonpile_dem::scene::parse::rational(mass).unwrap();
@@ -431,7 +431,7 @@ fn forces_near_the_ends_of_the_floats_are_compared() {
 }
 
 #[test]
-fn entries_that_cannot_be_are_refused() {
+fn invalid_entries_are_rejected() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let one = Measured::new([1, 2], 0.5);
@@ -475,13 +475,13 @@ fn entries_that_cannot_be_are_refused() {
             }
         ));
     }
-    // Fixed spheres are no excuse.
+    // A repeated pair is rejected even if both spheres are fixed.
     let fixed = Measured::new([5, 6], 1.0);
     assert!(Comparison::new(&packing, [fixed, fixed.reversed()]).is_err());
 }
 
 #[test]
-fn a_pile_too_large_to_compare_is_refused_before_anything_is_done() {
+fn a_pile_too_large_to_compare_is_rejected_at_once() {
     for layers in [1000, 10_i128.pow(30)] {
         let pile = Pile::triangular(layers).unwrap();
         let packing = packing(&pile, ratio(6, 5));
@@ -495,7 +495,7 @@ fn a_pile_too_large_to_compare_is_refused_before_anything_is_done() {
 }
 
 #[test]
-fn horizontal_contacts_are_compared_too() {
+fn horizontal_contacts_are_compared() {
     let bare = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
     let elastic = cannonpile_horizontal::elastic(&bare, &ratio(1, 1)).unwrap();
     let pile = elastic.pile();
@@ -515,7 +515,7 @@ fn horizontal_contacts_are_compared_too() {
     let comparison = compare(&packing, &all);
     assert_eq!(comparison.matched(), 129);
     assert!(comparison.accepted(0.0), "{comparison}");
-    // Those of a layer with the one below are missing, and its horizontal ones are there.
+    // The contacts of one layer with the next are missing, but its horizontal contacts are present.
     for lost in horizontal.iter().map(|one| site(pile, one).k) {
         let mut some = all.clone();
         some.retain(|one| {
@@ -532,10 +532,10 @@ fn horizontal_contacts_are_compared_too() {
         );
         assert!(finding.to_string().contains(&said), "{finding}");
     }
-    // Told by the other sphere.
+    // Each force is given for the other sphere.
     let reversed: Vec<Measured> = all.iter().map(|measured| measured.reversed()).collect();
     assert!(compare(&packing, &reversed).accepted(0.0));
-    // One left out, one too strong, one that pushes the wrong way, and one that is open.
+    // One contact is missing, one force is too strong, one vector points the wrong way, and one contact is open.
     let missing = compare(&packing, &all[..128]);
     assert_eq!(missing.missing(), 1);
     assert!(missing.to_string().contains("gamma-beta"), "{missing}");
@@ -548,7 +548,7 @@ fn horizontal_contacts_are_compared_too() {
     let open = Measured::new([2, 3], 0.1).with_vector([0.0, 0.1, 0.0]);
     let with_open: Vec<Measured> = all.iter().copied().chain([open]).collect();
     assert_eq!(compare(&packing, &with_open).extra(0.01), 1);
-    // The isostatic forces of the pile are others.
+    // The isostatic forces of this pile differ from its elastic ones.
     let isostatic = Packing::new(&bare, &Spacing::new(ratio(1, 1)).unwrap()).unwrap();
     assert!(!compare(&isostatic, &all).accepted(0.1));
 }

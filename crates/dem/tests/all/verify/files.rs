@@ -1,4 +1,4 @@
-//! Files are read as they are meant, and what is wrong with them is said with its line.
+//! Valid files are read correctly, and errors in files name the line.
 
 use cannonpile::Pile;
 use cannonpile_dem::verify::{self, Measured};
@@ -55,7 +55,7 @@ fn forces_are_read_correctly_rounded() {
 }
 
 #[test]
-fn a_header_that_does_not_do_is_refused() {
+fn unusable_headers_are_rejected() {
     let columns = "name the columns id1, id2, force, and fx, fy, fz if there are vectors (in LAMMPS with dump_modify colname)";
     let nothing =
         "nothing is there: begin with a header such as id1,id2,force, or with ITEM: TIMESTEP";
@@ -96,7 +96,7 @@ fn a_header_that_does_not_do_is_refused() {
 }
 
 #[test]
-fn what_is_wrong_with_a_csv_table_is_said_with_its_line() {
+fn errors_in_csv_tables_name_the_line() {
     let number = "not a number such as 0.46 or 1e-3";
     let id = "not the number of a sphere, such as 17, counted from 1 (LAMMPS writes all digits with dump_modify format \
               float %.17g)";
@@ -184,7 +184,7 @@ const HEAD: &str =
     "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ENTRIES\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n";
 
 #[test]
-fn what_is_wrong_with_a_dump_is_said_with_its_line() {
+fn errors_in_dumps_name_the_line() {
     let rows = |rows: &str| format!("{HEAD}ITEM: ENTRIES id1 id2 force\n{rows}");
     for (text, want) in [
         (
@@ -245,11 +245,11 @@ fn what_is_wrong_with_a_dump_is_said_with_its_line() {
         unnamed
             .starts_with("line 9: no column id1, only 'c_i[1]', 'c_i[2]', 'c_f': name the columns")
     );
-    // Announced is not kept in memory before it is there.
+    // The announced number of entries takes no memory before the entries are read.
     let huge = HEAD.replace("\n2\n", "\n18446744073709551615\n");
     let huge = refused(format!("{huge}ITEM: ENTRIES id1 id2 force\n"));
     assert!(huge.ends_with("after 0 of 18446744073709551615 entries: it is not complete"));
-    // An earlier snapshot must be whole too, but need not be like the last.
+    // Earlier snapshots must be complete too, but may have other columns.
     let later = HEAD.replace("\n2\n", "\n0\n");
     let two = rows("1 2 0.5\n1 3 0.25\n") + &later + "ITEM: ENTRIES force id2 id1\n";
     let reading = verify::read(two.as_bytes()).unwrap();
@@ -257,13 +257,13 @@ fn what_is_wrong_with_a_dump_is_said_with_its_line() {
 }
 
 #[test]
-fn what_does_not_fit_the_pile_is_said_with_its_line() {
+fn rows_that_do_not_match_the_pile_name_the_line() {
     let pile = Pile::triangular(2).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let compared = |text: &str| {
         let reading = verify::read(text.as_bytes()).unwrap();
         let compared = reading.compare(&packing).unwrap_err().to_string();
-        // Where the scene is known, while it is read.
+        // A reader knows the scene, so it reports the same error while it reads.
         let read = verify::Reader::new().compare(&packing, text.as_bytes());
         assert_eq!(read.unwrap_err().to_string(), compared);
         compared
@@ -291,9 +291,9 @@ fn what_does_not_fit_the_pile_is_said_with_its_line() {
     }
 }
 
-/// However it comes in: a pipe may give a byte at a time.
+/// A pipe may deliver one byte at a time.
 #[test]
-fn a_slow_source_is_read_as_a_fast_one() {
+fn reading_in_small_pieces_gives_the_same_result() {
     struct Slow<'t>(&'t [u8]);
     impl std::io::Read for Slow<'_> {
         fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {

@@ -1,4 +1,4 @@
-//! What all differences have in common is named: a fault of each kind is planted.
+//! Findings name the cause of many differences: one fault of each kind is planted.
 
 use std::fmt::Write;
 
@@ -29,14 +29,14 @@ fn piles() -> [Pile; 3] {
 }
 
 #[test]
-fn nothing_is_found_in_what_is_right() {
+fn correct_forces_have_no_findings() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
         let right = perfect(&packing);
         assert!(findings(&packing, &right).is_empty());
         let near = with_vectors(&right, |[x, y, z]| [x * (1.0 + 1e-9), y, z]);
         assert!(findings(&packing, &near).is_empty());
-        // A wrong force is no rule.
+        // A single wrong force forms no pattern.
         let mut wrong = right;
         wrong[3].force *= 2.0;
         wrong[3].vector = None;
@@ -46,7 +46,7 @@ fn nothing_is_found_in_what_is_right() {
 }
 
 #[test]
-fn a_factor_is_named_with_its_likely_cause() {
+fn a_common_factor_is_reported_with_its_likely_cause() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
         let right = perfect(&packing);
@@ -74,7 +74,7 @@ fn a_factor_is_named_with_its_likely_cause() {
 }
 
 #[test]
-fn swapped_axes_and_mirror_images_are_named() {
+fn swapped_axes_and_mirror_images_are_reported() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
         let right = perfect(&packing);
@@ -107,7 +107,7 @@ fn swapped_axes_and_mirror_images_are_named() {
 }
 
 #[test]
-fn a_missing_layer_is_named() {
+fn a_missing_layer_is_reported() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
         let right = perfect(&packing);
@@ -127,7 +127,7 @@ fn a_missing_layer_is_named() {
                 "{finding}"
             );
             assert!(finding.ends_with(said), "{finding}");
-            // One of them there: no layer is missing.
+            // With one of its contacts present, no layer is missing.
             kept.extend(right.iter().find(|one| sites(one).k == layer));
             assert!(findings(&packing, &kept).is_empty());
         }
@@ -135,10 +135,10 @@ fn a_missing_layer_is_named() {
 }
 
 #[test]
-fn friction_is_named() {
+fn tangential_forces_are_reported() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
-        // At one contact, across it.
+        // One contact has a force across its direction.
         let mut rubbed = perfect(&packing);
         let [x, y, z] = rubbed[4].vector.unwrap();
         let across = 0.05 * rubbed[4].force.abs() / x.hypot(y);
@@ -154,7 +154,7 @@ fn friction_is_named() {
 }
 
 #[test]
-fn what_is_left_on_a_sphere_is_added_up() {
+fn residual_forces_are_summed_on_each_sphere() {
     for pile in piles().into_iter().chain([Pile::discs(5).unwrap()]) {
         let packing = packing(&pile, ratio(11, 10));
         let reader = Reader::new().with_balance();
@@ -167,7 +167,7 @@ fn what_is_left_on_a_sphere_is_added_up() {
         let unbalanced = read.unbalanced.unwrap();
         let (_, least) = unbalanced.greatest().unwrap();
         assert!(least < 1e-12 * read.comparison.largest_force(), "{least}");
-        // Half a newton more between sphere 2 and the one below.
+        // The force between sphere 2 and one sphere below is half a newton greater.
         let more = table
             .lines()
             .position(|line| line.starts_with("2,"))

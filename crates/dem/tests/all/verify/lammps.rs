@@ -1,5 +1,5 @@
-//! A dump that LAMMPS itself wrote (version 22Jul2025): four layers at a/R = 6/5, `pair_style gran/hooke` with
-//! k = 1e7 mg/R and no tangential force, at the start and relaxed.
+//! A dump written by LAMMPS (version 22Jul2025): four layers at a/R = 6/5, `pair_style gran/hooke` with k = 1e7 mg/R
+//! and no tangential force. It has two snapshots: at the start and at rest.
 //!
 //! ```text
 //! compute      ids all property/local patom1 patom2
@@ -22,26 +22,26 @@ fn with_packing(test: impl FnOnce(&Packing<'_>)) {
 }
 
 #[test]
-fn lammps_is_accepted_with_the_error_of_its_springs() {
+fn lammps_is_accepted_within_the_error_of_its_springs() {
     let reading = verify::read(DUMP.as_bytes()).unwrap();
     assert_eq!((reading.snapshots(), reading.timestep()), (2, Some(40000)));
     with_packing(|packing| {
         let comparison = reading.compare(packing).unwrap();
         assert_eq!((comparison.matched(), comparison.missing()), (30, 0));
         assert!(comparison.accepted(1e-6), "{comparison}");
-        // About 0.48 L mg/(kR) of compliance: neither less nor much more.
+        // Springs of finite stiffness cause an error of about 0.48 L mg/(kR). The measured one is of this size.
         let error = comparison.largest_error();
         assert!((5e-8..3e-7).contains(&error), "{error}");
-        // The vectors are right too, and so are their signs.
+        // The vectors and their signs are correct too.
         let alone = magnitudes(reading.entries());
         let alone = verify::Comparison::new(packing, alone).unwrap();
         assert!(alone.largest_error() <= error);
     });
 }
 
-/// The first snapshot is of spheres that have not yet sunk into each other.
+/// In the first snapshot the spheres do not overlap yet.
 #[test]
-fn spheres_that_have_not_settled_are_not_accepted() {
+fn spheres_that_have_not_settled_are_rejected() {
     let second = DUMP.match_indices("ITEM: TIMESTEP").nth(1).unwrap().0;
     let reading = verify::read(&DUMP.as_bytes()[..second]).unwrap();
     assert_eq!((reading.snapshots(), reading.timestep()), (1, Some(0)));
@@ -52,9 +52,9 @@ fn spheres_that_have_not_settled_are_not_accepted() {
     });
 }
 
-/// Cut after any byte, a dump is refused unless it ends with a whole snapshot.
+/// A dump truncated after any byte is rejected, unless it ends with a complete snapshot.
 #[test]
-fn a_dump_cut_anywhere_is_refused() {
+fn truncated_dumps_are_rejected() {
     let second = DUMP.match_indices("ITEM: TIMESTEP").nth(1).unwrap().0;
     for cut in 0..=DUMP.len() {
         let whole = cut == second || cut == DUMP.len();
@@ -72,7 +72,7 @@ fn a_dump_cut_anywhere_is_refused() {
 }
 
 #[test]
-fn a_dump_is_read_with_any_ends_of_lines_and_any_label() {
+fn dumps_may_have_any_line_ends_and_labels() {
     let reading = verify::read(DUMP.as_bytes()).unwrap();
     let spellings = [
         DUMP.replace('\n', "\r\n"),

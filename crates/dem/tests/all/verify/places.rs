@@ -1,4 +1,4 @@
-//! Contacts are found by where they are, in any frame, in any order; another pile's are not.
+//! Contacts are matched by position, in any frame and in any order. A table of another pile is rejected.
 
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::shape::Selection;
@@ -18,14 +18,14 @@ fn own_axes() -> Axes {
     Axes::new([X, Y, Z].map(TableAxis::from)).unwrap()
 }
 
-/// A table of both centres, or of contact points, seen from another frame; every `left_out`-th contact is missing.
+/// Returns a table of centres or of contact points, as seen from another frame. Every `left_out`-th contact is missing.
 fn table(packing: &Packing<'_>, seen: &Frame, by_point: bool, left_out: usize) -> String {
     let places = packing.positions(Selection::All).unwrap();
     let centres: Vec<[f64; 3]> = places
         .map(|place| place.unwrap().map(|x| x.nearest::<f64>().unwrap()))
         .collect();
     let mut rows: Vec<Measured> = perfect(packing);
-    // In some order, and told of either sphere.
+    // The rows are in a pseudo-random order, and name either sphere first.
     rows.sort_by_key(|row| row.ids.map(|id| id * 7919 % 101));
     let mut text = String::from(if by_point {
         "x,y,z,fx,fy,fz,force\n"
@@ -77,7 +77,7 @@ fn piles() -> Vec<Pile> {
 }
 
 #[test]
-fn a_table_in_any_frame_is_accepted_and_the_frame_is_told() {
+fn a_table_in_any_frame_is_accepted_and_its_frame_is_reported() {
     let turned = |axes: [Coordinate; 3], signs: [bool; 3]| {
         let mut signs = signs.into_iter();
         let axes = axes.map(|coordinate| TableAxis {
@@ -124,9 +124,10 @@ fn a_table_in_any_frame_is_accepted_and_the_frame_is_told() {
     }
 }
 
-/// 9/10000 beyond 30° move the ends of a wide pile by 4 % of R; and a shift by as much is more than what is allowed.
+/// Angles that exceed 30° by 9/10000 displace the ends of a wide pile by 4 % of R. A shift of the same size exceeds the
+/// accepted distance.
 #[test]
-fn a_frame_is_not_rounded_by_more_than_what_is_allowed() {
+fn rounding_moves_no_position_beyond_the_accepted_distance() {
     let wide = Pile::discs(40).unwrap();
     let small = Pile::triangular(5).unwrap();
     for (pile, within, angle, shift) in [
@@ -150,7 +151,7 @@ fn a_frame_is_not_rounded_by_more_than_what_is_allowed() {
 }
 
 #[test]
-fn what_is_missing_is_missing_in_any_frame() {
+fn missing_contacts_are_counted_in_any_frame() {
     let pile = Pile::triangular(7).unwrap();
     let packing = packing(&pile, ratio(11, 10));
     let (angle, shift) = (0.7, [4.0, 4.0, 4.0]);
@@ -172,8 +173,8 @@ fn what_is_missing_is_missing_in_any_frame() {
 }
 
 #[test]
-fn a_mirror_image_is_named() {
-    // One load, off every plane of symmetry, and another: no turn does it.
+fn a_mirror_image_is_reported() {
+    // The first load lies off every plane of symmetry. With the second one, no rotation restores the forces.
     let pile = Pile::triangular(5).unwrap();
     let pile = pile.with_load(Site { i: 1, j: 0, k: 2 }, one(3)).unwrap();
     let pile = pile.with_load(Site { i: 0, j: 1, k: 3 }, one(7)).unwrap();
@@ -184,10 +185,10 @@ fn a_mirror_image_is_named() {
         shift: [0.0; 3],
     };
     let read = read(&packing, &table(&packing, &seen, false, 0)).unwrap();
-    // All places are found by a turn, too: the forces tell.
+    // A rotation also matches all positions, so only the forces show the mirror image.
     assert!(read.frame.unwrap().is_mirrored());
     assert!(read.comparison.accepted(1e-9), "{}", read.comparison);
-    // Here no turn finds the places.
+    // In this pile no rotation matches the positions.
     let stacking: Stacking = "+-++-".parse().unwrap();
     let pile = Pile::under(Region::new(0..=3, 0..=2, 0..=4).unwrap(), stacking).unwrap();
     let packing = packing_of(&pile);
@@ -207,7 +208,7 @@ fn packing_of(pile: &Pile) -> Packing<'_> {
 }
 
 #[test]
-fn another_pile_is_refused() {
+fn a_table_of_another_pile_is_rejected() {
     let (small, other) = (Pile::triangular(6).unwrap(), Pile::triangular(6).unwrap());
     let (small, other) = (packing(&small, ratio(11, 10)), packing(&other, ratio(1, 1)));
     let own = Frame {
@@ -221,20 +222,20 @@ fn another_pile_is_refused() {
         line.starts_with("no frame in which its places are those of the scene"),
         "{line}"
     );
-    // One sphere that is not there.
+    // The table has one row at a position without a sphere.
     let text = text + "9,9,9,9,9,11,0,0,1,1\n";
     let line = read(&small, &text).unwrap_err().to_string();
     assert!(
         line.starts_with("line 107: no contact at (9.000000, 9.000000, 10.000000) m"),
         "{line}"
     );
-    // A row without a force is none.
+    // A row without a force is ignored.
     let text = text.replace("9,9,9,9,9,11,0,0,1,1", "9,9,9,9,9,9,0,0,0,0");
     assert!(read(&small, &text).unwrap().comparison.accepted(1e-9));
 }
 
 #[test]
-fn places_need_their_columns() {
+fn matching_by_position_needs_its_columns() {
     let pile = Pile::triangular(2).unwrap();
     let packing = packing(&pile, ratio(1, 1));
     let line = read(&packing, "id1,id2,force\n1,2,0.4\n")
@@ -252,7 +253,7 @@ fn places_need_their_columns() {
 }
 
 #[test]
-fn a_pile_of_one_sphere_has_no_place_for_a_contact() {
+fn any_contact_in_a_pile_of_one_sphere_is_rejected() {
     let pile = Pile::triangular(1).unwrap();
     let packing = packing(&pile, ratio(1, 1));
     let empty = read(&packing, "x,y,z,force\n").unwrap();
@@ -269,7 +270,7 @@ fn a_pile_of_one_sphere_has_no_place_for_a_contact() {
     }
 }
 
-/// The rows of a table, without the file.
+/// Returns the rows of a table in memory.
 fn placed(table: &str, by_point: bool) -> Vec<Placed> {
     let lines = table.lines().skip(1);
     let row = lines.map(|line| {
@@ -285,7 +286,7 @@ fn placed(table: &str, by_point: bool) -> Vec<Placed> {
 }
 
 #[test]
-fn rows_in_memory_are_compared_as_those_of_a_file() {
+fn rows_in_memory_give_the_same_result_as_a_file() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
         for (angle, shift) in [(0.0, [0.0; 3]), (-2.5, [1.0, 1.0, 1.0])] {
@@ -303,7 +304,7 @@ fn rows_in_memory_are_compared_as_those_of_a_file() {
 }
 
 #[test]
-fn a_magnitude_or_a_vector_alone_will_do() {
+fn a_magnitude_or_a_vector_alone_suffices() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(11, 10));
     let own = Frame {
@@ -321,7 +322,7 @@ fn a_magnitude_or_a_vector_alone_will_do() {
             assert_eq!(comparison.matched(), 1);
             assert!(comparison.largest_error() < 1e-12, "{comparison}");
         }
-        // The other way round it pulls.
+        // With the opposite sign the force is tensile.
         let measured = [Placed::at(point, Force::Along(-x[6]))];
         let (comparison, _) = Comparison::of_places(&packing, measured, 0.1).unwrap();
         assert!((comparison.largest_error() - 2.0).abs() < 1e-12);
@@ -329,7 +330,7 @@ fn a_magnitude_or_a_vector_alone_will_do() {
 }
 
 #[test]
-fn rows_in_memory_that_cannot_be_are_refused_with_their_number() {
+fn invalid_rows_in_memory_are_rejected_with_their_number() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(11, 10));
     let point = packing.contact_point(Site::APEX, Direction::Alpha).unwrap();

@@ -1,4 +1,4 @@
-//! RefinementStudy whose order is planted: it is found, and what is no order is refused.
+//! Refinement studies with a known order: the fit recovers the order, and invalid studies are rejected.
 
 use cannonpile::{Packing, Pile};
 use cannonpile_dem::table::FileFormat;
@@ -11,7 +11,7 @@ use super::{packing, perfect, ratio};
 
 const BOTH: [Refinement; 2] = [Refinement::Stiffness, Refinement::TimeStep];
 
-/// The stiffness or the time step of a refinement parameter.
+/// Returns the stiffness or the time step for a refinement parameter.
 fn parameter(refinement: Refinement, h: f64) -> f64 {
     match refinement {
         Refinement::Stiffness => 1.0 / h,
@@ -19,7 +19,7 @@ fn parameter(refinement: Refinement, h: f64) -> f64 {
     }
 }
 
-/// A refinement study with these errors, the finest first.
+/// Returns a refinement study with these errors, listed from the coarsest level but passed in reverse order.
 fn planted(refinement: Refinement, errors: &[(f64, f64)]) -> RefinementStudy {
     let levels = errors
         .iter()
@@ -36,14 +36,14 @@ fn halvings(count: i32) -> impl Iterator<Item = f64> {
     (0..count).map(|n| 0.01 * 0.5_f64.powi(n))
 }
 
-/// Deviations of some size that are the same in every run: by turns up and down, none like the other.
+/// Returns a factor that deviates from 1 by up to `size`, up and down in turn. It is the same in every run.
 fn noise(n: usize, size: f64) -> f64 {
     let turn = [0.9, -0.7, 0.3, -1.0, 0.6, -0.2, 1.0, -0.8][n % 8];
     1.0 + size * turn
 }
 
 #[test]
-fn a_planted_order_is_found() {
+fn the_fit_recovers_a_known_order() {
     for refinement in BOTH {
         for order in [0.6, 1.0, 1.5, 2.0, 4.0] {
             let errors: Vec<_> = halvings(6).map(|h| (h, 7.0 * h.powf(order))).collect();
@@ -80,12 +80,12 @@ fn a_planted_order_is_found() {
     }
 }
 
-/// What the order would be by faults in its formula: each is far from the one planted, so the test above sees it.
+/// The orders that wrong formulas would yield. Each is far from the known order, so the test above detects the fault.
 #[test]
-fn other_formulas_have_other_orders() {
+fn wrong_formulas_yield_wrong_orders() {
     let errors: Vec<(f64, f64)> = halvings(4).map(|h| (h, 7.0 * h * h)).collect();
     let stiff = planted(Refinement::Stiffness, &errors);
-    // A stiffness taken for h itself: the order has the other sign, and nothing falls.
+    // A stiffness taken for h itself reverses the sign of the order, so no error falls.
     let levels = stiff.levels().iter().copied();
     let other_way = RefinementStudy::new(Refinement::TimeStep, levels).unwrap();
     assert!((other_way.orders(Norm::Largest)[1].unwrap() + 2.0).abs() < 1e-12);
@@ -94,13 +94,13 @@ fn other_formulas_have_other_orders() {
         least: 2,
     };
     assert_eq!(other_way.fit(Norm::Largest), Err(few));
-    // Another base of one logarithm.
+    // One of the two logarithms has another base.
     let [(h1, e1), (h2, e2), ..] = errors[..] else {
         unreachable!("four levels")
     };
     let mixed = (e1 / e2).ln() / (h1 / h2).log10();
     assert!((mixed - 2.0).abs() > 1.0);
-    // The floor counted in.
+    // The fit includes the levels on the floor.
     let errors: Vec<_> = halvings(8).map(|h| (h, h.max(1e-3))).collect();
     let study = planted(Refinement::TimeStep, &errors);
     let logs = errors.iter().map(|(h, e)| (h.ln(), e.ln()));
@@ -113,14 +113,14 @@ fn other_formulas_have_other_orders() {
 }
 
 #[test]
-fn the_floor_is_left_out() {
+fn levels_on_the_floor_are_left_out() {
     for refinement in BOTH {
         for order in [1.0, 2.0] {
             for ratio in [2.0_f64, 10.0] {
                 let h = (0..12).map(|n| 0.1 * ratio.powi(-n));
                 let line = |h: f64| 3.0 * h.powf(order);
                 let middle = line(0.1 * ratio.powi(-6));
-                // One that stays, and one that rises as rounding does with the stiffness.
+                // One floor is constant, and the other rises with the stiffness, as rounding does.
                 for floor in [
                     |_: f64, bound: f64| bound,
                     |h: f64, bound: f64| bound * 1e-3 / h,
@@ -146,7 +146,7 @@ fn the_floor_is_left_out() {
 }
 
 #[test]
-fn noise_is_told_by_the_standard_error() {
+fn the_standard_error_reflects_the_noise() {
     for refinement in BOTH {
         for size in [0.01, 0.1, 0.2] {
             let errors = halvings(8).enumerate();
@@ -161,9 +161,9 @@ fn noise_is_told_by_the_standard_error() {
     }
 }
 
-/// Three levels, the middle one off by a factor of 2: residuals of (−1, 2, −1) thirds of ln 2.
+/// Three levels, of which the middle one has twice the error of the line. The residuals are (−1, 2, −1)·ln(2)/3.
 #[test]
-fn the_standard_error_is_that_of_the_slope() {
+fn the_standard_error_matches_the_formula_for_a_slope() {
     let errors = [(0.1, 0.1), (0.01, 0.02), (0.001, 0.001)];
     let fit = fit(&planted(Refinement::TimeStep, &errors));
     let squares = 2.0 / 3.0 * 2.0_f64.ln().powi(2);
@@ -177,7 +177,7 @@ fn the_standard_error_is_that_of_the_slope() {
 }
 
 #[test]
-fn what_remains_is_found() {
+fn the_limit_recovers_a_known_constant_error() {
     for refinement in BOTH {
         for order in [1.0, 2.0] {
             for rest in [1e-2, 1e-5] {
@@ -190,14 +190,14 @@ fn what_remains_is_found() {
                     assert!((limit.error / rest - 1.0).abs() < 1e-9, "{limit:?}");
                     assert_eq!(limit.levels, errors.len());
                     assert!(limit.standard_error < 1e-9 * rest);
-                    // With another order it is another, by more than a percent.
+                    // A wrong order changes the limit by more than one percent.
                     let wrong = planted(refinement, &errors).limit(Norm::Largest, 3.0 - order);
                     assert!((wrong.unwrap().error / rest - 1.0).abs() > 0.01);
                 }
             }
         }
     }
-    // With noise, the rest is there within its standard error.
+    // With noise, the known limit lies within a few standard errors.
     let errors = (0..9).map(|n| {
         (
             0.1 * 4_f64.powi(-n),
@@ -216,12 +216,12 @@ fn what_remains_is_found() {
 }
 
 #[test]
-fn no_limit_is_named() {
+fn a_missing_limit_has_a_reason() {
     let study = |errors: &[(f64, f64)]| planted(Refinement::TimeStep, errors);
     let limit = |errors: &[(f64, f64)]| study(errors).limit(Norm::Largest, 1.0);
     let few = |levels| Err(NoOrder::Few { levels, least: 3 });
     assert_eq!(limit(&[(0.1, 0.1), (0.01, 0.01)]), few(2));
-    // Down to the least error only: what rises after it does not count.
+    // The fit ends at the smallest error, so a later rise is irrelevant.
     assert_eq!(limit(&[(0.1, 0.1), (0.01, 0.01), (0.001, 0.02)]), few(2));
     let rising = Err(NoOrder::Rising { parameter: 0.01 });
     assert_eq!(limit(&[(0.1, 0.1), (0.01, 0.2), (0.001, 0.02)]), rising);
@@ -233,7 +233,7 @@ fn no_limit_is_named() {
         let refused = study(&same).limit(Norm::Largest, order);
         assert!(matches!(refused, Err(NoOrder::Order { .. })));
     }
-    // An infinite error is none.
+    // An infinite error is left out.
     let infinite = [(0.1, f64::INFINITY), (0.01, 0.01), (0.001, 0.001)];
     assert_eq!(limit(&infinite), few(2));
     assert_eq!(
@@ -244,7 +244,7 @@ fn no_limit_is_named() {
 }
 
 #[test]
-fn no_refinement_is_named() {
+fn invalid_studies_are_rejected() {
     let level = |parameter| Level::of_errors(parameter, 30, 0.1, 0.1);
     let of = |levels: &[Level]| RefinementStudy::new(Refinement::Stiffness, levels.iter().copied());
     assert_eq!(of(&[]), Err(NoRefinement::Empty));
@@ -272,11 +272,11 @@ fn no_refinement_is_named() {
         let refused = of(&[level(1.0)]).unwrap().predicted(|_| error);
         assert!(matches!(refused, Err(NoRefinement::Error { .. })));
     }
-    // Neighbouring floats are two parameters, and no slope is seen between them.
+    // Neighbouring floats are distinct parameters, but too close to show a slope.
     let near = of(&[level(1e300), level(1e300_f64.next_up())]).unwrap();
     assert!(near.fit(Norm::Largest).is_err());
     assert_eq!(near.orders(Norm::Largest)[1], None);
-    // Their logarithms are one, and what is between them is seen all the same.
+    // Their logarithms are equal, but the repeated parameter is still detected.
     for refinement in BOTH {
         let three = [1e300, 1e300_f64.next_up(), 1e300].map(level);
         let twice = Err(NoRefinement::Twice { parameter: 1e300 });
@@ -285,7 +285,7 @@ fn no_refinement_is_named() {
 }
 
 #[test]
-fn parameters_of_any_size_have_orders() {
+fn parameters_of_any_magnitude_have_orders() {
     for refinement in BOTH {
         for scale in [1e-300, 1e-100, 1e100, 1e300] {
             let levels = [1.0, 10.0, 100.0].map(|x| {
@@ -302,7 +302,7 @@ fn parameters_of_any_size_have_orders() {
     }
 }
 
-/// Forces of the pile that are all too great by 1/k, and more so by a percent: through comparisons.
+/// Returns a level from a comparison. All forces exceed the exact ones by a fraction 1/k, and by a further error.
 fn simulated(packing: &Packing<'_>, k: f64, rest: f64) -> Level {
     let measured = perfect(packing).into_iter().map(|exact| {
         let [x, y, z] = exact.vector.unwrap();
@@ -314,7 +314,7 @@ fn simulated(packing: &Packing<'_>, k: f64, rest: f64) -> Level {
 }
 
 #[test]
-fn a_refinement_of_comparisons() {
+fn levels_can_be_built_from_comparisons() {
     let pile = Pile::triangular(5).unwrap();
     let packing = packing(&pile, ratio(6, 5));
     let study = |rest| {
@@ -328,7 +328,7 @@ fn a_refinement_of_comparisons() {
     let wrong = study(0.01);
     assert!((wrong.limit(Norm::Rms, 1.0).unwrap().error - 0.01).abs() < 1e-9);
     assert_eq!(right.levels()[0].contacts, 60);
-    // One contact not measured: the level is shown, and not counted.
+    // One contact is missing: the level is shown, but not counted.
     let measured = perfect(&packing).into_iter().skip(1);
     let torn = Level::new(1e6, &Comparison::new(&packing, measured).unwrap(), 1e-6);
     let levels = right.levels().iter().copied().chain([torn]);
@@ -338,7 +338,7 @@ fn a_refinement_of_comparisons() {
 }
 
 #[test]
-fn files_are_named_with_their_parameters() {
+fn files_are_parsed_with_their_parameters() {
     let RefinementFiles(files) = "1e5=a.csv, 2.5e6=dir/b=c.csv,1=-".parse().unwrap();
     let expected = [(1e5, "a.csv"), (2.5e6, "dir/b=c.csv"), (1.0, "-")];
     let expected = expected.map(|(parameter, path)| RefinementFile {
@@ -382,7 +382,7 @@ fn written(study: &RefinementStudy, format: FileFormat) -> String {
 }
 
 #[test]
-fn the_report_says_all_of_it_in_three_formats() {
+fn the_report_is_complete_in_three_formats() {
     let errors = [(1e-4, 5e-4), (1e-5, 5e-5), (1e-6, 5e-6), (1e-7, 1.2e-6)];
     let study = planted(Refinement::Stiffness, &errors)
         .predicted(|k| 4.8 / k)
@@ -430,7 +430,7 @@ fn the_report_says_all_of_it_in_three_formats() {
     ] {
         assert!(text.contains(says), "{text}");
     }
-    // Without an order there is no word on the limit either.
+    // Without an order, the report does not mention the limit.
     assert!(!text.contains("extrapolated error of"), "{text}");
     let json: serde_json::Value = serde_json::from_str(&written(&one, FileFormat::Json)).unwrap();
     assert!(json[0]["largest"]["no_order"].is_string());

@@ -1,4 +1,4 @@
-//! Tables as codes write them: their separators, comments, columns, signs, kinds of contacts and first numbers.
+//! Tables in the formats of other codes: separators, comments, columns, signs, kinds of contacts and first numbers.
 
 use cannonpile::Pile;
 use cannonpile_dem::verify::{Columns, Compared, Measured, Preset, Reader, Refusal};
@@ -10,7 +10,7 @@ fn columns(text: &str) -> Columns {
     text.parse().unwrap()
 }
 
-/// Two layers: three contacts of sphere 1, 0.46225 N each at a = 6/5 R.
+/// Compares a table with a pile of two layers: sphere 1 has three contacts with 0.46225 N each, at a = 6/5 R.
 #[track_caller]
 fn read(reader: &Reader, table: &str) -> Compared {
     let pile = Pile::triangular(2).unwrap();
@@ -31,7 +31,7 @@ fn refused(reader: &Reader, table: &str) -> String {
 }
 
 #[test]
-fn any_separator_and_comments_are_read() {
+fn any_separator_and_comments_are_accepted() {
     for table in [
         "id1,id2,force\n1,2,0.46225\n1,3,0.46225\n1,4,0.46225\n",
         "id1;id2;force\n1;2;0.46225\n1;3;0.46225\n1;4;0.46225\n",
@@ -52,7 +52,7 @@ fn any_separator_and_comments_are_read() {
 }
 
 #[test]
-fn columns_have_any_name_sign_factor_and_sum() {
+fn columns_may_have_any_name_sign_factor_and_sum() {
     let reader = |text: &str| Reader::new().with_columns(columns(text));
     let by_name = reader("id1=A,id2=B,force=-1e3*Fn");
     let table = "n,A,Fn,B\n0,1,-0.00046225,2\n1,1,-0.00046225,3\n2,1,-0.00046225,4\n";
@@ -73,7 +73,7 @@ fn columns_have_any_name_sign_factor_and_sum() {
 }
 
 #[test]
-fn contacts_with_walls_are_counted_and_not_judged() {
+fn contacts_with_walls_are_counted_but_not_judged() {
     let reader = Reader::new().with_columns(columns("kind=t:SS|PP"));
     let table =
         "t,id1,id2,force\nSS,1,2,0.46225\nSM,9,0,-7\nPP,1,3,0.46225\nSS,1,4,0.46225\nSA,x,y,z\n";
@@ -83,7 +83,7 @@ fn contacts_with_walls_are_counted_and_not_judged() {
 }
 
 #[test]
-fn spheres_are_counted_from_any_number() {
+fn spheres_may_be_numbered_from_any_first_id() {
     for (first, table) in [
         (0, "id1,id2,force\n0,1,0.46225\n0,2,0.46225\n3,0,0.46225\n"),
         (
@@ -100,7 +100,7 @@ fn spheres_are_counted_from_any_number() {
         line.starts_with("line 2: id1 '4' is not the number of a sphere"),
         "{line}"
     );
-    // Yade counts from 0.
+    // YADE counts from 0.
     let yade = Reader::of(Preset::Yade);
     assert!(
         read(
@@ -113,7 +113,7 @@ fn spheres_are_counted_from_any_number() {
 }
 
 #[test]
-fn what_is_not_a_table_is_refused_with_the_remedy() {
+fn invalid_tables_are_rejected_with_a_remedy() {
     let named = Reader::new().with_columns(columns("id1=A"));
     assert_eq!(
         refused(&named, "id1,id2,force\n"),
@@ -146,9 +146,9 @@ fn what_is_not_a_table_is_refused_with_the_remedy() {
     }
 }
 
-/// A name that could be taken for a sign or a factor is printed with one.
+/// A name that could be read as a sign or a factor is printed with a factor.
 #[test]
-fn columns_are_read_as_they_are_printed() {
+fn printed_columns_parse_to_themselves() {
     for text in [
         "id1=A,id2=B,fx=-f_x",
         "fx=2.5*a+b+-c",
@@ -165,7 +165,7 @@ fn columns_are_read_as_they_are_printed() {
 }
 
 #[test]
-fn every_preset_reads_its_code_and_finds_a_fault_in_it() {
+fn every_preset_reads_its_code_and_reports_a_wrong_force() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(11, 10));
     let centres = centres(&packing).unwrap();

@@ -1,5 +1,6 @@
-//! Lines with data are read as VTK writes them: files of vtkXMLPolyDataWriter and vtkXMLUnstructuredGridWriter (9.5), each
-//! of the eighteen contacts of three layers at a = 6/5 R, and those of this crate's own export.
+//! Lines with data are read as VTK writes them. The files come from vtkXMLPolyDataWriter and
+//! vtkXMLUnstructuredGridWriter (9.5). Each has the twelve contacts of three layers at a = 6/5 R. The export of this
+//! crate is read too.
 
 use cannonpile::Pile;
 use cannonpile_dem::verify::{Compared, Preset, Reader, Refusal};
@@ -33,15 +34,15 @@ const GRIDS: [&[u8]; 2] = [
 ];
 
 #[test]
-fn every_coding_is_read() {
+fn every_encoding_is_read() {
     for (coding, file) in LINES {
-        // By numbers, by places, and the vectors of points, which are those on the second.
+        // Matched by numbers, by positions, and with the vectors of points, which are the forces on the second sphere.
         let by_vectors = Reader::of(Preset::ExaDemVtp);
         for reader in [Reader::new(), Reader::of(Preset::Lethe), by_vectors] {
             let read = read(&reader, file).unwrap();
             let comparison = read.comparison;
             assert_eq!(comparison.matched(), 12, "{coding}");
-            // ParaView's text has eleven digits.
+            // The text of ParaView has eleven digits.
             let accept = if coding == "text" { 1e-10 } else { 1e-15 };
             assert!(comparison.accepted(accept), "{coding}: {comparison}");
         }
@@ -69,7 +70,7 @@ fn the_export_of_this_crate_is_read_with_its_vectors() {
 }
 
 #[test]
-fn whatever_is_wrong_is_refused_in_one_line() {
+fn every_error_is_one_line() {
     let reader = Reader::of(Preset::Lethe);
     for (_, file) in LINES {
         let mut cut_short = 0;
