@@ -231,7 +231,10 @@ impl Columns {
             .find(|quantity| quantity.name() == key.trim())
             .ok_or_else(|| Error::syntax(key, QUANTITY))?;
         if self.terms(quantity).is_some() {
-            return Err(Error::syntax(assignment, "named once only"));
+            return Err(Error::syntax(
+                assignment,
+                "the only assignment of its quantity: assign each quantity once",
+            ));
         }
         let terms = if quantity == Quantity::Kind {
             let (column, kinds) = column
@@ -272,7 +275,8 @@ impl FromStr for Columns {
         }
         let named = |term: &Term| matches!(term.column, Column::Named(_));
         if columns.are_numbered() && columns.sums.iter().flat_map(|(_, terms)| terms).any(named) {
-            let expected = "all by name, or all by place: a table has a header or none";
+            let expected =
+                "all by name or all by position: use either names or #n for every column";
             return Err(Error::syntax(text, expected));
         }
         Ok(columns)

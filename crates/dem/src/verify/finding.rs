@@ -38,8 +38,7 @@ impl fmt::Display for Finding {
                 cause(*factor)
             ),
             Self::SecondSphere => f.write_str(
-                "all vectors are the forces on the second of the two spheres: they must be those on the first, or the two be \
-                 swapped",
+                "all vectors are the forces on the second sphere of each pair: reverse the vectors, or swap the two spheres",
             ),
             Self::Axes(axes) => axes.fmt(f),
             Self::Layer {
@@ -59,7 +58,7 @@ impl fmt::Display for Finding {
             }
             Self::Tangential(share) => write!(
                 f,
-                "forces have a part along the surfaces, of up to {share:.1e} of the exact force: is there friction, or is \
+                "forces have a tangential part, of up to {share:.1e} of the exact force: is there friction, or is \
                  the pile not at rest?"
             ),
         }
@@ -71,14 +70,14 @@ fn cause(factor: f64) -> &'static str {
     let near = |value: f64| (factor / value - 1.0).abs() < 2e-3;
     let power = factor.abs().log10();
     if near(-1.0) {
-        "is pull positive in the table?"
+        "are tensile forces positive in the table?"
     } else if near(9.81) || near(1.0 / 9.81) {
         "is gravity 9.81 m/s² in one and 1 m/s² in the other?"
     } else if near(2.0) || near(0.5) {
-        "are radius and diameter, or one and two spheres, mistaken?"
+        "are radius and diameter confused, or one sphere and a pair of spheres?"
     } else if (power - power.round()).abs() < 1e-6 {
         "are the units those of the scene (N, kg, m)?"
     } else {
-        "have mass, gravity or stiffness other values than in the scene?"
+        "does mass, gravity or stiffness differ from the scene?"
     }
 }

@@ -72,7 +72,7 @@ impl<'p> Gathering<'p> {
             force: &|ids| {
                 let slot = self.ledger.slot(ids);
                 let force = slot.and_then(|slot| forces.get(slot));
-                // The 0 is exact, not a default: spheres without a contact have no force.
+                // Not a default: spheres without a contact have no force.
                 force.copied().unwrap_or(0.0)
             },
         };

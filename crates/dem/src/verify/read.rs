@@ -115,7 +115,7 @@ impl Reader {
     /// let repeated = [&b"id1,id2,force\n1,2,0.5\n2,1,0.5\n"[..], &[b'1'; 1 << 20]].concat();
     /// assert_eq!(
     ///     Reader::new().compare(&packing, &*repeated).unwrap_err().to_string(),
-    ///     "line 3: spheres 1 and 2 again, after line 2: list each pair once",
+    ///     "line 3: spheres 1 and 2 are already on line 2: list each pair once",
     /// );
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```

@@ -498,18 +498,21 @@ pub enum NoRefinement {
 impl fmt::Display for NoRefinement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Empty => f.write_str("a refinement study has levels: give at least one"),
+            Self::Empty => f.write_str("the refinement study has no levels: give at least one"),
             Self::TooMany { limit } => write!(f, "more than {limit} levels: leave some out"),
             Self::Parameter { parameter } => write!(
                 f,
-                "{parameter:e} is no stiffness and no time step: give a positive number, not below 2.3e-308"
+                "{parameter:e} is not a stiffness or a time step: give a positive number, at least 2.3e-308"
             ),
             Self::Twice { parameter } => write!(
                 f,
                 "two levels at {parameter:e}: give each stiffness or time step once"
             ),
             Self::Error { error } => {
-                write!(f, "{error:e} is no relative error: give one of 0 or more")
+                write!(
+                    f,
+                    "{error:e} is not a relative error: give a number of 0 or more"
+                )
             }
         }
     }

@@ -177,7 +177,7 @@ impl fmt::Display for Refusal {
                 },
             } => write!(
                 f,
-                "line {line}: spheres {a} and {b} again, after line {first}: list each pair once"
+                "line {line}: spheres {a} and {b} are already on line {first}: list each pair once"
             ),
             Self::Line { line, fault } => write!(f, "line {line}: {fault}"),
             Self::Entry { entry, fault } => write!(f, "entry {entry}: {fault}"),
@@ -187,12 +187,12 @@ impl fmt::Display for Refusal {
             ),
             Self::Elsewhere { found, sample } => write!(
                 f,
-                "no frame in which its places are those of the scene: {found} of {sample} are found in the best one; is it of \
-                 this scene, in m?"
+                "no frame matches the positions of the table to the scene: the best one matches {found} of {sample}; is the \
+                 table of this scene, in m?"
             ),
             Self::Within(share) => write!(
                 f,
-                "{share} radii are no distance below half of one: 0.1 is usual"
+                "{share} radii are not between 0 and 0.5: 0.1 is usual"
             ),
             Self::Vtk(reason) => f.write_str(reason),
             Self::Io(error) => error.fmt(f),
@@ -204,7 +204,7 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => f.write_str(
-                "nothing is there: begin with a header such as id1,id2,force, or with ITEM: TIMESTEP",
+                "the table is empty: begin with a header such as id1,id2,force, or with ITEM: TIMESTEP",
             ),
             Self::NoColumn { column, found } => write!(
                 f,
@@ -225,7 +225,7 @@ impl fmt::Display for Fault {
                 nearest,
             } => write!(
                 f,
-                "no contact at ({x:.6}, {y:.6}, {z:.6}) m: the nearest sphere is {nearest:.4} R off, {within} R are allowed"
+                "no contact at ({x:.6}, {y:.6}, {z:.6}) m: the nearest sphere is {nearest:.4} R off, but only {within} R is allowed"
             ),
             Self::TwoColumns {
                 column,
@@ -237,32 +237,32 @@ impl fmt::Display for Fault {
             ),
             Self::Fields { columns, fields } => write!(
                 f,
-                "{fields} fields where the header has {columns}: give every column a value"
+                "{fields} fields, but the header has {columns}: give every column a value"
             ),
             Self::Field { column, error } => write!(f, "{column} {error}"),
             Self::NotFinite { column, value } => {
-                write!(f, "{column} is {value}: forces and places must be finite")
+                write!(f, "{column} is {value}: forces and positions must be finite")
             }
             Self::NoSuchSphere { id, spheres } => write!(
                 f,
                 "no sphere {id}: the spheres of this scene are numbered 1 to {spheres}, from the top"
             ),
             Self::OneSphere { id } => {
-                write!(f, "sphere {id} with itself: a contact is of two spheres")
+                write!(f, "sphere {id} is paired with itself: name two different spheres")
             }
             Self::Twice {
                 ids: [a, b],
                 first: Some(first),
             } => write!(
                 f,
-                "spheres {a} and {b} again, after entry {first}: list each pair once"
+                "spheres {a} and {b} are already in entry {first}: list each pair once"
             ),
             Self::Twice {
                 ids: [a, b],
                 first: None,
-            } => write!(f, "spheres {a} and {b} again: list each pair once"),
+            } => write!(f, "spheres {a} and {b} are listed twice: list each pair once"),
             Self::Quote => f.write_str("a quoted field must end on its line, before a comma"),
-            Self::Encoding => f.write_str("not a text: write it in UTF-8"),
+            Self::Encoding => f.write_str("not UTF-8 text: save the file in UTF-8"),
             Self::LongLine { limit } => write!(
                 f,
                 "longer than {limit} bytes: is this a table with one contact per line?"

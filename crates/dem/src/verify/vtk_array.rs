@@ -116,7 +116,7 @@ impl<'f> Coding<'f> {
             "appended" => {
                 let offset = offset.and_then(|offset| offset.parse().ok());
                 let rest = offset.and_then(|offset: usize| self.appended.get(offset..));
-                let rest = rest.ok_or("it is not in what is appended")?;
+                let rest = rest.ok_or("it is not in the appended data")?;
                 let bytes = if self.is_appended_raw {
                     self.raw(rest)?
                 } else {
@@ -124,9 +124,7 @@ impl<'f> Coding<'f> {
                 };
                 self.of_bytes(kind, &bytes)
             }
-            other => Err(format!(
-                "format {other:?} is none of ascii, binary and appended"
-            )),
+            other => Err(format!("format {other:?} is not ascii, binary or appended")),
         }
     }
 

@@ -81,12 +81,14 @@ impl Piece {
     fn read(&self, format: &Format, sink: &mut impl Sink, row: &mut u64) -> Result<(), Refusal> {
         let of = |section| self.0.get(&section).map_or(&[][..], Vec::as_slice);
         let Some(points) = of(Section::Points).first() else {
-            return Err(refused("a piece without points: lines are between points"));
+            return Err(refused(
+                "a piece has no points: contacts are lines between points",
+            ));
         };
         let lines = |name| {
             let mut arrays = of(Section::Lines).iter();
             let array = arrays.find(|array: &&Array| array.name == name);
-            array.ok_or_else(|| refused(format!("a piece without the array {name} of lines")))
+            array.ok_or_else(|| refused(format!("a piece has no array {name} for its lines")))
         };
         let (connectivity, offsets) = (lines("connectivity")?, lines("offsets")?);
         let mut columns: Vec<Column<'_>> = Vec::new();
@@ -107,14 +109,14 @@ impl Piece {
             *row += 1;
             let short = || {
                 refused(format!(
-                    "line {}: it goes to a point that is not there",
+                    "line {}: it has a point that is not in the file",
                     *row
                 ))
             };
             let end = offsets.values.index(line).ok_or_else(short)?;
             if end.checked_sub(begin) != Some(2) {
                 return Err(refused(format!(
-                    "line {}: it has not two points; is this a table of contacts?",
+                    "line {}: it does not have two points; is this a table of contacts?",
                     *row
                 )));
             }
@@ -136,7 +138,11 @@ impl Piece {
                     .and_then(|at| at.checked_add(column.component));
                 let text = at.and_then(|at| column.values.text(at));
                 fields.push(text.ok_or_else(|| {
-                    refused(format!("line {}: no {} for it", *row, quoted(&column.name)))
+                    refused(format!(
+                        "line {}: no value of {}",
+                        *row,
+                        quoted(&column.name)
+                    ))
                 })?);
             }
             let fields: Vec<&str> = fields.iter().map(String::as_str).collect();
@@ -179,7 +185,7 @@ fn pieces(bytes: &[u8]) -> Result<Vec<Piece>, Refusal> {
     loop {
         let event = xml
             .read_event()
-            .map_err(|error| refused(format!("no XML: {}", quoted(&error.to_string()))))?;
+            .map_err(|error| refused(format!("not valid XML: {}", quoted(&error.to_string()))))?;
         match event {
             Event::Eof => return Ok(pieces),
             Event::Start(tag) | Event::Empty(tag) if tag.name().as_ref() == b"VTKFile" => {
@@ -245,7 +251,7 @@ fn attributes(tag: &BytesStart<'_>) -> Result<Vec<(String, String)>, Refusal> {
     let mut found = Vec::new();
     for attribute in attributes {
         let attribute = attribute
-            .map_err(|error| refused(format!("no XML: {}", quoted(&error.to_string()))))?;
+            .map_err(|error| refused(format!("not valid XML: {}", quoted(&error.to_string()))))?;
         let key = String::from_utf8_lossy(attribute.key.as_ref()).into_owned();
         let value = String::from_utf8_lossy(&attribute.value).into_owned();
         found.push((key, value));

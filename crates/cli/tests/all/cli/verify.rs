@@ -180,7 +180,7 @@ fn infinite_table_is_rejected_at_the_first_repeated_pair() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(
         String::from_utf8(output.stderr).expect("text"),
-        "error: FILE: stdin, line 3: spheres 1 and 2 again, after line 2: list each pair once\n"
+        "error: FILE: stdin, line 3: spheres 1 and 2 are already on line 2: list each pair once\n"
     );
 }
 

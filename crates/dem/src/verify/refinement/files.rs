@@ -28,7 +28,7 @@ pub struct RefinementFile {
 /// assert_eq!(files[1].path, std::path::Path::new("stiff=2.csv"));
 ///
 /// let refused = "1e5=soft.csv,stiff.csv".parse::<RefinementFiles>().unwrap_err();
-/// assert_eq!(refused.to_string(), "'stiff.csv' has no =: give every file as its parameter=FILE, as in 1e6=stiff.csv");
+/// assert_eq!(refused.to_string(), "'stiff.csv' has no =: write each file as PARAMETER=FILE, as in 1e6=stiff.csv");
 /// # Ok::<(), cannonpile_dem::verify::NoRefinementFiles>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl fmt::Display for NoRefinementFiles {
         match self {
             Self::NoEquals { entry } => write!(
                 f,
-                "'{entry}' has no =: give every file as its parameter=FILE, as in 1e6=stiff.csv"
+                "'{entry}' has no =: write each file as PARAMETER=FILE, as in 1e6=stiff.csv"
             ),
             Self::NoFile { entry } => {
                 write!(
@@ -72,7 +72,7 @@ impl fmt::Display for NoRefinementFiles {
             }
             Self::NoNumber { text } => write!(
                 f,
-                "'{text}' is no number: give the stiffness or the time step before the =, as in 1e6=stiff.csv"
+                "'{text}' is not a number: give the stiffness or the time step before the =, as in 1e6=stiff.csv"
             ),
             Self::RefinementStudy(error) => error.fmt(f),
         }

@@ -267,21 +267,21 @@ impl fmt::Display for NoOrder {
         match self {
             Self::Few { levels, least } => write!(
                 f,
-                "{levels} of the {least} levels it takes have an error that falls, with all contacts there: add coarser ones, \
-                 which are farther above the floor"
+                "only {levels} of the {least} levels needed have all contacts and a falling error: add coarser levels, which are \
+                 farther above the floor"
             ),
             Self::Alike => f.write_str(
-                "the parameters are too near to each other: choose them a factor of 2 or more apart",
+                "the parameters are too close to each other: choose them a factor of 2 or more apart",
             ),
             Self::Rising { parameter } => write!(
                 f,
-                "the error at {parameter:e} is not below that of the coarser level: only errors that fall have a limit"
+                "the error at {parameter:e} is not below that of the coarser level: only falling errors have a limit"
             ),
             Self::Zero { parameter } => write!(
                 f,
-                "the error at {parameter:e} is 0: leave this level out, nothing is left of it"
+                "the error at {parameter:e} is 0, so the limit cannot be fitted: leave this level out"
             ),
-            Self::Order { order } => write!(f, "{order:e} is no order: it is positive"),
+            Self::Order { order } => write!(f, "{order:e} is not an order of accuracy: give a positive number"),
         }
     }
 }

@@ -52,7 +52,7 @@ impl<'l> RefinementReport<'l> {
     /// let study = RefinementStudy::new(Refinement::TimeStep, [Level::of_errors(1e-3, 30, 0.1, 0.05)])?;
     /// let mut text = Vec::new();
     /// RefinementReport::new(&study).write(FileFormat::Text, &mut text)?;
-    /// assert!(String::from_utf8(text)?.contains("no order of the largest errors: 1 of the 2 levels it takes"));
+    /// assert!(String::from_utf8(text)?.contains("no order of the largest errors: only 1 of the 2 levels needed"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]

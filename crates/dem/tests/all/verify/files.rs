@@ -58,7 +58,7 @@ fn forces_are_read_correctly_rounded() {
 fn unusable_headers_are_rejected() {
     let columns = "name the columns id1, id2, force, and fx, fy, fz if there are vectors (in LAMMPS with dump_modify colname)";
     let nothing =
-        "nothing is there: begin with a header such as id1,id2,force, or with ITEM: TIMESTEP";
+        "the table is empty: begin with a header such as id1,id2,force, or with ITEM: TIMESTEP";
     for (text, want) in [
         ("", format!("line 1: {nothing}")),
         ("\n\n", format!("line 2: {nothing}")),
@@ -100,15 +100,15 @@ fn errors_in_csv_tables_name_the_line() {
     let number = "not a number such as 0.46 or 1e-3";
     let id = "not the number of a sphere, such as 17, counted from 1 (LAMMPS writes all digits with dump_modify format \
               float %.17g)";
-    let finite = "forces and places must be finite";
+    let finite = "forces and positions must be finite";
     for (text, want) in [
         (
             "id1,id2,force\n1,2\n",
-            "line 2: 2 fields where the header has 3: give every column a value".into(),
+            "line 2: 2 fields, but the header has 3: give every column a value".into(),
         ),
         (
             "id1,id2,force\n1,2,0,5\n",
-            "line 2: 4 fields where the header has 3: give every column a value".into(),
+            "line 2: 4 fields, but the header has 3: give every column a value".into(),
         ),
         (
             "id1,id2,force\n1,2,abc\n",
@@ -173,7 +173,7 @@ fn errors_in_csv_tables_name_the_line() {
     }
     assert_eq!(
         refused(b"id1,id2,force\n1,2,\xff\n"),
-        "line 2: not a text: write it in UTF-8"
+        "line 2: not UTF-8 text: save the file in UTF-8"
     );
     assert!(refused("x".repeat(1 << 17)).starts_with("line 1: longer than 65536 bytes"));
     let many = vec!["column"; 10_000].join(",");
@@ -205,7 +205,7 @@ fn errors_in_dumps_name_the_line() {
         ),
         (
             rows("1 2 0.5\n1 3\n"),
-            "line 11: 2 fields where the header has 3: give every column a value",
+            "line 11: 2 fields, but the header has 3: give every column a value",
         ),
         (
             rows("1 2 0.5\n1 3 x\n"),
@@ -276,15 +276,15 @@ fn rows_that_do_not_match_the_pile_name_the_line() {
         ),
         (
             "id1,id2,force\n2,2,1\n",
-            "line 2: sphere 2 with itself: a contact is of two spheres".into(),
+            "line 2: sphere 2 is paired with itself: name two different spheres".into(),
         ),
         (
             "id1,id2,force\n1,2,1\n1,3,1\n\n\n2,1,1\n3,1,1\n1,3,2\n",
-            "line 6: spheres 1 and 2 again, after line 2: list each pair once".into(),
+            "line 6: spheres 1 and 2 are already on line 2: list each pair once".into(),
         ),
         (
             "id1,id2,force\n\n\n1,3,1\n1,4,1\n\n1,3,1\n",
-            "line 7: spheres 1 and 3 again, after line 4: list each pair once".into(),
+            "line 7: spheres 1 and 3 are already on line 4: list each pair once".into(),
         ),
     ] {
         assert_eq!(compared(text), want);

@@ -55,7 +55,7 @@ fn a_common_factor_is_reported_with_its_likely_cause() {
             (1.0 / 9.81, "gravity"),
             (1e3, "units"),
             (1e-5, "units"),
-            (-1.0, "pull positive"),
+            (-1.0, "tensile forces positive"),
             (2.0, "radius and diameter"),
             (1.37, "mass, gravity or stiffness"),
         ] {
@@ -147,7 +147,7 @@ fn tangential_forces_are_reported() {
             panic!();
         };
         assert!(
-            finding.starts_with("forces have a part along the surfaces, of up to 5.0e-2"),
+            finding.starts_with("forces have a tangential part, of up to 5.0e-2"),
             "{finding}"
         );
     }

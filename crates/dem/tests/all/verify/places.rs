@@ -219,7 +219,9 @@ fn a_table_of_another_pile_is_rejected() {
     let text = table(&small, &own, false, 0);
     let line = read(&other, &text).unwrap_err().to_string();
     assert!(
-        line.starts_with("no frame in which its places are those of the scene"),
+        line.starts_with(
+            "no frame matches the positions of the table to the scene: the best one matches "
+        ),
         "{line}"
     );
     // The table has one row at a position without a sphere.
@@ -360,7 +362,7 @@ fn invalid_rows_in_memory_are_rejected_with_their_number() {
         said.starts_with("entry 2: ") && said.contains("list each pair once"),
         "{said}"
     );
-    assert!(refused(&[good], 0.5).contains("0.5 radii are no distance"));
+    assert!(refused(&[good], 0.5).contains("0.5 radii are not between 0 and 0.5"));
     let off = Placed::at([0.0, 0.0, 50.0], Force::Along(1.0));
     let said = refused(&[good, good, off, off, off], 0.1);
     assert!(said.contains("no contact at"), "{said}");

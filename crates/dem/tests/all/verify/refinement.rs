@@ -351,13 +351,13 @@ fn files_are_parsed_with_their_parameters() {
         ("1e5", "'1e5' has no =: "),
         ("1e5=a,", "'' has no =: "),
         ("1e5=", "'1e5=' names no file: "),
-        ("soft=a", "'soft' is no number: "),
-        ("=a", "'' is no number: "),
-        ("0=a", "0e0 is no stiffness and no time step: "),
-        ("-1=a", "-1e0 is no stiffness "),
-        ("nan=a", "NaN is no stiffness "),
-        ("inf=a", "inf is no stiffness "),
-        ("1e-310=a", "1e-310 is no stiffness "),
+        ("soft=a", "'soft' is not a number: "),
+        ("=a", "'' is not a number: "),
+        ("0=a", "0e0 is not a stiffness or a time step: "),
+        ("-1=a", "-1e0 is not a stiffness "),
+        ("nan=a", "NaN is not a stiffness "),
+        ("inf=a", "inf is not a stiffness "),
+        ("1e-310=a", "1e-310 is not a stiffness "),
         ("1e3=a,1e4=b,1000=c", "two levels at 1e3: "),
     ] {
         let refused = text.parse::<RefinementFiles>().unwrap_err().to_string();
@@ -426,7 +426,7 @@ fn the_report_is_complete_in_three_formats() {
     let text = written(&one, FileFormat::Text);
     for says in [
         "timestep",
-        "no order of the largest errors: 1 of the 2 levels it takes",
+        "no order of the largest errors: only 1 of the 2 levels needed",
     ] {
         assert!(text.contains(says), "{text}");
     }

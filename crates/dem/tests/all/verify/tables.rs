@@ -122,7 +122,7 @@ fn invalid_tables_are_rejected_with_a_remedy() {
     let numbered = Reader::new().with_columns(columns("id1=#1,id2=#2,force=#9"));
     assert_eq!(
         refused(&numbered, "1,2,3\n"),
-        "line 1: 3 fields where the header has 9: give every column a value"
+        "line 1: 3 fields, but the header has 9: give every column a value"
     );
     for text in [
         "",

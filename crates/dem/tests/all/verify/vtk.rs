@@ -96,7 +96,7 @@ fn every_error_is_one_line() {
         (
             "\"connectivity\"",
             "\"else\"",
-            "a piece without the array connectivity of lines",
+            "a piece has no array connectivity for its lines",
         ),
         (
             "\"Float64\" Name=\"force\"",
