@@ -88,7 +88,7 @@ pub(super) fn write_markdown(
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
     let card = record::record(pile, title, scene, FOR_PEOPLE)?;
-    let page = page::page(pile, title, card);
+    let page = page::page(pile, title, card)?;
     Ok(out.write_all(page.as_bytes())?)
 }
 

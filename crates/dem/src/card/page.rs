@@ -2,8 +2,10 @@
 
 use serde_json::Value as Json;
 
-use super::record::{Names, given, name};
+use super::record::{CRITERION, Names, given, name};
 use super::{CardTitle, layers};
+use crate::Error;
+use crate::error::bug;
 use crate::numbered::NumberedPile;
 use crate::scene::State;
 use crate::template::fill_lines;
@@ -14,7 +16,7 @@ pub(super) fn page(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
     (card, mut names): (Json, Names),
-) -> String {
+) -> Result<String, Error> {
     name("", &card, &mut names);
     names.extend(of_pile(pile, title));
     let flat = pile.pile().dimension() == Dimension::Two;
@@ -37,11 +39,11 @@ pub(super) fn page(
     }
     let criteria = card["criteria"].as_array().into_iter().flatten();
     let criteria = (1..).zip(criteria).map(|(n, criterion)| {
-        let part = |part: &str| criterion[part].as_str().unwrap_or_default();
-        let (name, must, check) = (part("name"), part("must"), part("check"));
-        format!("{n}. **{name}.** {must} *Check:* {check}.")
+        let part = |part: &str| criterion[part].as_str().ok_or_else(|| bug(CRITERION));
+        let (name, must, check) = (part("name")?, part("must")?, part("check")?);
+        Ok(format!("{n}. **{name}.** {must} *Check:* {check}."))
     });
-    let criteria = criteria.collect::<Vec<_>>().join("\n\n");
+    let criteria = criteria.collect::<Result<Vec<_>, Error>>()?.join("\n\n");
     let law = card["tolerance"]["law"].as_array().into_iter().flatten();
     let law: Vec<&str> = law.filter_map(Json::as_str).collect();
     let scene = card["scene"].as_str();
@@ -66,7 +68,7 @@ pub(super) fn page(
         ("loads", Some(shortened(&loads))),
     ];
     names.extend(given(texts));
-    fill_lines(include_str!("page.md"), &names)
+    Ok(fill_lines(include_str!("page.md"), &names))
 }
 
 /// Returns the facts about a pile that only the page shows.

@@ -82,9 +82,13 @@ pub(super) fn record(
     let outcome = fill_lines(include_str!("outcome.txt"), &names);
     let criteria = fill_lines(include_str!("criteria.txt"), &names);
     let criteria = criteria.lines().map(|criterion| {
-        let mut parts = criterion.splitn(3, '|');
-        json!({"name": parts.next(), "must": parts.next(), "check": parts.next()})
+        let parts: Vec<&str> = criterion.splitn(3, '|').collect();
+        match parts[..] {
+            [name, must, check] => Ok(json!({"name": name, "must": must, "check": check})),
+            _ => Err(bug(CRITERION)),
+        }
     });
+    let criteria = criteria.collect::<Result<Json, Error>>()?;
     let version = env!("CARGO_PKG_VERSION");
     let unless_empty = |text: &str| (!text.is_empty()).then(|| text.to_owned());
     let accept: Json =
@@ -109,7 +113,7 @@ pub(super) fn record(
             "compliance": springs.map(|(_, compliance)| compliance),
             "law": include_str!("law.txt").lines().collect::<Json>(),
         },
-        "criteria": criteria.collect::<Json>(),
+        "criteria": criteria,
         "verify": verify,
         "files": files,
         "cite": fill(include_str!("cite.bib"), &[("version", version.into())]).trim_end(),
@@ -216,6 +220,9 @@ pub(super) fn name(path: &str, value: &Json, names: &mut Names) {
     };
     names.insert(path.to_owned(), text);
 }
+
+/// The invariant of the texts of criteria.
+pub(super) const CRITERION: &str = "a criterion of a card has a name, a demand and a check";
 
 /// Returns a/R, from sin²θ = (a/R)²(d−1)/(2d).
 fn spacing(numbered: &NumberedPile<'_>) -> Result<Surd, Error> {
