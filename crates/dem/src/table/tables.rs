@@ -72,9 +72,13 @@ fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Result
 fn greatest_place(packing: &Packing<'_>) -> BigRational {
     let shape = packing.pile().shape();
     let corners = shape.base().corners();
-    let farthest = corners.iter().flatten().map(|x| x.unsigned_abs()).max();
-    let steps = BigUint::from(farthest.unwrap_or(0)) * 2_u32
-        + BigUint::from(shape.layers().unsigned_abs()) * 3_u32;
+    let farthest = corners
+        .iter()
+        .flatten()
+        .map(|x| x.unsigned_abs())
+        .fold(0, u128::max);
+    let steps =
+        BigUint::from(farthest) * 2_u32 + BigUint::from(shape.layers().unsigned_abs()) * 3_u32;
     packing.radius() * BigRational::from(BigInt::from(steps * 2_u32))
 }
 

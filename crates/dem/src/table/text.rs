@@ -27,7 +27,7 @@ pub(super) fn write_record(
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
     let [heads, units] = heads(columns, numbers);
-    let width = heads.fields().map(str::len).max().unwrap_or(0);
+    let width = heads.fields().map(str::len).fold(0, usize::max);
     let mut line = Line::default();
     for row in rows {
         show(columns, &row?, numbers, &mut line)?;
