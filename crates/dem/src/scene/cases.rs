@@ -142,7 +142,7 @@ impl Case {
     /// ```
     /// use cannonpile_dem::scene::Case;
     ///
-    /// assert!(Case::named("C12")?.purpose().contains("axes that were exchanged"));
+    /// assert!(Case::named("C12")?.purpose().contains("exchanged axes"));
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     #[must_use]
