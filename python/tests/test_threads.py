@@ -98,6 +98,7 @@ def test_threads_share_a_pile():
 ENDLESS = {
     "forces": "[Pile(150, 'hcp').forces() for _ in range(1000)]",
     "multiples": "Pile(300, 'hcp').multiples()",
+    "stands": "[Pile(1000, 'hcp').stands for _ in range(1000)]",
     "census": "list(cannonpile.census(2000))",
     "mean": "cannonpile.mean(200)",
     "elastic": "Pile(27, '+-+-+' + '+' * 21).elastic()",
