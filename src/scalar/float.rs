@@ -15,7 +15,7 @@ macro_rules! float_scalar {
         impl Ring for $float {
             #[expect(
                 clippy::cast_precision_loss,
-                reason = "the result is the nearest float"
+                reason = "the result is correctly rounded"
             )]
             fn from_i128(n: i128) -> Self {
                 n as $float
