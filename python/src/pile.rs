@@ -15,6 +15,7 @@ use cannonpile_dem::scene::{Scene, State};
 use cannonpile_dem::table::{Summary, Units};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -159,13 +160,15 @@ impl Pile {
 
     /// Half the distance of neighbours in a layer divided by the radius.
     #[getter]
-    fn spacing(&self) -> PyResult<BigRational> {
+    fn spacing<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let spacing = self
             .scene
             .spacing()
             .map_err(|error| Raised::from(error).into_exception())?;
-        // The spacing of a scene is rational, so its radicand is 1.
-        Ok(spacing.ratio().coefficient().clone())
+        match spacing.ratio().to_rational() {
+            Some(ratio) => ratio.into_bound_py_any(py),
+            None => spacing.to_string().into_bound_py_any(py),
+        }
     }
 
     /// The number of spheres.

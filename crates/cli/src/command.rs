@@ -45,14 +45,14 @@ fn fault_probability(text: &str) -> Result<BigRational, Error> {
 /// # Errors
 /// The spacing is too wide for this pile, or spheres two layers apart touch, so that stability is undetermined.
 fn has_horizontal_contacts(
-    spacing: Option<&BigRational>,
+    spacing: Option<&Spacing>,
     with_a_change: impl FnOnce() -> Result<Pile, cannonpile::Error>,
 ) -> Result<bool, Failure> {
-    let Some(spacing) = spacing.filter(|spacing| !spacing.is_one()) else {
+    let Some(spacing) = spacing.filter(|spacing| !spacing.square().is_one()) else {
         return Ok(spacing.is_some());
     };
     let clearance = with_a_change()?.clearance();
-    let touching = clearance.check(&Spacing::new(spacing.clone())?)?;
+    let touching = clearance.check(spacing)?;
     if touching.is_empty() {
         return Ok(false);
     }

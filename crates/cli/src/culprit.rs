@@ -263,7 +263,7 @@ mod tests {
         let error = Error::from(discs.pile().unwrap_err());
         assert_eq!(error.conflicts_with(), Some(Key::Dimension));
         blames(Culprit::Key(Key::SinPhi), error);
-        let spacing = Some(ratio(164, 100));
+        let spacing = Spacing::new(ratio(164, 100)).ok();
         let scene = Scene {
             spacing,
             ..Scene::default()

@@ -100,7 +100,7 @@ cannonpile::data::as_text!(State);
 /// use cannonpile_dem::scene::{parse, Anchor, Scene};
 /// use cannonpile::stacking::Pattern;
 ///
-/// let scene = Scene { layers: Some(4), spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+/// let scene = Scene { layers: Some(4), spacing: Some("1.2".parse()?), ..Scene::default() };
 /// let pile = scene.pile()?;
 /// assert_eq!(pile.sphere_count(), 20_u32.into());
 /// assert!(scene.packing(&pile)?.touching().is_empty());
@@ -134,8 +134,7 @@ pub struct Scene {
     pub weightless: bool,
     /// a/R (default: 6/5, or 1 for the elastic state). A given spacing is always checked, the default only where
     /// geometry is used.
-    #[serde(with = "cannonpile::data::number")]
-    pub spacing: Option<BigRational>,
+    pub spacing: Option<Spacing>,
     /// The radius R (default: 1).
     #[serde(with = "cannonpile::data::number")]
     pub radius: BigRational,
@@ -214,7 +213,7 @@ impl Scene {
             pile = pile.weightless();
         }
         if let Some(spacing) = &self.spacing {
-            pile.clearance().check(&Spacing::new(spacing.clone())?)?;
+            pile.clearance().check(spacing)?;
         }
         Ok(pile)
     }
@@ -303,11 +302,14 @@ impl Scene {
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     pub fn spacing(&self) -> Result<Spacing, Error> {
-        let default = || match self.state {
+        if let Some(spacing) = &self.spacing {
+            return Ok(spacing.clone());
+        }
+        let default = match self.state {
             State::Isostatic => BigRational::new(6.into(), 5.into()),
             State::Elastic => BigRational::one(),
         };
-        Ok(Spacing::new(self.spacing.clone().unwrap_or_else(default))?)
+        Ok(Spacing::new(default)?)
     }
 
     /// Checks that the neighbours of a layer touch, a = R, if a spacing is given.
@@ -320,7 +322,7 @@ impl Scene {
     /// use cannonpile_dem::scene::{parse, Scene};
     ///
     /// assert!(Scene::default().check_touching().is_ok());
-    /// let scene = Scene { spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+    /// let scene = Scene { spacing: Some("1.2".parse()?), ..Scene::default() };
     /// assert_eq!(
     ///     scene.check_touching().unwrap_err().to_string(),
     ///     "neighbours of a layer do not touch at a/R = 6/5: leave it out, or use 1",
@@ -329,9 +331,8 @@ impl Scene {
     /// ```
     pub fn check_touching(&self) -> Result<(), Error> {
         match &self.spacing {
-            Some(spacing) if !spacing.is_one() => {
-                let spacing = Spacing::new(spacing.clone())?;
-                Err(cannonpile::Error::not_touching(spacing).into())
+            Some(spacing) if !spacing.square().is_one() => {
+                Err(cannonpile::Error::not_touching(spacing.clone()).into())
             }
             _ => Ok(()),
         }

@@ -29,7 +29,7 @@ pub fn scenes() -> Vec<Scene> {
             radius: rational("1e-3"),
             mass: rational("1e-5"),
             gravity: rational("9.81"),
-            spacing: Some(rational("1.05")),
+            spacing: Some("1.05".parse().expect("a spacing")),
             ..plain()
         },
         Scene {

@@ -261,14 +261,14 @@ class Pile:
         return self._native.gravity
 
     @property
-    def spacing(self) -> Fraction:
-        """a/R, half the distance of neighbours in a layer divided by the radius.
+    def spacing(self) -> Fraction | str:
+        """a/R, half the distance of neighbours in a layer divided by the radius; a str if it is irrational.
 
         Examples
         --------
         >>> from cannonpile import Pile
-        >>> Pile(10).spacing, Pile(10).elastic().spacing
-        (Fraction(6, 5), Fraction(1, 1))
+        >>> Pile(10).spacing, Pile(10).elastic().spacing, Pile(10, spacing="sqrt(2)").spacing
+        (Fraction(6, 5), Fraction(1, 1), 'sqrt(2)')
         """
         return self._native.spacing
 

@@ -23,7 +23,7 @@ pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) ->
             "dimension" => scene.dimension = read(name, text, str::parse)?,
             "sin_phi" => scene.sin_phi = Some(read(name, text, parse::rational)?),
             "weightless" => scene.weightless = true,
-            "spacing" => scene.spacing = Some(read(name, text, parse::rational)?),
+            "spacing" => scene.spacing = Some(read(name, text, str::parse)?),
             "radius" => scene.radius = read(name, text, parse::rational)?,
             "mass" => scene.mass = read(name, text, parse::rational)?,
             "gravity" => scene.gravity = read(name, text, parse::rational)?,
@@ -83,7 +83,13 @@ pub(super) fn call(scene: &Scene) -> String {
         give("weightless", "True".into());
     }
     if let Some(spacing) = &scene.spacing {
-        give("spacing", number(spacing));
+        give(
+            "spacing",
+            match spacing.ratio().to_rational() {
+                Some(ratio) => number(&ratio),
+                None => quoted(spacing),
+            },
+        );
     }
     for (name, size) in [
         ("radius", &scene.radius),

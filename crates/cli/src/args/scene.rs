@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 
 use cannonpile::Pile;
+use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::stacking::Pattern;
 use cannonpile_dem::Key;
@@ -56,9 +57,9 @@ pub(crate) struct SceneOptions {
     /// Spheres without weight, so that only the loads act; --weightless=false overrides a file
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     weightless: Option<bool>,
-    /// Half the distance between horizontal neighbours over the radius, a/R [default: 6/5; 1 with --state elastic]
-    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
-    spacing: Option<BigRational>,
+    /// Half the distance between horizontal neighbours over the radius, a/R, such as 6/5 or sqrt(2) [default: 6/5; 1 with --state elastic]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = str::parse::<Spacing>)]
+    spacing: Option<Spacing>,
     /// Radius R of a sphere, in m [default: 1]
     #[arg(long, value_name = "R", allow_hyphen_values = true, value_parser = parse::rational)]
     radius: Option<BigRational>,

@@ -3,6 +3,7 @@
 use cannonpile::Pile;
 use cannonpile::census;
 use cannonpile::census::Entry;
+use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Region;
 use cannonpile::stacking::Stacking;
 use cannonpile_dem::Key;
@@ -10,7 +11,6 @@ use cannonpile_dem::scene::parse;
 use cannonpile_dem::table::Table;
 use cannonpile_horizontal::census as horizontal;
 use clap::Args;
-use num_rational::BigRational;
 
 use super::has_horizontal_contacts;
 use crate::Error;
@@ -57,9 +57,9 @@ pub(crate) struct Census {
     /// region:x0..x1,y0..y1,s0..s1 [default: piles under one sphere]
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "layers")]
     base: Option<Region>,
-    /// Half the distance between horizontal neighbours over the radius, a/R: 1 includes horizontal contacts [default: no horizontal contacts]
-    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
-    spacing: Option<BigRational>,
+    /// Half the distance between horizontal neighbours over the radius, a/R, such as 6/5 or sqrt(2): 1 includes horizontal contacts [default: no horizontal contacts]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = str::parse::<Spacing>)]
+    spacing: Option<Spacing>,
     /// List the stable stackings only
     #[arg(long)]
     standing: bool,

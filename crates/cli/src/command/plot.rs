@@ -12,7 +12,6 @@ use cannonpile_figure as figure;
 use cannonpile_figure::{Figure, Layout, Subject};
 use clap::{Args, Subcommand};
 use num_rational::BigRational;
-use num_traits::One;
 
 use super::ensemble::HistogramForces;
 use super::fault_probability;
@@ -253,7 +252,7 @@ impl Plot {
             Self::Bounds(of) => {
                 let (mut scene, pile) = of.of.scene.read_whole()?;
                 scene.check_touching()?;
-                scene.spacing = Some(One::one());
+                scene.spacing = Some("1".parse()?);
                 of.draw_pile(&scene, &pile, |subject, _| Ok(figure::bounds(subject)?))
             }
             Self::Base(of) => of.draw_state(|subject, _| Ok(figure::base(subject)?)),

@@ -53,7 +53,8 @@ const LONGEST: usize = 16 << 20;
 /// | `stacking` | `"fcc"`, `"hcp"`, `"dhcp"`, or spelled out | `"fcc"` |
 /// | `top` or `base` | `"hexagon:P,Q"`, `"hexagon:N"`, `"triangle:N"` or `"region:x0..x1,y0..y1,s0..s1"` | one sphere on top |
 /// | `dimension` | 2 or 3 | 3 |
-/// | `sin-phi`, `spacing` | a number | none: ½, and where it is needed 6/5, or 1 for the elastic state |
+/// | `sin-phi` | a number | ½ |
+/// | `spacing` | a number, or a root such as `"sqrt(2)"` | where it is needed 6/5, or 1 for the elastic state |
 /// | `radius`, `mass`, `gravity` | a number | 1 |
 /// | `load` | an array of `"K,I,J=W"`, or of tables with `at` and `weight` | none |
 /// | `weightless` | `true` or `false` | `false` |
@@ -219,7 +220,7 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
             "sin-phi" => scene.sin_phi = Some(value.read(parse::rational)?),
             "load" => scene.loads = loads(value, scene.dimension)?,
             "weightless" => scene.weightless = value.flag()?,
-            "spacing" => scene.spacing = Some(value.read(parse::rational)?),
+            "spacing" => scene.spacing = Some(value.read(str::parse)?),
             "radius" => scene.radius = value.read(parse::rational)?,
             "mass" => scene.mass = value.read(parse::rational)?,
             "gravity" => scene.gravity = value.read(parse::rational)?,

@@ -21,7 +21,7 @@ fn scenes() {
             },
             ratio(5, 2),
         )],
-        spacing: Some(ratio(6, 5)),
+        spacing: Some("6/5".parse().unwrap()),
         ..Scene::default()
     };
     assert_eq!(

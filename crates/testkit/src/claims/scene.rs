@@ -2,6 +2,7 @@
 
 use arbitrary::Unstructured;
 use cannonpile::Pile;
+use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
 use cannonpile::stacking::Pattern;
 use cannonpile_dem::scene::State;
@@ -117,8 +118,9 @@ fn scene(u: &mut Unstructured<'_>) -> arbitrary::Result<Scene> {
     };
     let spacing = match u.int_in_range(0..=3)? {
         0 => None,
-        1 => Some(number::rational(u)?),
-        _ => Some(BigRational::one() + number::fraction(u)?),
+        1 => Spacing::from_square(number::rational(u)?).ok(),
+        2 => Spacing::from_square(BigRational::one() + number::fraction(u)?).ok(),
+        _ => Spacing::new(BigRational::one() + number::fraction(u)?).ok(),
     };
     Ok(Scene {
         layers: Some(layers),

@@ -44,14 +44,14 @@ pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
 /// A number is read exactly: without quotes if TOML allows it, and always as a string.
 pub fn a_number(u: &mut Unstructured<'_>) -> Checked {
     let written = text::number(u)?;
-    let spacing = |file: &str| Scene::from_toml(file).map(|scene| scene.spacing);
+    let sine = |file: &str| Scene::from_toml(file).map(|scene| scene.sin_phi);
     let value = Some(written.value);
     same(
         "a string",
-        &spacing(&format!("spacing = '{}'", written.text))?,
+        &sine(&format!("sin-phi = '{}'", written.text))?,
         &value,
     )?;
-    match spacing(&format!("spacing = {}", written.text)) {
+    match sine(&format!("sin-phi = {}", written.text)) {
         Ok(read) => same("a bare number", &read, &value),
         Err(refusal) => demand(matches!(refusal, Error::NotToml { .. }), || {
             refusal.to_string()

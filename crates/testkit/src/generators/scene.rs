@@ -1,6 +1,7 @@
 //! Scenes that can be written down, valid or not, and scene files, valid and damaged.
 
 use arbitrary::{Result, Unstructured};
+use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
 use cannonpile::stacking::{Pattern, Stacking};
 use cannonpile_dem::scene::parse::At;
@@ -35,7 +36,7 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
         anchor,
         loads,
         weightless: u.arbitrary()?,
-        spacing: maybe(u)?,
+        spacing: spacing(u)?,
         radius: number::rational(u)?,
         mass: number::quantity(u)?,
         gravity: number::quantity(u)?,
@@ -47,6 +48,20 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
 fn maybe(u: &mut Unstructured<'_>) -> Result<Option<BigRational>> {
     let given: bool = u.arbitrary()?;
     given.then(|| number::rational(u)).transpose()
+}
+
+fn spacing(u: &mut Unstructured<'_>) -> Result<Option<Spacing>> {
+    let given: bool = u.arbitrary()?;
+    let square = given.then(|| number::quantity(u)).transpose()?;
+    let rational: bool = u.arbitrary()?;
+    Ok(square.and_then(|square| {
+        let spacing = if rational {
+            Spacing::new(square)
+        } else {
+            Spacing::from_square(square)
+        };
+        spacing.ok()
+    }))
 }
 
 fn pattern(u: &mut Unstructured<'_>) -> Result<Option<Pattern>> {

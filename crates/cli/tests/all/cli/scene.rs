@@ -263,3 +263,26 @@ fn scene_from_a_pipe() {
         stdout(&format!("base {OPTIONS}"))
     );
 }
+
+#[test]
+fn a_spacing_may_be_a_root() {
+    let file = Scratch::new("root", "layers = 4\nspacing = '2*sqrt(2/3)'\n");
+    for command in ["summary --units si", "contacts --units si", "scene"] {
+        let options = format!("{command} --layers 4 --spacing sqrt(8/3)");
+        assert_eq!(file.output(command), stdout(&options), "{command}");
+    }
+    assert!(file.output("scene").contains("\nspacing = \"2/3*sqrt(6)\"\n"));
+    // A root may be rational.
+    let spheres = |spacing| stdout(&format!("spheres --layers 3 --spacing {spacing}"));
+    assert_eq!(spheres("sqrt(1.44)"), spheres("1.2"));
+    for (spacing, reason) in [
+        ("sqrt(-2)", "the root of -2 is not real"),
+        ("sqrt(x)", "'x' is not a number"),
+        ("sqrt(2", "'sqrt(2' is not a number"),
+        ("-sqrt(2)", "it must be positive"),
+        ("sqrt(0)", "spacing must be positive, not 0"),
+    ] {
+        let text = refusal(&format!("base --spacing={spacing}"));
+        assert!(text.contains("--spacing") && text.contains(reason), "{text}");
+    }
+}

@@ -22,7 +22,7 @@ impl Scene {
     /// ```
     /// use cannonpile_dem::scene::{parse, Scene};
     ///
-    /// let scene = Scene { layers: Some(4), spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+    /// let scene = Scene { layers: Some(4), spacing: Some("1.2".parse()?), ..Scene::default() };
     /// let text = scene.to_toml();
     /// assert!(text.contains("\nlayers = 4\n") && text.contains("\nspacing = \"6/5\"\n"));
     /// assert_eq!(Scene::from_toml(&text)?, scene);
@@ -69,7 +69,11 @@ impl Scene {
         }
         if let Some(spacing) = &self.spacing {
             let comment = "Half the distance of horizontal neighbours over the radius, a/R.";
-            file.key(comment, "spacing", &number(spacing));
+            let written = match spacing.ratio().to_rational() {
+                Some(ratio) => number(&ratio),
+                None => quoted(spacing),
+            };
+            file.key(comment, "spacing", &written);
         }
         let radius = number(&self.radius);
         file.key("Radius R of a sphere, in m.", "radius", &radius);

@@ -44,7 +44,7 @@ fn every_key() {
             (at("0,0,0"), ratio(3, 1)),
         ],
         weightless: true,
-        spacing: Some(ratio(6, 5)),
+        spacing: Some("6/5".parse().unwrap()),
         radius: ratio(1, 200),
         mass: ratio(1, 7),
         gravity: ratio(981, 100),
