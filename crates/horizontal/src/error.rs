@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// The reason why a request about a pile with horizontal contacts fails.
+/// An error of a computation on a pile with horizontal contacts.
 ///
 /// The message is one line. It states the value given and the remedy.
 ///
@@ -12,11 +12,11 @@ use core::fmt;
 /// use cannonpile::lattice::{Region, Site};
 /// use cannonpile_horizontal::{Error, bounds};
 ///
-/// // A run of four steps from the top, followed by a sign change, is unstable for all horizontal forces.
+/// // A run of four steps from the top, followed by a sign change, is unstable whatever the horizontal forces.
 /// let pile = Pile::under(Region::SITE, "++++-".parse()?)?;
 /// assert_eq!(bounds(&pile, Site { i: 0, j: 0, k: 5 }), Err(Error::CannotStand));
 ///
-/// // Errors of the core are passed through.
+/// // Errors of the crate `cannonpile` are passed through.
 /// let error = bounds(&pile, Site { i: 9, j: 0, k: 5 }).unwrap_err();
 /// assert!(matches!(error, Error::Core(cannonpile::Error::SiteOutside { .. })));
 /// # Ok::<(), Error>(())
@@ -24,13 +24,13 @@ use core::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// An error of the core, about the pile, a site or the amount of work.
+    /// An error of the crate `cannonpile`, about the pile, a site or the amount of work.
     Core(cannonpile::Error),
-    /// Bounds were requested of a pile whose spheres are weightless.
+    /// Bounds were requested for a pile of weightless spheres.
     Weightless,
-    /// The pile is unstable: no compressive forces balance it, horizontal contacts included.
+    /// The pile is unstable: no compressive forces balance it, even with horizontal contacts.
     CannotStand,
-    /// The float solution of a program over the contact forces did not lead to an exact one.
+    /// The floating-point solution of the optimisation problem for the contact forces did not yield an exact solution.
     #[non_exhaustive]
     NotSolved {
         /// The number of balance equations.
@@ -52,7 +52,7 @@ impl fmt::Display for Error {
                 "bounds need the weight of the spheres, but this pile is weightless; give the spheres their weight",
             ),
             Self::CannotStand => f.write_str(
-                "this pile cannot stand: no compressive forces balance it, even with horizontal contacts; change the \
+                "this pile is unstable: no compressive forces balance it, even with horizontal contacts; change the \
                  stacking, or the loads",
             ),
             Self::NotSolved { equations } => write!(
@@ -66,8 +66,8 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            // The message is that of the inner error, so the chain of sources continues with the source of the
-            // inner error.
+            // This variant prints the message of the inner error. So its source is the source of the inner error, or
+            // the chain would contain the same message twice.
             Self::Core(error) => error.source(),
             _ => None,
         }

@@ -35,7 +35,7 @@ fn cannot_stand() {
     assert_eq!(error, Error::CannotStand);
     says(
         &error,
-        &["cannot stand", "change the stacking, or the loads"],
+        &["is unstable", "change the stacking, or the loads"],
     );
 }
 
