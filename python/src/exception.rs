@@ -10,15 +10,15 @@ use crate::error::Error;
 /// The reason for an exception. Large variants are boxed to keep `Result` small.
 pub(crate) enum Raised {
     Error(Box<Error>),
-    /// An invalid argument and its error.
+    /// The name of an invalid argument, and the error.
     Named(&'static str, Box<Error>),
     Refusal(Box<Refusal>),
     Write(WriteError),
-    /// An invalid measurement and its argument.
+    /// The name of the argument with an invalid measurement, and the error.
     Argument(&'static str, Box<Refusal>),
 }
 
-/// Implements the conversion from the errors of all crates.
+/// Implements `From` for each of these error types.
 macro_rules! raise {
     ($($error:ty),*) => {$(
         impl From<$error> for Raised {
@@ -57,7 +57,7 @@ impl From<WriteError> for Raised {
 }
 
 impl Raised {
-    /// Returns the exception with the message of the library.
+    /// Returns the Python exception. Its message is that of the error, after the name of the argument if there is one.
     pub(crate) fn into_exception(self) -> PyErr {
         match self {
             Self::Error(error) => of(None, &error),

@@ -1,4 +1,4 @@
-//! Forces between spheres.
+//! Contact forces between spheres.
 
 use core::fmt;
 
@@ -7,7 +7,7 @@ use exact_surd::layout::{padded, part};
 use super::Answers;
 use crate::lattice::{Direction, Site};
 
-/// The force between a sphere and the one below it.
+/// The force of one contact, between a sphere and one of the spheres that support it.
 ///
 /// # Examples
 /// ```
@@ -32,13 +32,14 @@ pub struct ContactForce<T> {
     pub site: Site,
     /// The direction from the upper sphere to the lower one.
     pub direction: Direction,
-    /// The force, in f₀. Positive: compression. Negative: the contact would be tensile.
+    /// The force, in f₀. It is positive in compression. It is negative if the contact would be tensile.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub force: T,
 }
 
 impl<T: fmt::Display> fmt::Display for ContactForce<T> {
-    /// Prints `(0,0,0) alpha: 1`. A sign and a precision apply to the force.
+    /// Prints the site, the direction and the force, as `(0,0,0) alpha: 1`. The flag `+` and a precision apply to the
+    /// force.
     ///
     /// # Examples
     /// ```
@@ -60,8 +61,8 @@ impl<T: fmt::Display> fmt::Display for ContactForce<T> {
     }
 }
 
-/// An iterator over the contact forces of a part of a pile, in row order. Each sphere is listed with its contacts
-/// below.
+/// An iterator over the contact forces of a part of a pile, by sphere in row order. The contacts of a sphere are those
+/// with its supports.
 ///
 /// Made by [`Forces::contacts`](crate::Forces::contacts). An item is an error if the scalar overflows.
 ///

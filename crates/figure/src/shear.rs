@@ -1,4 +1,4 @@
-//! The base shear forces, as arrows: paper, fig. 4.
+//! Draws the base shear forces as arrows, as in fig. 4 of the paper.
 
 use super::caption::{LIMIT, caption};
 use super::colour::{BLUE, PALE, Scale};
@@ -12,15 +12,16 @@ use crate::Error;
 
 /// Draws the horizontal forces of the bottom spheres on the floor, as arrows from above.
 ///
-/// Fig. 4 of the paper shows ten layers. There every arrow points away from the axis of the pile, and its length is
-/// proportional to the distance from the axis: paper, (14).
+/// Fig. 4 of the paper shows ten layers. In that figure every arrow points away from the axis of the pile, and its
+/// length is proportional to the distance from the axis, by (14) of the paper.
 ///
-/// Arrows are `<polygon class="arrow">` with the force as `data-x` and `data-y`. The first and last corners are on both sides
-/// of the tail, and the fourth is the tip. The arrow of class `key` gives the scale.
+/// Each arrow is a `<polygon class="arrow">` with the force as `data-x` and `data-y`. The fourth of its seven corners
+/// is the tip, and the tail lies between the first corner and the last. The arrow of class `key` gives the scale.
 ///
 /// # Errors
-/// [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
-/// [`Packing::base`](cannonpile::Packing::base).
+/// * [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres.
+/// * [`Overflow`](cannonpile::Error::Overflow) for forces outside the range of `f64`.
+/// * The errors of [`Packing::base`](cannonpile::Packing::base).
 ///
 /// # Examples
 /// ```
@@ -82,7 +83,7 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
     let [left, y] = [panel.left, panel.bottom() + 78.0];
     match round_below(greatest) {
         None => {
-            glyphs.push(text([left, y], 14.0, format!("no shear anywhere (in {unit})")).start());
+            glyphs.push(text([left, y], 14.0, format!("no shear forces (in {unit})")).start());
         }
         Some(round) => {
             let tip = [left + pixels(round), y];

@@ -1,4 +1,5 @@
-//! The largest normal force on an edge of a straight pile: forces that attain it, and the field that proves it.
+//! The largest normal force of a bottom sphere on an edge of a straight pile: horizontal forces that attain the bound,
+//! and a field that proves it.
 
 use std::collections::BTreeMap;
 
@@ -11,20 +12,21 @@ use crate::straight::Straight;
 /// A bottom sphere (a, b, 0) with a ≥ b ≥ 1 of a straight pile of equal spheres under one sphere. Its coordinates
 /// are sorted.
 ///
-/// All forces and the field lie on the face of the pile that contains the edge: the spheres (x, y, 0). Optimality
-/// is not a theorem, so every certificate is checked before it is returned.
+/// The field is zero except on the face of the pile that contains the edge: the spheres (x, y, 0). Each horizontal
+/// force acts on a sphere of this face. Optimality is not a theorem, so every certificate is checked before it is
+/// returned.
 pub(crate) struct Edge {
     straight: Straight,
     /// The directions of x, y and z.
     directions: [usize; 3],
     a: i128,
     b: i128,
-    /// min(b + 1, a). The lines of b with x ≥ c lead their full load to the sphere.
+    /// min(b + 1, a). The lines in direction y with x ≥ c transmit their full load to the bottom sphere.
     c: i128,
 }
 
 impl Edge {
-    /// Returns the edge of a bottom sphere, or `None` at a corner or inside the base.
+    /// Returns the edge sphere of a problem, or `None` for a corner or a sphere inside the base.
     pub(crate) fn of(straight: Straight) -> Option<Self> {
         let (sorted, directions) = straight.sorted();
         match sorted {
@@ -44,7 +46,7 @@ impl Edge {
         self.straight.outer_bound()
     }
 
-    /// Returns the coordinates [x, y] of the spheres of the face above the floor: x + y < a + b.
+    /// Returns the coordinates [x, y] of all spheres of the face above the bottom layer: x + y < a + b.
     fn face(&self) -> impl Iterator<Item = [i128; 2]> {
         let layers = self.a + self.b;
         (0..layers).flat_map(move |x| (0..layers - x).map(move |y| [x, y]))
@@ -52,9 +54,10 @@ impl Edge {
 
     /// Returns horizontal forces X that attain the bound.
     ///
-    /// Along the face, sphere (x, y, 0) presses on (x−1, y+1, 0). In rows y ≥ b these forces transfer the load of
-    /// the lines x to row b. In columns x > a they transfer the load of the lines y to column a. A force X = 1 on
-    /// the neighbour behind the face, along x or along y, keeps the remaining load within the face.
+    /// Along the face, sphere (x, y, 0) presses on (x−1, y+1, 0). In rows y ≥ b these forces transfer the load of the
+    /// lines in direction x to row b. In columns x > a they transfer the load of the lines in direction y to column a.
+    /// Some spheres also press with X = 1 on a neighbour behind the face, in direction x or y. This force keeps the
+    /// remaining load within the face.
     pub(crate) fn forces(&self) -> BTreeMap<HorizontalContact, BigRational> {
         let mut forces = BTreeMap::new();
         for [x, y] in self.face() {
@@ -73,7 +76,7 @@ impl Edge {
         forces
     }
 
-    /// Returns X between (x, y, 0) and (x−1, y+1, 0).
+    /// Returns the horizontal force X between (x, y, 0) and (x−1, y+1, 0).
     fn along(&self, [x, y]: [i128; 2]) -> i128 {
         let above = y - self.b;
         if x >= 1 && above >= 0 {
@@ -85,7 +88,7 @@ impl Edge {
         }
     }
 
-    /// Returns the neighbour of (x, y, 0) behind the face, and X between the two.
+    /// Returns the neighbour of (x, y, 0) behind the face, and the horizontal force between the two.
     fn behind(&self, [x, y]: [i128; 2]) -> ([i128; 3], i128) {
         let (along_x, along_y) = ([x - 1, y, 1], [x, y - 1, 1]);
         let above = y - self.b;
@@ -101,8 +104,8 @@ impl Edge {
 
     /// Returns the field φ that proves the bound.
     ///
-    /// φ = 1 in direction x where the load of the lines x reaches the sphere, and likewise in direction y. φ = 1 in
-    /// direction z where no load leaves the face.
+    /// φ_x = 1 where the load of the line in direction x reaches the bottom sphere, and likewise φ_y. φ_z = 1 where no
+    /// load leaves the face. All other components are 0.
     pub(crate) fn field(&self) -> BTreeMap<Site, [BigRational; 3]> {
         let mut field = BTreeMap::new();
         for [x, y] in self.face() {
@@ -122,7 +125,7 @@ impl Edge {
         field
     }
 
-    /// Returns the coordinates of a sphere by direction, from its sorted coordinates.
+    /// Returns the coordinates of a sphere in the order α, β, γ, from its sorted coordinates (x, y, z).
     fn coordinates(&self, [x, y, z]: [i128; 3]) -> [i128; 3] {
         let mut n = [0; 3];
         for (direction, value) in self.directions.into_iter().zip([x, y, z]) {

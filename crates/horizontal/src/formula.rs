@@ -1,9 +1,9 @@
-//! Formulas of horizontal contacts at a = R: drops and compressions of a field, and closed forms for straight
-//! piles.
+//! Formulas of horizontal contacts at a = R: the drop and the compression of a contact under a virtual displacement,
+//! and closed forms for straight piles.
 //!
-//! All are generic over the scalar, and the theorems of [`theorem`](crate::theorem) are about them. The core
-//! contains the balance of a sphere with horizontal contacts: [`pushed`](cannonpile::formula::pushed) and
-//! [`beside`](cannonpile::formula::beside).
+//! All functions are generic over the scalar, and [`theorem`](crate::theorem) proves statements about them. The crate
+//! `cannonpile` contains the balance of a sphere with horizontal contacts: [`pushed`](cannonpile::formula::pushed)
+//! and [`beside`](cannonpile::formula::beside).
 
 use cannonpile::formula::force;
 use cannonpile::lattice::{Direction, Sign, count};
@@ -11,12 +11,12 @@ use cannonpile::scalar::{Algebra, Ring};
 
 use crate::TWO;
 
-/// Returns the drop D of a sloping contact: how far its two spheres approach each other under the virtual
+/// Returns the drop D of a sloping contact: the approach of its two spheres to each other under the virtual
 /// displacement φ.
 ///
-/// D = φ_l(p) − (Tφ(q))_l for the contact of p with the sphere q below it. `here` is φ_l(p). `below` is (Tφ(q))_l,
-/// zero on the floor, with T the [half-turn](cannonpile::formula::half_turn) at a sign change and the identity
-/// otherwise.
+/// D = φ_l(p) − (Tφ(q))_l for the contact of p with the sphere q below it, along the direction l. T is the
+/// [half-turn](cannonpile::formula::half_turn) at a sign change, and the identity otherwise. `here` is φ_l(p), and
+/// `below` is (Tφ(q))_l. For a sphere q on the floor `below` is zero.
 ///
 /// # Examples
 /// ```
@@ -26,11 +26,11 @@ pub fn contact_drop<T: Ring>(here: T, below: &T) -> T {
     here - below
 }
 
-/// Returns the compression c of a horizontal contact: how far the two neighbours approach each other under the
-/// virtual displacement φ. Positive if they come closer.
+/// Returns the compression c of a horizontal contact: the approach of its two spheres to each other under the virtual
+/// displacement φ.
 ///
-/// c = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)) for p and p′ = p + d_b − d_a. `ends` are a and b, and σ is the sign of
-/// the step below.
+/// c = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)) for the neighbours p and p′ = p + d_b − d_a. `here` is φ(p), `there` is
+/// φ(p′), and `ends` are the directions a and b. σ is the sign of the step below the layer.
 ///
 /// # Examples
 /// ```
@@ -46,9 +46,11 @@ pub fn compression<T: Ring>(here: &[T; 3], there: &[T; 3], ends: [Direction; 2],
     signed(difference(here) - &difference(there), sign)
 }
 
-/// Returns the field of the elastic state of a straight pile of equal weights, in f₀/κ, for spheres and discs.
+/// Returns the displacement of a sphere along a direction l in the elastic state of a straight pile of equal weights,
+/// in f₀/κ with the contact stiffness κ.
 ///
-/// φ_l = d·n_l + d(d+1)/2 on a sphere with n_l spheres above it on its line l, d layers above the floor.
+/// φ_l = d·n + d(d+1)/2 for a sphere d layers above the floor with n spheres above it on its line l. The formula holds
+/// for spheres and discs.
 ///
 /// # Examples
 /// ```
@@ -58,8 +60,9 @@ pub fn elastic_field<T: Algebra>(n: &T, d: &T) -> T {
     force(n.clone(), d) + &count::spheres_in_layer(&(d.clone() - &T::one()), 3)
 }
 
-/// Returns the field on an edge (t, 0, 0) that proves a bound for the corner below it: 1 along the edge. Along the
-/// other two lines it is 1 if `all`, and 0 otherwise.
+/// Returns the field φ on the spheres of an edge (t, 0, 0), which proves a bound for the corner sphere below this edge.
+///
+/// φ_l = 1 along the edge. In the other two directions φ_l = 1 if `all`, and 0 otherwise.
 ///
 /// # Examples
 /// ```
@@ -79,8 +82,9 @@ pub fn corner_field<T: Ring>(edge: Direction, all: bool) -> [T; 3] {
     })
 }
 
-/// Returns the smallest load that a corner below K layers under one sphere can receive from above, in f₀. It equals
-/// K.
+/// Returns the smallest load that a corner sphere below K layers can receive from above, in f₀. This load is K.
+///
+/// The pile is straight, and its top layer is one sphere.
 ///
 /// # Examples
 /// ```
@@ -90,8 +94,9 @@ pub fn least_on_corner<T: Ring>(k: &T) -> T {
     k.clone()
 }
 
-/// Returns the largest load that a corner below K ≥ 1 layers under one sphere can receive from above, in f₀:
-/// 3K − 2.
+/// Returns the largest load that a corner sphere below K ≥ 1 layers can receive from above, in f₀. This load is 3K − 2.
+///
+/// The pile is straight, and its top layer is one sphere.
 ///
 /// # Examples
 /// ```
@@ -101,9 +106,9 @@ pub fn greatest_on_corner<T: Ring>(k: &T) -> T {
     k.clone() + k + k - &T::from_i128(2)
 }
 
-/// Returns an upper bound of the load on a bottom sphere n of a pile under one sphere, in f₀: Σ C(n_l+2, 3).
+/// Returns an upper bound of the load on a bottom sphere of a straight pile under one sphere, in f₀: Σ C(n_l+2, 3).
 ///
-/// The bound may not be attained.
+/// `n` is (n_α, n_β, n_γ), the numbers of spheres above it on its lines of contacts. The bound need not be attained.
 ///
 /// # Examples
 /// ```
@@ -117,7 +122,7 @@ pub fn greatest_inside<T: Algebra>(n: &[T; 3]) -> T {
 /// Returns an upper bound of the load on the bottom sphere (k, j, 0), on an edge of a pile under one sphere, in f₀.
 ///
 /// It is 2k − 1 + (c−1)² + 2j(k−c) + j² for k ≥ j ≥ 1 and c = min(j+1, k). This equals 2(j+1)(k−1) + 1 for k > j, and
-/// 2k² for k = j. The bound may not be attained.
+/// 2k² for k = j. The bound need not be attained.
 ///
 /// # Examples
 /// ```
@@ -135,8 +140,8 @@ pub fn greatest_on_edge<T: Ring>(k: &T, j: &T, c: &T) -> T {
 
 /// Returns the horizontal forces between three spheres that completely unload the bottom sphere below them.
 ///
-/// Without these forces they would transmit ν to it. The result is X_bc, X_ca, X_ab, with
-/// X_ab = (ν_a + ν_b − ν_c)/2.
+/// Without these forces, the three spheres would transmit ν_a, ν_b and ν_c to the bottom sphere. The result is
+/// (X_bc, X_ca, X_ab), with X_ab = (ν_a + ν_b − ν_c)/2.
 ///
 /// # Examples
 /// ```

@@ -7,8 +7,8 @@ use num_traits::{One, Zero, pow};
 
 /// Returns the least common multiple of two positive integers.
 ///
-/// In most calls one of the two divides the other. That test is cheaper than a greatest common divisor, so
-/// it comes first.
+/// In most calls one of the two divides the other. The function tests this first, because a division is cheaper
+/// than a greatest common divisor.
 #[must_use]
 pub fn common_multiple(a: BigInt, b: &BigInt) -> BigInt {
     if a.is_multiple_of(b) {
@@ -55,16 +55,16 @@ fn remainder(x: &BigUint, word: u64) -> u64 {
 
 /// Returns (t, x/3^t), where t is the exponent of 3 in `x`, limited to `most`. `x` must not be zero.
 ///
-/// Denominators in a pile are powers of three, one factor for each sign change, times the denominators of
-/// the loads. The remainder modulo 3⁴⁰, the largest power of three in a machine word, reveals up to forty
-/// factors in one pass over the words of `x`. A general greatest common divisor needs about one pass for
-/// each bit.
+/// Denominators in a pile are powers of three, one factor for each sign change, times denominators of the input
+/// (loads, sin φ, masses). The remainder modulo 3⁴⁰, the largest power of three in a machine word, reveals up to
+/// forty factors in one pass over the words of `x`. A general greatest common divisor needs about one pass for each
+/// bit.
 fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
     const A_WORD: usize = 40;
     let word = pow(3_u64, A_WORD);
-    // A denominator of zero exists only in a `Ratio` that `Ratio::new_raw` made. The operators of `Ratio`
-    // panic for it as well, and the guarantees of the crate state this exception. Without the assertion the
-    // loop would not end.
+    // Only `Ratio::new_raw` can create a denominator of zero. The operators of `Ratio` panic for such a value
+    // as well, and the guarantees of the crate state this exception. Without the assertion the loop would not
+    // end.
     assert!(
         !x.is_zero(),
         "the denominator of a rational must not be zero"
@@ -101,7 +101,7 @@ pub fn quotient(n: BigInt, d: &BigInt) -> BigRational {
     let mut d = d.magnitude() / pow(BigUint::from(3_u32), shared);
     if !rest.is_one() {
         // One step of Euclid's algorithm comes first. Then the greatest common divisor works on numbers no
-        // longer than the denominators of the loads, however long n is.
+        // longer than `rest`, however long n is.
         let divisor = match u64::try_from(&rest) {
             Ok(rest) => remainder(&n, rest).gcd(&rest).into(),
             Err(_) => (&n % &rest).gcd(&rest),
@@ -112,8 +112,9 @@ pub fn quotient(n: BigInt, d: &BigInt) -> BigRational {
     BigRational::new_raw(BigInt::from_biguint(sign, n), d.into())
 }
 
-/// Returns a·b in lowest terms. The operator of `Ratio` computes general greatest common divisors, which
-/// dominate its cost.
+/// Returns a·b in lowest terms.
+///
+/// This is faster than the operator of `Ratio`, whose cost is dominated by general greatest common divisors.
 #[must_use]
 pub fn product(a: &BigRational, b: &BigRational) -> BigRational {
     quotient(a.numer() * b.numer(), &(a.denom() * b.denom()))
@@ -123,7 +124,7 @@ pub fn product(a: &BigRational, b: &BigRational) -> BigRational {
 mod tests {
     use super::*;
 
-    /// The exponents of 3 lie around multiples of 40, on both sides; other factors are included as well.
+    /// The exponents of 3 lie just below, at and just above multiples of 40, with other factors or without.
     #[test]
     fn quotients_are_in_lowest_terms() {
         let power = |n: i64, k: usize| pow(BigInt::from(n), k);
@@ -140,7 +141,7 @@ mod tests {
         let threes = [0, 1, 2, 39, 40, 41, 79, 80, 81, 200];
         let numbers = threes.map(|k| others.each_ref().map(|other| power(3, k) * other));
         let numbers = numbers.as_flattened();
-        // `==` does not distinguish lowest terms from others.
+        // The test compares the parts, because `==` also holds for fractions that are not in lowest terms.
         let parts = |x: &BigRational| (x.numer().clone(), x.denom().clone());
         for n in numbers.iter().chain([&BigInt::zero()]) {
             for d in numbers {
@@ -185,7 +186,7 @@ mod tests {
     #[test]
     fn sums_have_least_common_denominator() {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-        // The denominators are new, repeated, a multiple, and coprime in part. The sum is in lowest terms.
+        // Each denominator is new, or it equals, is a multiple of, divides, or shares a factor with those before.
         let numbers = [
             ratio(1, 2),
             ratio(-3, 2),

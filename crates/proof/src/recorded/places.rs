@@ -11,7 +11,7 @@ pub(super) fn above(f: &Formulas<E>) -> Definition {
     let [i, j, k] = ["i", "j", "k"].map(symbol);
     of_numbers(
         "above",
-        "The numbers of spheres above (i, j, k) on its lines of contacts.",
+        "The numbers of spheres above the sphere (i, j, k) on its three lines of contacts.",
         &["i", "j", "k"],
         Value::Three((f.above)(&i, &j, &k)),
     )
@@ -23,7 +23,7 @@ pub(super) fn bounds_above(f: &Formulas<E>) -> Definition {
     let bounds = |sign| (f.bounds_above)(&i, &j, &lower, &upper, &steps, sign);
     by_cases(
         "bounds_above",
-        "Four bounds for each number of spheres above (i, j) on its lines; the number is their minimum.",
+        "Four upper bounds for each number of spheres above a sphere on a line of contacts. The number is the least.",
         &[
             ("i", Kind::Number),
             ("j", Kind::Number),
@@ -55,7 +55,7 @@ pub(super) fn descent(f: &Formulas<E>) -> Definition {
     });
     by_cases(
         "descent",
-        "The step to the support in a direction.",
+        "The step (i, j) from a sphere to its support in a direction.",
         &[("sign", Kind::Sign), ("direction", Kind::Direction)],
         cases.collect(),
     )
@@ -74,7 +74,7 @@ pub(super) fn counts(f: &Formulas<E>) -> Vec<Definition> {
             ),
             of_numbers(
                 &format!("spheres_in_layer_{d}"),
-                "The number of spheres of layer k, by dimension.",
+                "The number of spheres in layer k, by dimension.",
                 &["k"],
                 Value::Number((f.spheres_in_layer)(&k, d)),
             ),
@@ -86,7 +86,7 @@ pub(super) fn counts(f: &Formulas<E>) -> Vec<Definition> {
             ),
             of_numbers(
                 &format!("contacts_of_strength_{d}"),
-                "The number of contacts of one direction with a force of n increments.",
+                "The number of contacts in one direction that carry a force of n increments.",
                 &["layers", "n"],
                 Value::Number((f.contacts_of_strength)(&layers, &n, d)),
             ),
@@ -106,7 +106,7 @@ pub(super) fn places(f: &Formulas<E>) -> Vec<Definition> {
         ),
         of_numbers(
             "disc_directions",
-            "The same for discs.",
+            "The unit vectors along the contacts of discs.",
             &[],
             Value::Directions((f.disc_directions)().into()),
         ),
@@ -118,13 +118,13 @@ pub(super) fn places(f: &Formulas<E>) -> Vec<Definition> {
         ),
         plain(
             "position",
-            "The position of a sphere from the apex, in 2R.",
+            "The position of a sphere relative to the apex, in units of 2R.",
             &[("n", Kind::Three), ("e", Kind::Directions)],
             Value::Vector((f.position)(&three!("n"), &vectors!("e"))),
         ),
         plain(
             "squared_distance",
-            "The squared distance of two centres over 4R², for the difference n_a e_a + n_b e_b + n_c e_c.",
+            "The squared distance of two centres over 4R², if one minus the other is 2R (n_a e_a + n_b e_b + n_c e_c).",
             &[
                 ("n", Kind::Three),
                 ("s", Kind::Number),

@@ -1,27 +1,28 @@
-//! The errors of `f32` and `f64` stay within a few roundings of the exact answer, for every real sin φ.
+//! Answers in `f32` and `f64` differ from the exact answer by at most a few roundings, for every real sin φ.
 //!
 //! # The bound
-//! u = 2^−p is the unit roundoff, p = 24 or 53. Every answer is a sum Σ ±t of products. The table counts the roundings on
-//! the way to it. Each rounding has an error of at most u, relative to the rounded value:
+//! The unit roundoff is u = 2^−p, with p = 24 or 53. Every answer is a sum Σ ±t of products. The table counts the
+//! roundings in each quantity. Each rounding has a relative error of at most u. N is a count of spheres, w an
+//! increment, s is sin φ, and W = 1 + 1 + 2s is the sum of the increments.
 //!
-//! | rounded | roundings |
+//! | quantity | roundings |
 //! |---|---|
-//! | a count N; s; ½ and 1 are exact | 1 |
-//! | the increment 2s: doubling is exact | 1 |
+//! | a count N, or s (½ and 1 are exact) | 1 |
+//! | an increment w = 2s (doubling is exact) | 1 |
 //! | a force Nw | 1 + 1 + 1 = 3 |
-//! | a component of it, times s | 3 + 1 + 1 = 5 |
-//! | a sum of three of them, the first added to zero | 5 + 2 = 7 |
+//! | a component of a force, times s | 3 + 1 + 1 = 5 |
+//! | a sum of three components, the first added to zero | 5 + 2 = 7 |
 //! | W = 1 + 1 + 2s | 2 |
-//! | a force on the floor: such a sum plus W | 8 |
-//! | the same in mg, divided by W | 8 + 2 + 1 = 11 |
-//! | all forces on a sphere: such a sum of (N + 1)w, 8, and the last but one, 8 | 9 |
+//! | a force on the floor in f₀: a sum of three components, plus W | 7 + 1 = 8 |
+//! | a force on the floor in mg: divided by W | 8 + 2 + 1 = 11 |
+//! | the resultant on a sphere: a sum of three components of (N + 1)w (8), plus a force on the floor (8) | 8 + 1 = 9 |
 //!
-//! So the error is below 12 u Σ|t|. This leaves one u to spare for the products of errors. It is 6 to 12 units in the last
-//! place of Σ|t|. For contact and normal forces all terms are positive, so that sum is the answer. A shear force may cancel
-//! to less than its terms.
+//! So the error is below 12 u Σ|t|, with one u to spare for products of errors. This bound is 6 to 12 units in the
+//! last place of Σ|t|. For contact and normal forces all terms are positive, so Σ|t| is the answer. The terms of a
+//! shear force may cancel, so that the answer is smaller than Σ|t|.
 //!
-//! If s is too small for the float, its error is half of the least subnormal η instead. Each product has that error too: at
-//! most L times each, 4Lη in all.
+//! If s or a product underflows, its error is at most η/2 instead, with the least subnormal η. A count of at most L
+//! layers multiplies each of these errors. Their sum is below 4Lη.
 
 use core::fmt::Debug;
 
@@ -45,7 +46,7 @@ pub trait Float: Algebra + RealEmbeddable + CorrectlyRounded {}
 
 impl<F: Algebra + RealEmbeddable + CorrectlyRounded> Float for F {}
 
-/// Checks both formats for a pile whose sin φ is a float.
+/// Checks `f32` and `f64` for a pile whose sin φ is a float.
 pub fn real_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::real_pile(u)?;
     let site = pile::site(u, &pile)?;
@@ -53,7 +54,7 @@ pub fn real_pile(u: &mut Unstructured<'_>) -> Checked {
     every_answer::<f32>(&pile, site)
 }
 
-/// Checks both formats for a pile whose sin φ is a rational.
+/// Checks `f32` and `f64` for a pile whose sin φ is a rational.
 pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
@@ -124,12 +125,12 @@ fn on_floor<F: Float>(
     bound.holds("the shear along y", &got.shear_y, &want.shear_y, &terms.y)
 }
 
-/// (N_α, N_β, N_γ).
+/// Returns (N_α, N_β, N_γ), the numbers of spheres above a site on its lines of contacts.
 fn counts(site: Site) -> [BigRational; 3] {
     [site.k - site.i - site.j, site.i, site.j].map(BigRational::from_i128)
 }
 
-/// Σ |c_m ê_m| for c_m ≥ 0, by component.
+/// Returns Σ |c_m ê_m| for c_m ≥ 0, by component.
 fn magnitudes(
     forces: &Forces<'_, BigRational>,
     coefficients: &[BigRational; 3],
@@ -160,7 +161,7 @@ impl Bound {
         }
     }
 
-    /// Tells whether `got` is within the bound of `want`. The magnitudes of its terms sum to `magnitude`.
+    /// Checks that `got` differs from `want` by at most the bound. `magnitude` is Σ|t| of the terms of `want`.
     fn holds<F: RealEmbeddable + Debug>(
         &self,
         what: &str,
@@ -172,7 +173,7 @@ impl Bound {
         let allowed = &self.relative * magnitude + &self.absolute;
         let holds = stored.is_some_and(|stored| (stored - want).abs() <= allowed);
         demand(holds, || {
-            format!("{what} is {got:?}, too far from {want}, of size {magnitude}")
+            format!("{what} is {got:?}, too far from {want}, with terms of {magnitude} in all")
         })
     }
 

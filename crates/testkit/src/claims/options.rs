@@ -1,4 +1,4 @@
-//! Parsers of the words in options for scenes and tables never panic, and they read printed values.
+//! The option parsers for scenes and tables never panic, and they read printed values back.
 
 use arbitrary::Unstructured;
 use cannonpile::Pile;
@@ -12,7 +12,7 @@ use super::parsers::{reads_back, round_trips};
 use super::{Checked, one_line};
 use crate::generators::{pile, text};
 
-/// Runs every parser on any text.
+/// Runs the parsers of layers and of sites on any text.
 pub fn any_text(u: &mut Unstructured<'_>) -> Checked {
     let text = text::any(u)?;
     match parse::layers(&text) {
@@ -30,7 +30,7 @@ fn site(text: &str, dimension: Dimension) -> Checked {
     let parse = |text: &str| parse::at(text, dimension);
     match parse(text) {
         Ok(value) => {
-            // Any site may be parsed for any pile. A later check finds out whether the pile has it.
+            // The parser does not know the pile. A later check rejects sites outside it.
             let _ = value.site(i128::MIN);
             let shown = written(&value, dimension);
             reads_back(parse, &shown.replace(',', " , "), &value)?;
@@ -40,13 +40,14 @@ fn site(text: &str, dimension: Dimension) -> Checked {
     }
 }
 
-/// Printed layers are read as the same number.
+/// Checks that a printed number of layers is read as the same number.
 pub fn layers(u: &mut Unstructured<'_>) -> Checked {
     let layers = pile::layers(u)?;
     reads_back(parse::layers, &layers, &layers)
 }
 
-/// Runs every parser of an option on any word. A parsed value is printed in a form that is read as the same value.
+/// Runs the parsers of states, columns, presets and loads on any word. A parsed value is printed, and read as the
+/// same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
     round_trips::<State>(&text)?;
@@ -67,7 +68,7 @@ fn load(text: &str, dimension: Dimension) -> Checked {
     }
 }
 
-/// `K,I,J` or `I,J`; in two dimensions without J.
+/// Returns the site as `K,I,J`, or as `I,J` without a layer. In two dimensions J is left out.
 fn written(at: &At, dimension: Dimension) -> String {
     let last = (dimension == Dimension::Three).then_some(at.j);
     let parts = [at.layer, Some(at.i), last];
