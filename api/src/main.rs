@@ -1,8 +1,8 @@
-//! Lists what is public in a crate, item by item, from the JSON that rustdoc writes of it, and counts the names.
+//! Lists the public items of a crate from rustdoc's JSON output, and counts their names.
 //!
-//! `cannonpile-api JSON LIST` writes the list to the file LIST and prints the number of names that a user can type: functions,
-//! methods, types, traits, modules, macros and re-exports. Constants, fields, variants, `impl` headers and the items of trait
-//! implementations are listed, but not counted.
+//! `cannonpile-api JSON LIST` writes the list to the file LIST, and prints the number of names that a user can type:
+//! functions, methods, types, traits, modules, macros and re-exports. Constants, fields, variants, `impl` headers and
+//! the items of trait implementations are listed, but not counted.
 
 use std::collections::HashSet;
 use std::env;
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (Some(json), Some(list)) = (arguments.next(), arguments.next()) else {
         return Err("usage: cannonpile-api JSON LIST".into());
     };
-    // What every type has says nothing of this one.
+    // Blanket and auto trait implementations are the same for every type, so the list omits them.
     let all = Builder::from_rustdoc_json(json)
         .omit_blanket_impls(true)
         .omit_auto_trait_impls(true);
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut lines, mut names) = (String::new(), 0);
     for item in all.items() {
         let line = item.to_string();
-        // Of what is derived the names of the traits.
+        // Of a derived implementation only the header is listed, which names the trait.
         if written.contains(&line) || line.starts_with("impl") {
             let is_of_trait = item.parent_id().is_some_and(|id| trait_impls.contains(&id));
             names += u32::from(is_name(item) && !is_of_trait);
@@ -51,7 +51,7 @@ fn is_name(item: &PublicItem) -> bool {
     let kinds = [
         "fn", "struct", "enum", "union", "type", "trait", "mod", "macro", "use",
     ];
-    // Attributes, `pub` and `const` come before the kind; fields, variants and `impl` headers have none.
+    // Attributes, `pub` and `const` come before the kind. Fields, variants and `impl` headers have no kind.
     let before = |token: &&Token| {
         matches!(
             token,

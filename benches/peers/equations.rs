@@ -1,13 +1,13 @@
-//! The equations of equilibrium of a pile: a sparse linear system.
+//! The equilibrium equations of a pile, as a sparse linear system.
 
 use num_traits::Float;
 
 use super::network::Network;
 
-/// The system A f = b with as many equations as unknowns, in mg.
+/// The system A f = b, with as many equations as unknowns. Forces are in mg.
 ///
-/// The unknowns are the magnitudes of the contact forces, three for each sphere above the floor. Equations 3n, 3n+1 and 3n+2
-/// state that the contact forces on sphere n and its weight sum to zero along x, y and z.
+/// The unknowns are the magnitudes of the contact forces, three for each sphere above the floor. Equations 3n, 3n+1
+/// and 3n+2 state that the contact forces on sphere n and its weight sum to zero along x, y and z.
 pub(crate) struct Equations<F> {
     pub(crate) matrix: Columns<F>,
     pub(crate) loads: Vec<F>,
@@ -34,7 +34,8 @@ impl<F: Float> Equations<F> {
         let contacts = network.below.iter().zip(&network.directions).enumerate();
         for (upper, (below, directions)) in contacts {
             for (&lower, direction) in below.iter().zip(directions) {
-                // A contact force acts on the lower sphere along the direction, and on the upper one against it.
+                // The direction is that from the upper sphere to the lower one. The contact force acts along the
+                // direction on the lower sphere, and against it on the upper one.
                 matrix.entries(upper, direction.map(|x| float(-x)));
                 if lower < spheres {
                     matrix.entries(lower, direction.map(float));
@@ -43,7 +44,7 @@ impl<F: Float> Equations<F> {
             }
         }
         let weights = &network.weights[..spheres];
-        // z points down, so the weight is along z.
+        // A f plus the weights is zero. z points down, so a weight is positive.
         let loads = weights.iter().flat_map(|&w| [0.0, 0.0, -w].map(float));
         Self {
             loads: loads.collect(),
@@ -63,7 +64,7 @@ impl<F: Float> Equations<F> {
 }
 
 impl<F: Float> Columns<F> {
-    /// Returns the three entries of a contact on a sphere, in the last column.
+    /// Appends the components of a contact force on a sphere to the last column, without zeros.
     fn entries(&mut self, sphere: usize, force: [F; 3]) {
         for (axis, value) in force.into_iter().enumerate() {
             if !value.is_zero() {
@@ -73,7 +74,7 @@ impl<F: Float> Columns<F> {
         }
     }
 
-    /// Returns the number of rows, which is also that of columns.
+    /// Returns the number of rows, which equals the number of columns.
     pub(crate) fn size(&self) -> usize {
         self.starts.len() - 1
     }

@@ -1,4 +1,5 @@
-//! All contact forces of a straight pile written into slices, compared with filling the slices with one value.
+//! Compares the time to write all contact forces of a straight pile into slices with the time to fill these slices with
+//! one value.
 
 use std::fmt::Debug;
 use std::hint::black_box;
@@ -46,7 +47,9 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     results.push(("fill_exact_i64_over_memset".into(), fill));
 }
 
-/// Returns a slice for each direction, with a nonzero value, so that the memory is already mapped.
+/// Returns the median ratio of the time of `filling` to that of [`memset`] on slices of the same length.
+///
+/// The slices contain `value` from the start. It is not zero, so that the memory is already mapped.
 fn over_memset<V: Copy + PartialEq + Debug + Send + Sync>(
     pile: &Pile,
     mut filling: impl FnMut([&mut [V]; 3]) -> f64,
@@ -77,14 +80,14 @@ fn over_memset<V: Copy + PartialEq + Debug + Send + Sync>(
     ratio
 }
 
-/// Fills slices with one value.
+/// Fills each slice with one value.
 pub(crate) fn memset<V: Copy>(slices: &mut [Vec<V>; 3], value: V) {
     for slice in slices {
         black_box(slice.as_mut_slice()).fill(black_box(value));
     }
 }
 
-/// Compares the forces of every thousandth sphere with single queries.
+/// Compares the forces of up to a thousand spheres, evenly spaced in row order, with single queries.
 pub(crate) fn check<V: PartialEq + Debug + Copy>(
     pile: &Pile,
     slices: &[Vec<V>; 3],

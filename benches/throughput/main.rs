@@ -1,10 +1,12 @@
-//! The throughput of forces, compared with filling the same memory, plain floats, plain rationals and a sparse solver.
+//! Compares the time to compute contact forces with that of filling the same memory, of plain floats, of plain
+//! rationals and of a sparse solver.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench throughput`
-//! prints, last, lines `ratio NAME VALUE`: medians of ratios of two times, measured alternately in one run. With `-- --smoke`
-//! it only asserts the results of small piles. Every result is compared with that of another method.
+//! ends its output with lines `ratio NAME VALUE`. Each value is the median of ratios of two times, measured
+//! alternately in one run. With `-- --smoke` the piles are small and each ratio is measured once, to test only the
+//! results. Every result is compared with that of another method.
 
-#[expect(dead_code, reason = "another bench uses the rest")]
+#[expect(dead_code, reason = "the other bench uses the rest")]
 #[path = "../peers/mod.rs"]
 mod peers;
 
@@ -18,14 +20,14 @@ mod time;
 /// The extent of the measurement.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
-    /// Assert the results only.
+    /// `true` for small piles, which only test the results.
     pub(crate) smoke: bool,
-    /// Measure this number of pairs of times.
+    /// The number of pairs of times for each ratio.
     pub(crate) pairs: usize,
 }
 
 impl Extent {
-    /// Returns the size of the pile to measure, or the small one for `--smoke`.
+    /// Returns `full`, or `smoke` with `--smoke`.
     pub(crate) fn size(self, full: i128, smoke: i128) -> i128 {
         if self.smoke { smoke } else { full }
     }

@@ -1,4 +1,4 @@
-"""Exact results: fractions equal to those of the recursion, and correctly rounded floats."""
+"""Exact results: fractions equal to those of an independent recursion (recursion.py), and correctly rounded floats."""
 
 from decimal import Decimal
 from fractions import Fraction
@@ -70,7 +70,7 @@ def test_isosceles_bases_and_discs():
     assert all(pile.force(k, i, direction=direction) == force for (k, i, _, direction), force in closed.items())
 
 
-# The recursion matches the closed form of the paper, and an error in it is detected.
+# The recursion matches the closed form of the paper. With a wrong stacking, the comparison fails.
 def test_recursion_matches_closed_form():
     straight = recursion({"layers": 6})
     assert straight.forces == isosceles(6, Fraction(1, 2))
@@ -85,7 +85,7 @@ def test_floats_are_correctly_rounded(pile):
 
 
 def test_si_forces_are_correctly_rounded():
-    # f0 = mg/(3 cos theta) with cos^2 theta = 1 - (a/R)^2/3. The squares are rational, which decides the rounding.
+    # f0 = mg/(3 cos theta) with cos^2 theta = 1 - (a/R)^2/3. The squares are rational, so the test of the rounding is exact.
     pile = Pile(5, "hcp", spacing="6/5", gravity="9.81", mass="0.013")
     unit_squared = (Fraction("9.81") * Fraction("0.013") / 3) ** 2 / (1 - Fraction(36, 25) / 3)
     for force, exact in zip(pile.forces().tolist(), fractions(pile.multiples()), strict=True):
@@ -123,7 +123,7 @@ def test_layers_of_numpy(layers):
 
 
 def test_decimals_are_exact():
-    # None of these is a float.
+    # None of these values is exactly representable as a float.
     assert Pile(4, mass=Decimal("0.1")).mass == Fraction(1, 10)
     assert Pile(4, mass="0.1").mass == Fraction(1, 10)
     long = "1." + "0" * 60 + "1"
@@ -158,7 +158,7 @@ def test_floats_are_rejected_as_loads_and_elsewhere():
         cannonpile.mean(4, fault_probability=0.5)
 
 
-# Booleans are not numbers here.
+# Booleans are rejected, too, although `bool` is a subclass of `int`.
 @pytest.mark.parametrize("number", [None, True, [], "seven", "", "1/0", 1j, Decimal("nan"), Decimal("inf")], ids=repr)
 def test_invalid_numbers_are_rejected(number):
     with pytest.raises((TypeError, ValueError), match="mass"):
@@ -166,7 +166,7 @@ def test_invalid_numbers_are_rejected(number):
 
 
 def test_multiples_never_overflow():
-    # Denominators are 3^d, so numerators exceed int64 above 40 sign changes.
+    # The denominator is 3^d for d sign changes. In HCP the numerators exceed int64 from d = 37 on.
     narrow = Pile(12, "hcp").multiples()
     assert narrow.numerators.dtype == np.int64
     assert 3**10 % narrow.denominator == 0
@@ -179,7 +179,7 @@ def test_multiples_never_overflow():
 
 
 def test_multiples_near_int64_limit():
-    # Test both sides of the limit.
+    # The heights lie on both sides of the limit.
     kinds = set()
     for changes in range(30, 44):
         multiples = Pile(changes + 2, "hcp").multiples()
@@ -197,7 +197,7 @@ def test_loads_with_large_numbers():
 
 
 def test_a_pile_of_any_height():
-    # Nothing is stored, so a contact in 10^36 layers is exact.
+    # Single forces have closed forms, so they need no memory and are exact in a pile of 10^36 layers.
     pile = Pile(10**36)
     k = 10**35
     assert pile.force(k, 3, 4, "gamma") == 5
@@ -219,7 +219,7 @@ def test_bounds_enclose_the_elastic_state():
 
 
 def test_elastic_state_of_straight_piles_is_the_isostatic_one():
-    # By a theorem the horizontal contacts of straight piles open.
+    # By a theorem, the horizontal contacts of straight piles carry no force in the elastic state.
     pile = Pile(6, spacing=1)
     assert (pile.elastic().multiples().numerators == pile.multiples().numerators).all()
     assert pile.elastic() != pile

@@ -1,4 +1,4 @@
-//! Fixed-width rationals agree with big ones or report an overflow.
+//! Fixed-width rationals agree with arbitrary-precision ones or report an overflow.
 
 use core::num::NonZeroI64;
 
@@ -14,7 +14,7 @@ use num_rational::BigRational;
 /// An answer as a list of values.
 type Answer<T> = Result<Vec<T>, Error>;
 
-/// All answers about a sphere.
+/// Returns the answers to all queries about a sphere.
 fn answers<T: Algebra>(forces: &Forces<T>, site: Site) -> Vec<Answer<T>> {
     let mut answers = vec![
         forces.increment_sum().map(|w| vec![w]),
@@ -35,7 +35,7 @@ fn answers<T: Algebra>(forces: &Forces<T>, site: Site) -> Vec<Answer<T>> {
     answers
 }
 
-/// The numbers of answers that fit and that overflow.
+/// The number of answers that fit a width, and of those that overflow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Tally {
     held: u32,
@@ -77,14 +77,14 @@ fn compare(pile: &Pile, site: Site, tallies: &mut [Tally; 5]) {
     bits128.count::<i128>(pile, site, &exact);
 }
 
-/// Some answers fit each width, and some do not.
+/// Asserts that in each width some answers fit, and some overflow.
 fn assert_both(tallies: [Tally; 5]) {
     for Tally { held, overflowed } in tallies {
         assert!(held > 0 && overflowed > 0, "{tallies:?}");
     }
 }
 
-/// Values of sin φ with long denominators, so that each width overflows within the first layers.
+/// Returns values of sin φ with such long denominators that each width overflows within the first layers.
 fn long_sines() -> Vec<BigRational> {
     let denominators = [5, 13, 181, 46_337, 3_037_000_493];
     let mut sines: Vec<_> = denominators.map(|d| ratio(2, d)).into();
@@ -126,14 +126,14 @@ fn every_sphere_of_regular_piles() {
         }
     }
     let [_, wider @ ..] = tallies;
-    // A type that always overflows would be useless.
+    // No type wider than 8 bits overflows in these piles of up to 14 layers.
     assert!(
         wider.iter().all(|tally| tally.overflowed == 0),
         "{tallies:?}"
     );
 }
 
-/// Every base sphere of the disc piles, up to the height at which the counts overflow 8 bits.
+/// Tests every base sphere of piles of discs, up to heights at which the counts overflow 8 bits.
 #[test]
 fn eight_bits_near_their_limit() {
     let mut tally = Tally::default();
@@ -151,7 +151,7 @@ fn eight_bits_near_their_limit() {
     assert!(tally.held > 0 && tally.overflowed > 0, "{tally:?}");
 }
 
-/// Heights at which the counts overflow a width: corners, edges and the middle.
+/// Tests spheres at corners, on edges and in the middle, in piles whose heights are near the limits of a width.
 #[test]
 fn spheres_of_tall_piles() {
     let mut tallies = [Tally::default(); 5];
@@ -182,11 +182,11 @@ fn spheres_of_tall_piles() {
             .all(|tally| tally.held > 0 && tally.overflowed > 0),
         "{tallies:?}"
     );
-    // 128 bits suffice for the paper's pile.
+    // No height is chosen to overflow 128 bits.
     assert!(bits128.held > 0, "{tallies:?}");
 }
 
-/// The least integer of a width is not part of it.
+/// The least integer of each width, such as −128, is not a valid numerator or denominator.
 #[test]
 fn least_integers_are_faults() {
     fn faults<I: FixedInteger>() {
@@ -206,7 +206,7 @@ fn least_integers_are_faults() {
             !FixedRational::<I>::from_i128(i128::MIN).is_defined(),
             "{name}"
         );
-        // Its neighbour and the greatest value are part of it.
+        // The greatest value and its negative are valid.
         let greatest = FixedRational::new(I::max_value(), one);
         assert!((-greatest).is_defined() && greatest.is_defined(), "{name}");
         // A fault remains a fault under every operation.
@@ -259,7 +259,7 @@ fn queries_at_the_ends_of_the_integers() {
             }
         }
     }
-    // Quantities that are independent of the site are still available.
+    // No site is in a pile, so a query returns the error for this, or its answer does not depend on the site.
     assert!(
         tallies.iter().all(|tally| tally.overflowed == 0),
         "{tallies:?}"

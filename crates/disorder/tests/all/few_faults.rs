@@ -1,4 +1,4 @@
-//! Stackings with few faults: each force is a sum over the directions of the runs, in closed form.
+//! Closed form of the response of a stacking with few faults: a sum over all choices of one direction for each run.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +11,8 @@ use cannonpile_testkit::oracles::one_by_one::Place;
 
 type Loads = BTreeMap<Place, BigRational>;
 
-/// Returns the place after runs of these lengths along these directions, with alternating signs. The directions α, β, γ
-/// are 0, 1, 2.
+/// Returns the place below runs of these lengths, with alternating signs, along one direction in each run. The labels
+/// 0, 1 and 2 are the directions α, β and γ.
 fn place(runs: &[i64], labels: &[usize]) -> Place {
     let mut steps = [0; 3];
     let signs = [1, -1].into_iter().cycle();
@@ -23,7 +23,8 @@ fn place(runs: &[i64], labels: &[usize]) -> Place {
     [b - a, c - a]
 }
 
-/// Returns ⅓ Π over the sign changes: −⅓ if the force keeps its direction, and ⅔ if not.
+/// Returns ⅓ times a product over the sign changes. The factor is −⅓ if the direction stays the same at the sign
+/// change, and ⅔ if not.
 fn amplitude(labels: &[usize]) -> BigRational {
     let factor = |pair: &[usize]| {
         if pair[0] == pair[1] {
@@ -49,7 +50,7 @@ fn labels(runs: usize) -> Vec<Vec<usize>> {
     all
 }
 
-/// Returns the response below runs of these lengths.
+/// Returns the response to a unit load below runs of these lengths.
 fn response(runs: &[i64]) -> Loads {
     let mut loads = Loads::new();
     for labels in labels(runs.len()) {
@@ -72,7 +73,7 @@ fn compositions(n: i64, runs: usize) -> Vec<Vec<i64>> {
     first.flat_map(cut).collect()
 }
 
-/// Returns the response by number of faults, from the closed form only.
+/// Returns the sum of the responses of all stackings of n steps with this number of faults, by the closed form.
 fn closed(n: i64, faults: usize) -> Loads {
     let mut sums = Loads::new();
     for runs in compositions(n, faults + 1) {
@@ -84,6 +85,7 @@ fn closed(n: i64, faults: usize) -> Loads {
     sums
 }
 
+/// Returns the same sum from the library.
 fn of_library(sums: &Sums, of: usize) -> Loads {
     let rows = sums.iter().filter(|((_, faults), _)| *faults == of);
     let loads = rows.map(|((place, _), (_, floor))| (*place, floor[0].clone()));
@@ -120,21 +122,21 @@ fn spots(loads: &Loads) -> BTreeMap<BigRational, usize> {
     counts
 }
 
-/// The response to one fault is found from the sum over all stackings with one fault. The other terms are at other
-/// places, or are subtracted.
+/// With one fault the response is nonzero at nine places. With the fault in the middle, three of them coincide below
+/// the load.
 #[test]
 fn one_fault_has_9_or_7_spots() {
     let spots_of = |runs: &[i64]| spots(&response(runs));
     let nine = BTreeMap::from([(ratio(2, 9), 6), (ratio(-1, 9), 3)]);
     assert_eq!(spots_of(&[2, 3]), nine);
     assert_eq!(spots_of(&[5, 1]), nine);
-    // At the place below the load, for a fault in the middle.
+    // With the fault in the middle, the three terms −1/9 are at the place below the load.
     let seven = BTreeMap::from([(ratio(2, 9), 6), (ratio(-1, 3), 1)]);
     for half in 1..=4 {
         assert_eq!(spots_of(&[half, half]), seven);
         assert_eq!(response(&[half, half])[&[0, 0]], ratio(-1, 3));
     }
-    // With two steps there is only one such stacking, so the library returns its response.
+    // Only one stacking of two steps has one fault, so the sum of the library is its response.
     let piles = Piles::response(2, FirstSign::Plus).piles().unwrap();
     assert_eq!(
         of_library(&by_faults(&piles).unwrap(), 1),
@@ -159,7 +161,8 @@ fn two_faults_have_27_or_21_or_18_spots() {
     assert_eq!(ends_alike, BTreeMap::from(expected));
 }
 
-/// The slope at q = 0 is the sum over one fault, minus n − 1 times FCC.
+/// The derivative of the mean response at q = 0 is the sum of the responses with one fault, minus n − 1 times that of
+/// FCC.
 #[test]
 fn slope_at_fcc() {
     for n in 1..=9 {
@@ -171,7 +174,7 @@ fn slope_at_fcc() {
             |row| {
                 let q = cannonpile::scalar::Symbol("q");
                 let at = |x: BigRational| row.normal.evaluate(&[(q, x)]).unwrap();
-                // The limit is exact: it is a difference quotient of polynomials for decreasing steps.
+                // The derivative is a multiple of 1/9. So the difference quotient, rounded to ninths, is exact.
                 let step = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(40));
                 let quotient = (at(step.clone()) - at(ratio(0, 1))) / &step;
                 (quotient * ratio(9, 1)).round() / ratio(9, 1)
@@ -186,7 +189,7 @@ fn slope_at_fcc() {
     }
 }
 
-/// A wrong factor, place or sign of a run changes the response.
+/// The comparison detects a wrong load, a wrong number of faults and a wrong first sign.
 #[test]
 fn planted_faults_are_detected() {
     let piles = Piles::response(4, FirstSign::Plus).piles().unwrap();

@@ -1,4 +1,4 @@
-//! Every figure of every pile is well formed, with all glyphs on the page and all numbers finite.
+//! Every figure of each test pile is a well-formed document, with all glyphs on the page and all numbers finite.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::{Packing, Pile};
@@ -29,7 +29,7 @@ fn figures(pile: &Pile, subject: &Subject<'_>) -> Vec<(&'static str, Figure)> {
     figures
 }
 
-/// Returns the first defect of a document.
+/// Returns the first defect of an SVG document, if any.
 fn defect(svg: &str) -> Option<String> {
     let document = match Document::parse(svg) {
         Ok(document) => document,
@@ -44,7 +44,7 @@ fn defect(svg: &str) -> Option<String> {
     let (top, width, height) = (page[1], page[2], page[3]);
     let [shown_width, shown_height] = ["width", "height"].map(|name| number(&root, name));
     if (shown_width - width).abs() + (shown_height - height).abs() > 0.0 {
-        return Some("the page is not its view".into());
+        return Some("width and height differ from the viewBox".into());
     }
     let outside =
         |x: f64, y: f64| !(0.0..=width).contains(&x) || !(top..=top + height).contains(&y);
@@ -69,7 +69,7 @@ fn defect(svg: &str) -> Option<String> {
                 vec![[x, y], [x + w, y + h]]
             }
             "text" => {
-                // The ends of a text in a usual font, which is narrower than the library assumes.
+                // The ends of the text in a typical font. The library leaves room for a wider font.
                 let [x, y, size] = ["x", "y", "font-size"].map(|name| number(&node, name));
                 let letters =
                     f64::from(u32::try_from(node.text().unwrap().chars().count()).unwrap());
@@ -96,7 +96,7 @@ fn defect(svg: &str) -> Option<String> {
         }
     }
     let titles = root.children().filter(|node| node.has_tag_name("title"));
-    (titles.count() != 1).then(|| "no title".into())
+    (titles.count() != 1).then(|| "not exactly one title".into())
 }
 
 #[test]

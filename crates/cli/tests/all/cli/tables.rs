@@ -1,4 +1,5 @@
-//! The command `verify` on tables of other codes: columns, presets, positions, refinement studies, records, errors.
+//! Tests of the command `verify` on tables of other codes: columns, presets, positions, refinement studies, records,
+//! errors.
 
 use std::fs;
 
@@ -23,7 +24,7 @@ impl Exported {
         self.0.path().join(name).to_str().expect("text").to_owned()
     }
 
-    /// Writes another table, with a line for each row of contacts.csv.
+    /// Writes a table with a header and one line for each row of contacts.csv. Returns its path.
     fn table(&self, name: &str, header: &str, line: impl Fn(&[&str]) -> String) -> String {
         let contacts = fs::read_to_string(self.path("pile/contacts.csv")).expect("a table");
         let rows = contacts.lines().skip(1).map(|row| {
@@ -92,7 +93,7 @@ fn record_contains_scene_and_hash() {
     assert_eq!(source["file"], contacts);
     let bytes = fs::read(&contacts).expect("a file");
     assert_eq!(source["bytes"], bytes.len());
-    // The digest is that of the program sha256sum.
+    // The program `sha256sum` computed the expected digest.
     let header = exported.path("header.csv");
     fs::write(&header, "id1,id2,force\n").expect("written");
     let json = cannonpile(&format!("verify {header} {SCENE} --format json")).stdout;
@@ -139,7 +140,7 @@ fn refinement_has_an_order_and_a_figure() {
     );
     let svg = stdout(&format!("plot refinement {json}"));
     assert!(svg.starts_with("<svg"));
-    // Constant errors have no order, so the exit status is 1.
+    // Errors that do not depend on the time step have no observed order, so the exit status is 1.
     let same = exported.path("1e4");
     let flat = ["1e-3", "1e-4", "1e-5"].map(|step| format!("{step}={same}"));
     let flat = flat.join(",");
