@@ -3,9 +3,9 @@
 Usage: exact_lp.py FOLDER BOUNDS, with the folder of `cannonpile export --to csv --spacing 1` and the csv file of
 `cannonpile bounds`; exact_lp.py FOLDER, for an unstable pile.
 
-At a = R all positions are integers in units of a third of the two lattice vectors and of a layer, and all contacts have the
-same length. So the equilibrium of a sphere has integer coefficients. With mu, the force of a contact divided by its length
-in these units, it is sum mu da = sum mu db = 0 and sum mu dk = w.
+At a = R all positions have integer coordinates (a, b, k) in thirds of the two lattice vectors and in layers, and all contacts
+have the same length. A contact force has components mu da, mu db and mu dk, with the integer differences of the coordinates
+of its spheres. So the equations of equilibrium have integer coefficients: sum mu da = sum mu db = 0 and sum mu dk = w.
 """
 
 import math
@@ -26,12 +26,12 @@ def integers(place):
     numbers = (3 * (y - b) / 2, 3 * b, z / math.sqrt(8 / 3))
     whole = [round(number) for number in numbers]
     if any(abs(number - one) > 1e-6 for number, one in zip(numbers, whole)):
-        raise SystemExit(f"FAILED: {place} is no place of the lattice")
+        raise SystemExit(f"FAILED: {place} is not a lattice position")
     return whole
 
 
 class Program:
-    """The linear program of all forces mu >= 0 with the free spheres in equilibrium."""
+    """The linear program whose feasible set is all contact forces mu >= 0 that balance the free spheres."""
 
     def __init__(self, piled, folder):
         self.piled, self.touching, self.folder = piled, pairs(piled), folder
@@ -66,7 +66,7 @@ class Program:
             return None
         value = re.search(r"Value = (\S+)", said)
         if not (status and status[1].upper() == "OPTIMAL" and value):
-            raise SystemExit(f"FAILED: esolver finds neither forces nor that there are none: {said[:200]}{run.stderr[-500:]}")
+            raise SystemExit(f"FAILED: esolver finds neither an optimum nor infeasibility: {said[:200]}{run.stderr[-500:]}")
         return Fraction(value[1])
 
 
@@ -76,18 +76,18 @@ def main(folder, file=None):
         program = Program(piled, scratch)
         if file is None:
             if program.extreme("Minimize", next(iter(program.bearing))) is not None:
-                raise SystemExit("FAILED: forces balance a pile that cannot stand")
+                raise SystemExit("FAILED: an unstable pile has an equilibrium")
             print(f"{len(piled)} spheres have no equilibrium")
             return
         claimed = bounds(file)
         if len(claimed) != len(program.bearing):
-            raise SystemExit(f"FAILED: {len(claimed)} bounds, of {len(program.bearing)} bottom spheres")
+            raise SystemExit(f"FAILED: {len(claimed)} bounds for {len(program.bearing)} bottom spheres")
         for number in program.bearing:
             least, greatest, attained = claimed[piled[number].site]
             weight = piled[number].weight
             exact = [weight + program.extreme(sense, number) for sense in ("Minimize", "Maximize")]
             if exact != [least, greatest] and (attained or not least <= exact[0] <= exact[1] <= greatest):
-                raise SystemExit(f"FAILED: {piled[number].site} bears {exact[0]} to {exact[1]}, not {least} to {greatest}")
+                raise SystemExit(f"FAILED: {piled[number].site} has bounds {exact[0]} to {exact[1]}, not {least} to {greatest}")
     print(f"{2 * len(claimed)} bounds agree with QSopt_ex: {len(piled)} spheres, {len(program.touching)} contacts")
 
 

@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
 """Runs the tests on every mutant that cargo-mutants lists, in a single build.
 
-    .ci/mutants [--room ROOM]… [--changed COMMIT] [--sample N] [--shard I/N] [--slowest S] [--most S] [--seconds S] [--jobs N] DIR
+    .ci/mutants [--room ROOM]… [--changed COMMIT] [--sample N] [--shard I/N] [--slowest S] [--most S] [--seconds S] [--least P]
+        [--jobs N] DIR
 
-cargo-mutants builds the tests again for each mutant, which takes half a minute or more, and there are thousands of mutants. This
-script builds all of them at once. Each mutated expression calls `mutants::active(NUMBER)`, which is true for the mutant that the
-environment names. A first run of each test records the mutants that it reaches. Then each mutant runs with the tests that reach
-it, the fastest first, until one fails. A mutant that does not compile is left out ("unviable"), as cargo-mutants does.
+cargo-mutants builds the tests again for each mutant. A build takes half a minute or more, and there are thousands of mutants.
+This script builds all mutants at once. Each mutated expression calls `mutants::active(NUMBER)`, which returns whether the
+environment variable MUTANT is NUMBER. A first run of each test records the mutants that it reaches. Then the script runs the
+tests that reach a mutant, cheap and promising ones first, until one fails. A mutant that does not compile is left out
+("unviable"), as in cargo-mutants.
 
-DIR contains the instrumented copy, its build and all results. A second run continues the first one. With a larger --most it runs
-unlisted survivors with more tests. `.ci/mutants.survivors` lists the mutants that no test kills, a line each with the reason.
-The script fails if an unlisted mutant survives, or if a listed one is killed.
+DIR contains the instrumented copy, its build and all results. A second run continues the first one. With a larger --most, a
+second run also tests the unlisted survivors further, with more tests. `.ci/mutants.survivors` lists the mutants that no test
+kills, one on each line with the reason. The script fails if an unlisted mutant survives, or if a listed one is killed. With
+--least it fails only if too few mutants have the expected result.
 
-The examples in the documentation are not among the tests.
+Examples in the documentation (doctests) are not run.
 
 Needs cargo-mutants (for its list of faults), and the Python packages tree-sitter and tree-sitter-rust; `.ci/mutants` installs them.
 """
@@ -38,25 +41,25 @@ import tree_sitter_rust
 
 HERE = Path(__file__).parent.parent
 SURVIVORS = HERE / ".ci" / "mutants.survivors"
-# Modules and files that read, write, draw or generate test inputs. They compute no results, so they are left out.
+# Crates, modules and files that only read, write, draw, or generate test inputs. They compute no results, so they are left out.
 TOOLS = {"arbitrary", "cli", "data", "dem", "figure", "testing"}
 RECORDS = {
     "crates/disorder/src/ensemble/record.rs",
     "crates/horizontal/src/certificate/file.rs",
     "crates/horizontal/src/certificate/record.rs",
 }
-# The unpublished crate for tests is left out too.
+# The unpublished crate with test tools is left out, too.
 TESTKIT = "cannonpile-testkit"
 # The sources of all crates, for git.
 SOURCES = ["src", "crates/*/src/*"]
-# The results of a mutant that no test kills.
+# The outcomes of a mutant that no test kills.
 UNNOTICED = ["survives", "survives so far", "not reached"]
 PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
 
-# The module that mutated code calls. Constant evaluation has no mutants, so a constant with mutants becomes a function for the
-# readers in its file or block. Other files, macros, patterns and paths read the original constant.
+# The module that mutated code calls. No mutant is active in constant evaluation. So a constant with mutants also becomes a
+# function, which expressions in its file or block call. Other files, macros, patterns and paths use the original constant.
 ASKED = """
-//! Which fault is planted: none, or the one that the environment names.
+//! The active mutant: the one that the environment variable MUTANT names, or none.
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
 use std::io::Write;
 
@@ -66,7 +69,7 @@ const NONE: u32 = u32::MAX - 2;
 static PLANTED: AtomicU32 = AtomicU32::new(UNKNOWN);
 static SEEN: [AtomicBool; COUNT] = [const { AtomicBool::new(false) }; COUNT];
 
-/// Returns whether this is the fault.
+/// Returns whether this mutant is active.
 #[inline]
 pub const fn active(fault: u32) -> bool {
     core::intrinsics::const_eval_select((fault,), never, now)
@@ -97,7 +100,7 @@ fn first(fault: u32, planted: u32) -> bool {
     false
 }
 
-/// What a function returns that does not name its type.
+/// The return value of a function with the return type `impl Iterator`: from a mutant, or from the original body.
 pub enum Either<A, B> {
     Planted(A),
     Own(B),
@@ -121,12 +124,12 @@ impl<A: Iterator<Item = B::Item>, B: Iterator> Iterator for Either<A, B> {
 
 
 def room(file):
-    """Returns the crate of a file, or its module of the core."""
+    """Returns the name of the crate that contains a file, or of the module if the file is in the main crate."""
     return Path(file).parts[1].removesuffix(".rs")
 
 
 def path_to_questions(file):
-    """Returns the path of the module `mutants`: it is in `exact-surd`, and the core re-exports it for the other crates."""
+    """Returns the crate in the path of the module `mutants`, which is in `exact-surd` and re-exported by `cannonpile`."""
     return "crate" if file.startswith(("src/", "crates/surd/")) else "cannonpile"
 
 
@@ -145,7 +148,7 @@ class Fault:
         line = lines[start["line"] - 1]
         self.at = len("\n".join(lines[: start["line"] - 1]).encode()) + (start["line"] > 1)
         self.at += len(line[: start["column"] - 1].encode())
-        # The key has no line numbers, because they change.
+        # The key contains no line number, because unrelated edits would change it.
         self.key = f"{self.file}: {self.words}: {line.strip()}"
 
 
@@ -176,13 +179,13 @@ class Rewriter:
                 self.note_constant(node)
 
     def note_constant(self, node):
-        """Records the constant that contains an expression, unless it belongs to a type or to a module inside the file."""
+        """Records the constant that contains an expression, unless the constant is in an `impl`, a trait or an inline module."""
         item = enclosing_node(node, {"const_item"})
         if item is not None and item.parent.type in {"source_file", "block"}:
             self.constants[item.id] = (item.child_by_field_name("name").text, item, item.parent)
 
     def constant_read(self, node):
-        """Returns the function for the constant with mutants that an identifier names, if any."""
+        """Returns a call of the function that replaces a constant, if an identifier names a constant with mutants."""
         for name, item, scope in self.constants.values():
             if node.text == name and scope.start_byte <= node.start_byte < scope.end_byte and enclosing_node(
                 node, {"match_pattern", "use_declaration", "token_tree", "scoped_identifier", "shorthand_field_initializer"}
@@ -236,7 +239,7 @@ class Rewriter:
         return "".join(parts)
 
     def as_function(self, item):
-        """Rewrites a constant with its mutants as a function."""
+        """Returns a function with the value of a constant and its mutants."""
         name, kind, value = (item.child_by_field_name(field) for field in ("name", "type", "value"))
         return f" const fn planted_{name.text.decode()}() -> {self.plain(kind)} {{ {self.text(value)} }}"
 
@@ -244,7 +247,7 @@ class Rewriter:
         return f"{self.path}::mutants::active({fault.number})"
 
     def choice(self, faults, original, alternative):
-        """Returns if … else if … else, with marks around each alternative, which attribute compiler errors to it."""
+        """Returns a chain of `if` and `else`. Marks around each alternative show which mutant causes a compiler error."""
         text = ""
         for fault in faults:
             text += f"if {self.active(fault)} {{/*[{fault.number}*/{alternative(fault)}/*]*/}} else "
@@ -305,7 +308,7 @@ class Rewriter:
         return f"(match {scrutinee} {{ (mutant_l, mutant_r) => {alternatives} }})"
 
     def unnamed(self, body, faults):
-        """Returns a body whose type has no name."""
+        """Returns the mutated body of a function with the return type `impl Iterator`."""
         planted = f"{self.path}::mutants::Either::Planted"
         dynamic = "::std::boxed::Box<dyn ::core::iter::Iterator<Item = _>>"
         text = ""
@@ -388,7 +391,7 @@ class Copy:
         )
 
     def blamed(self, error):
-        """Returns the mutants whose text contains an error: those of one alternative, or of one expression."""
+        """Returns the mutants that can cause a compiler error: those of the alternative around it, or else of the expression."""
         found = set()
         for span in error["spans"]:
             if not span["is_primary"]:
@@ -405,7 +408,7 @@ class Copy:
         return found
 
     def arms(self, text, at):
-        """Returns the mutants that remove a required arm of a match."""
+        """Returns the mutants that delete an arm of the match expression around a position."""
         node = PARSER.parse(text).root_node.descendant_for_byte_range(at, at)
         while node.type != "match_expression":
             node = node.parent
@@ -442,7 +445,7 @@ class Copy:
         if said.returncode:
             print(said.stderr[-4000:])
             raise SystemExit("the tests do not build")
-        # Each binary runs in the folder of its package, as with cargo. Examples have no list of tests.
+        # Each binary runs in the folder of its package, as with `cargo test`. Binaries of examples contain no tests.
         return [
             (line["executable"], str(Path(line["manifest_path"]).parent))
             for line in map(json.loads, said.stdout.splitlines())
@@ -454,7 +457,7 @@ class Copy:
 
 
 def enclosing(text, at, opening, closing):
-    """Returns the numbers of the innermost pair of marks around a position."""
+    """Returns the numbers of the mutants in the innermost pair of marks around a position."""
     depth = 0
     pattern = rb"/\*(?:" + re.escape(opening) + rb"([\d,]+)|" + re.escape(closing) + rb")\*/"
     for mark in reversed(list(re.finditer(pattern, text[:at]))):
@@ -468,7 +471,7 @@ def enclosing(text, at, opening, closing):
 
 
 def limits():
-    """Limits the memory, because a mutant may allocate without bound."""
+    """Limits the memory, because a mutant may allocate without bound, and starts a session, so that `killpg` ends all of it."""
     resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     os.setsid()
@@ -481,7 +484,7 @@ class Tests:
         self.copy = copy
 
     def run(self, binary, names, seconds, **environment):
-        """Returns whether tests of a binary pass, one after the other, or `None` after a timeout."""
+        """Runs tests of a binary, one after the other. Returns whether all pass, or `None` after a timeout."""
         executable, folder = binary
         own = {"CARGO_MANIFEST_DIR": folder, "PROPTEST_FAILURE_PERSISTENCE": "off"}
         process = subprocess.Popen(
@@ -505,7 +508,7 @@ class Tests:
             process.wait()
 
     def record(self, binaries, jobs, slowest):
-        """Runs each test alone, and leaves out slow ones."""
+        """Runs each test alone for at most `slowest` seconds. Returns its time and the mutants that it reaches."""
         tests = []
         for binary in binaries:
             listing = [binary[0], "--list", "--format", "terse"]
@@ -543,7 +546,7 @@ class Attack:
         self.lock = threading.Lock()
 
     def order(self, fault):
-        """Orders the tests: those that killed mutants of the same file, then fast ones that reach few mutants."""
+        """Returns the tests that reach a mutant, in order of cost. Kills in the same file lower the cost."""
         with self.lock:
             kills = dict(self.kills[fault.file])
 
@@ -576,12 +579,12 @@ class Attack:
                 return {"outcome": "survives so far", "seconds": time.monotonic() - began, "left": len(order) - at + len(chunk)}
             spent += expected
             if not self.passes(binary, chunk, fault):
-                # A second run, alone, rules out an unrelated failure.
+                # Each test of the group runs again on its own, which finds the killer and rules out an unrelated failure.
                 by = next((index for index in chunk if not self.passes(binary, [index], fault)), None)
                 if by is not None:
                     with self.lock:
                         self.kills[fault.file][by] += 1
-                    return {"outcome": "noticed", "seconds": time.monotonic() - began, "by": self.recorded[by]["name"]}
+                    return {"outcome": "killed", "seconds": time.monotonic() - began, "by": self.recorded[by]["name"]}
             size *= 2
         return {"outcome": "survives", "seconds": time.monotonic() - began, "tests": len(order)}
 
@@ -601,7 +604,7 @@ def listed(folder):
             texts[file] = (HERE / file).read_text()
         fault = Fault(number, one, texts[file])
         times[fault.key] += 1
-        # A further mutant with the same key, in the same line or in an equal one.
+        # Mutants on the same line, or on lines with the same text, may have the same key. From the second on they get a number.
         if times[fault.key] > 1:
             fault.key += f" #{times[fault.key]}"
         faults.append(fault)
@@ -609,7 +612,7 @@ def listed(folder):
 
 
 def changed_lines(commit):
-    """Returns the source lines that differ from a commit, as (file, line). Moved files do not differ."""
+    """Returns the source lines that differ from a commit, as (file, line). Lines of a renamed file differ only if edited."""
     diff = ["git", "diff", "-U0", "--find-renames=40%", "-l0", commit, "--", *SOURCES]
     said = subprocess.run(diff, cwd=HERE, check=True, capture_output=True, text=True).stdout
     lines, file = set(), None
@@ -625,15 +628,15 @@ def changed_lines(commit):
 
 def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, metavar="DIR", help="keeps the copy, its build and the results")
-    parser.add_argument("--room", action="append", help="of these crates beside the core, or rooms of the core (all but the tools)")
-    parser.add_argument("--changed", metavar="COMMIT", help="in lines that differ from it")
-    parser.add_argument("--sample", type=int, metavar="N", help="so many, drawn by chance, always the same")
-    parser.add_argument("--shard", default="0/1", metavar="I/N", help="each N-th, from the I-th on")
-    parser.add_argument("--slowest", type=float, default=600, metavar="S", help="leaves out tests that take longer")
-    parser.add_argument("--seconds", type=float, default=1e9, metavar="S", help="begins no other after so long")
-    parser.add_argument("--most", type=float, default=1e9, metavar="S", help="seconds of tests for one fault")
-    parser.add_argument("--least", type=float, metavar="P", help="fails only if fewer per cent are noticed or listed")
+    parser.add_argument("folder", type=Path, metavar="DIR", help="the folder of the instrumented copy, its build and the results")
+    parser.add_argument("--room", action="append", help="only mutants of this crate, or module of the main crate")
+    parser.add_argument("--changed", metavar="COMMIT", help="test only mutants in lines that differ from this commit")
+    parser.add_argument("--sample", type=int, metavar="N", help="test only N mutants, a random sample with a fixed seed")
+    parser.add_argument("--shard", default="0/1", metavar="I/N", help="test only every N-th mutant, from number I on")
+    parser.add_argument("--slowest", type=float, default=600, metavar="S", help="leave out tests that take more than S seconds")
+    parser.add_argument("--seconds", type=float, default=1e9, metavar="S", help="start no further mutant after S seconds")
+    parser.add_argument("--most", type=float, default=1e9, metavar="S", help="run tests for at most about S seconds per mutant")
+    parser.add_argument("--least", type=float, metavar="P", help="fail only if less than P %% are killed, or survive as listed")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     return parser.parse_args()
 
@@ -660,9 +663,9 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     state = folder / "state.json"
     planted = listed(folder)
-    # Mutants of changed lines.
+    # Every survivor on the list must still be a mutant.
     if stale := sorted(survivors().keys() - {fault.key for fault in planted}):
-        raise SystemExit("listed, but not to be planted:\n" + "\n".join(stale))
+        raise SystemExit("in .ci/mutants.survivors, but not among the mutants:\n" + "\n".join(stale))
     copy = Copy(folder, chosen(planted, asked), asked.jobs)
     everything = dict(copy.faults)
     print(f"{len(everything)} mutants", flush=True)
@@ -698,13 +701,13 @@ def main():
     reasons = survivors()
 
     def is_to_be_shown(fault):
-        """Runs a mutant, also again with tests that were too slow before."""
+        """Returns whether a mutant has no outcome yet, or more tests remain that a larger --most allows."""
         one = done.get(fault.number)
         if one is None or one["outcome"] != "survives so far":
             return one is None
         return asked.most > one["most"] and fault.key not in reasons
 
-    # After shuffling, any part is a random sample.
+    # In random order, because then the mutants tested within --seconds are a random sample.
     todo = [fault for fault in copy.faults.values() if is_to_be_shown(fault)]
     random.Random(2).shuffle(todo)
     with results.open("a") as out, concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
@@ -723,7 +726,7 @@ def main():
 
 
 def survivors():
-    """Returns the reasons of the listed survivors."""
+    """Returns the reason for each survivor on the list, by key."""
     reasons = {}
     if SURVIVORS.exists():
         for line in SURVIVORS.read_text().splitlines():
@@ -734,7 +737,7 @@ def survivors():
 
 
 def report(copy, everything, done, least):
-    """Prints the table by module and the survivors. Returns 1 if the list of survivors disagrees, or if too few mutants are killed."""
+    """Prints the outcomes by module, and the mutants that contradict the list of survivors. Returns whether the run fails."""
     reasons = survivors()
     table = collections.defaultdict(collections.Counter)
     for number, fault in everything.items():
@@ -743,17 +746,17 @@ def report(copy, everything, done, least):
             outcome = "listed"
         table[room(fault.file)][outcome] += 1
         table["all"][outcome] += 1
-    columns = ["noticed", "listed", *UNNOTICED, "not run", "unviable"]
+    columns = ["killed", "listed", *UNNOTICED, "not run", "unviable"]
     print("| module | " + " | ".join(columns) + " | killed of viable |")
     print("|---|" + "--:|" * (len(columns) + 1))
     for name, counts in sorted(table.items(), key=lambda entry: (entry[0] == "all", entry[0])):
         judged = sum(counts[column] for column in columns[:5])
-        share = f"{100 * counts['noticed'] / judged:.1f} %" if judged else ""
+        share = f"{100 * counts['killed'] / judged:.1f} %" if judged else ""
         print(f"| {name} | " + " | ".join(str(counts[column]) for column in columns) + f" | {share} |")
     wrong = 0
     for number, one in sorted(done.items()):
         known = one["key"] in reasons
-        if known == (one["outcome"] == "noticed"):
+        if known == (one["outcome"] == "killed"):
             wrong += 1
             print(f"{one['outcome'].upper()}{', though listed' if known else ''}: {one['place']}: {one['key']}")
     return wrong > 0 if least is None else 100 * (len(done) - wrong) < least * len(done)

@@ -1,6 +1,7 @@
 """Reads spheres.vtp and contacts.vtp of a folder with VTK, and compares them with the csv files.
 
-Numbers of points, vertices and lines, and every array: the same, to the last digit. Usage: read_vtp.py FOLDER
+The numbers of points, vertices and lines must agree, and all arrays with a csv column must agree to the last digit. Weights and
+loads must sum to the reaction of the floor. Usage: read_vtp.py FOLDER
 """
 
 import csv
@@ -72,7 +73,7 @@ def check_spheres(folder, spheres):
     same("reaction", found["reaction"].ravel(), reactions)
     carried = math.fsum(found["weight"]) + math.fsum(found["load"])
     pushed = math.fsum(found["reaction"][:, 2])
-    require(math.isclose(carried, pushed, rel_tol=1e-12), f"{carried} N on the floor, which pushes with {pushed} N")
+    require(math.isclose(carried, pushed, rel_tol=1e-12), f"weights and loads of {carried} N, reactions of {pushed} N")
     return n
 
 
