@@ -259,7 +259,7 @@ fn queries_at_the_ends_of_the_integers() {
             }
         }
     }
-    // No site is in a pile, so a query returns the error for this, or its answer does not depend on the site.
+    // Every site is outside its pile. So a query fails for this reason, or its answer does not depend on the site.
     assert!(
         tallies.iter().all(|tally| tally.overflowed == 0),
         "{tallies:?}"

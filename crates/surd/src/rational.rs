@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn sums_have_least_common_denominator() {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-        // Each denominator is new, or it equals, is a multiple of, divides, or shares a factor with those before.
+        // Compared with those before, the denominators are new, equal, a multiple, a divisor, and coprime in part.
         let numbers = [
             ratio(1, 2),
             ratio(-3, 2),
