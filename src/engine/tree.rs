@@ -1,11 +1,11 @@
 //! The method *tree*: memoised recursion on the dependency cone of a sphere.
 //!
-//! A force depends on few other forces. Within a run the force on a line is proportional to a count of spheres, so the
-//! recursion skips the run. It continues only where a line crosses a sign change. There it needs the three forces on
-//! the sphere at the change, so a node may need three nodes of the next level.
+//! A force depends on few other forces. Within a run the force on a line grows linearly with a count of spheres, so the
+//! recursion skips the run. It continues only where a line crosses a sign change. At the change it needs the three
+//! forces on the sphere there, so a node may need three nodes of the next level.
 //!
-//! Plain recursion would visit 3^d nodes below d sign changes. But many branches meet. Let the sign change in every
-//! layer, and take a sphere at (0, 0):
+//! Plain recursion would visit 3^d nodes below d sign changes. But many branches end at the same sphere. Let the sign
+//! change in every layer, and take a sphere at (0, 0):
 //!
 //! ```text
 //! one sign change above       (0,0) (−1,0) (0,−1)
@@ -44,7 +44,7 @@ const BYTES_A_NODE: usize = 256;
 pub(crate) struct Above<T: Algebra> {
     /// The forces by site, in the order of the question.
     pub(crate) forces: Vec<[T::Numerator; 3]>,
-    /// The number of sign changes above. The denominator is [`Lines::scale`] of it.
+    /// The number of sign changes above. The denominator is [`Lines::scale`] of this number.
     pub(crate) changes: usize,
     /// The number of spheres at sign changes on which the forces depend.
     pub(crate) nodes: usize,
@@ -67,8 +67,8 @@ pub(crate) enum Wanted {
 }
 
 impl Wanted {
-    /// Returns the lines that a contact below a sphere needs: its own line, or all three at a sign change, which mixes
-    /// them.
+    /// Returns the lines on which the force of a contact below a sphere depends: the line of the contact, or all three
+    /// at a sign change, which mixes them.
     pub(crate) fn for_contact(shape: &Shape, site: Site, direction: Direction) -> Self {
         if shape.stacking().is_straight() {
             return Self::One(direction);
@@ -116,7 +116,7 @@ fn levels(
         nodes += sites.len();
         if nodes > FEW_NODES {
             refuse_beyond_memory(
-                "the forces on spheres this far below so many changes of sign",
+                "the forces on spheres this far below so many sign changes",
                 &nodes.into(),
                 (MAX_NODES as u64, BYTES_A_NODE),
                 "ask for fewer layers or spheres",
@@ -145,7 +145,7 @@ fn levels(
 }
 
 impl<T: Algebra> Lines<'_, T> {
-    /// Returns the forces from above on spheres of layer `k`, and zero on lines that are not wanted. The caller has
+    /// Returns the forces from above on spheres of layer `k`, and zero on lines outside `wanted`. The caller has
     /// checked the sites.
     ///
     /// # Errors
@@ -215,7 +215,7 @@ impl<T: Algebra> Lines<'_, T> {
                     let place = starts.binary_search(&start).ok();
                     let carried = place.and_then(|place| turned.get(place));
                     let carried = carried
-                        .ok_or_else(|| bug("a line that crosses a change of sign starts there"))?;
+                        .ok_or_else(|| bug("a line that crosses a sign change starts there"))?;
                     formula::transmitted(carried[direction.index()].clone(), &counted)
                 } else {
                     counted

@@ -74,7 +74,7 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::EmptyRegion { region } => write!(
                 f,
-                "the region {region} has no site: its bounds must leave some i, j and i+j"
+                "the region {region} has no site: its bounds must allow at least one site"
             ),
             Error::RegionTooLarge { region } => write!(
                 f,
@@ -91,7 +91,7 @@ impl fmt::Display for Whole<'_> {
             }
             Error::TooManyRuns { limit } => write!(
                 f,
-                "a stacking of more than {limit} runs is too long to keep: use fewer sign changes"
+                "a stacking of more than {limit} runs is too long to store: use fewer sign changes"
             ),
             Error::LayersOfStacking { layers, spelled } => write!(
                 f,
@@ -116,7 +116,7 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::NotTouching { spacing } => write!(
                 f,
-                "neighbours of a layer do not touch at a/R = {spacing}: leave it out, or use 1"
+                "neighbours of a layer do not touch at a/R = {spacing}: omit the spacing, or use 1"
             ),
             Error::OtherLayer { layer, at } => write!(
                 f,

@@ -325,7 +325,7 @@ impl Scene {
     /// let scene = Scene { spacing: Some("1.2".parse()?), ..Scene::default() };
     /// assert_eq!(
     ///     scene.check_touching().unwrap_err().to_string(),
-    ///     "neighbours of a layer do not touch at a/R = 6/5: leave it out, or use 1",
+    ///     "neighbours of a layer do not touch at a/R = 6/5: omit the spacing, or use 1",
     /// );
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```

@@ -122,6 +122,6 @@ fn the_error_names_the_tree_if_both_are_too_large() {
     };
     assert_eq!(
         quantity,
-        "the forces on spheres this far below so many changes of sign"
+        "the forces on spheres this far below so many sign changes"
     );
 }

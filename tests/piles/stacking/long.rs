@@ -86,7 +86,7 @@ fn stackings_with_too_many_runs_are_rejected() {
     let hcp = |steps: usize| "+-".repeat(steps / 2);
     let most: Stacking = hcp(MAX_RUNS).parse().expect("a stacking at the limit");
     assert_eq!(most.changes() + 1, MAX_RUNS);
-    let because = "more than 1000000 runs is too long to keep: use fewer sign changes";
+    let because = "more than 1000000 runs is too long to store: use fewer sign changes";
     is_rejected(&hcp(MAX_RUNS + 2), because);
     is_rejected(&"h".repeat(MAX_RUNS), because);
     is_rejected(&"AB".repeat(MAX_RUNS / 2 + 1), because);

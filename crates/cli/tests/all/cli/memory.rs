@@ -18,7 +18,7 @@ fn requests_above_the_limit_fail_in_one_line() {
     for (arguments, quantity) in [
         (
             "base --stacking hcp --layers 1000 --number f64",
-            "the forces on spheres this far below so many changes of sign",
+            "the forces on spheres this far below so many sign changes",
         ),
         (
             "mean --layers 80 --symbolic",
