@@ -112,7 +112,7 @@ pub enum Error {
         /// The largest number of runs.
         limit: usize,
     },
-    /// A stacking with a fixed number of layers, and a different number of layers.
+    /// The given number of layers differs from that of the stacking.
     #[non_exhaustive]
     LayersOfStacking {
         /// The given number of layers.
@@ -258,7 +258,7 @@ pub enum Error {
         /// The given spacing.
         spacing: Spacing,
     },
-    /// Work that an `Interrupt` ended.
+    /// The work was cancelled by an `Interrupt`.
     Interrupted,
     /// A broken invariant: a bug of this library.
     #[non_exhaustive]
@@ -301,10 +301,10 @@ pub fn refuse_beyond(
     Ok(())
 }
 
-/// Returns an error if `needed` exceeds `limit`, or if the process cannot allocate as many numbers of the given size in
-/// bytes.
+/// Returns an error if `needed` exceeds `limit`, or if the process cannot allocate `needed` numbers of `bytes` bytes
+/// each.
 ///
-/// The memory is allocated at once for the check, and released untouched.
+/// The check allocates all the memory in one piece, and frees it without writing to it.
 ///
 /// # Errors
 /// [`Error::TooLarge`].
@@ -322,7 +322,7 @@ pub fn refuse_beyond_memory(
     };
     let few = needed.to_u64().filter(|numbers| *numbers <= limit);
     let mut allowed = few.ok_or_else(|| refused(limit))?;
-    while allowed > 0 && !is_to_be_had(allowed, bytes) {
+    while allowed > 0 && !is_available(allowed, bytes) {
         allowed /= 2;
     }
     if Some(allowed) < few {
@@ -346,16 +346,16 @@ pub fn copies<T: Clone>(value: T, count: usize, quantity: &'static str) -> Resul
     Ok(alloc::vec![value; count])
 }
 
-/// Returns whether the allocator provides the memory for so many numbers of the given size in bytes.
-fn is_to_be_had(numbers: u64, bytes: usize) -> bool {
+/// Returns whether the allocator provides the memory for `numbers` numbers of `bytes` bytes each.
+fn is_available(numbers: u64, bytes: usize) -> bool {
     let mut memory = Vec::<u8>::new();
     let bytes = usize::try_from(numbers)
         .ok()
         .and_then(|numbers| numbers.checked_mul(bytes));
-    let had = bytes.is_some_and(|bytes| memory.try_reserve_exact(bytes).is_ok());
+    let available = bytes.is_some_and(|bytes| memory.try_reserve_exact(bytes).is_ok());
     // Without this use, the optimiser may remove the allocation.
     core::hint::black_box(&memory);
-    had
+    available
 }
 
 impl Error {
@@ -382,7 +382,7 @@ impl Error {
     }
 }
 
-/// Errors of the core that other crates report too.
+/// Constructors of errors that the other crates of the workspace also report.
 #[doc(hidden)]
 impl Error {
     #[must_use]

@@ -1,16 +1,16 @@
-//! Deferred passes, made together over the cells of a layer: loop tiling, as a wavefront over rows.
+//! Makes several deferred passes of a sweep together, row by row: loop tiling, as a wavefront over rows.
 //!
-//! A pass changes every number of a layer and does little arithmetic with it. Made one by one, several passes would
-//! move the whole layer through the caches each time. Here each row of cells is still in the cache when the next pass
-//! needs it.
+//! A pass ([`grid`](super::grid)) changes every number of a layer, with little arithmetic for each. Several passes,
+//! made one after the other, would move the whole layer through the caches each time. In a wavefront, each row of cells
+//! is still in the cache when the next pass needs it.
 //!
 //! # Dependencies
-//! A sphere of row j has its lines α and β in the cells of row j. Its line γ is in the cells of row j + o, with o the
-//! net number of + steps down to the last layer ([`grid`](super::grid)). Consider two consecutive passes, to layers
-//! with the offsets o and o′. The second pass can treat row j when the first one has treated the rows j and j + o′ − o.
-//! So the second pass follows max(0, o′ − o) rows behind the first one.
+//! A sphere of row j has its lines α and β in the cells of row j. Its line γ is in the cells of row j + o, where o is
+//! the net number of + steps down to the last layer. Consider two consecutive passes, to layers with the offsets o and
+//! o′. The second pass can process row j when the first one has processed the rows j and j + o′ − o. So the second pass
+//! follows max(0, o′ − o) rows behind the first one.
 //!
-//! For three passes with o′ − o = 1 each time, the rows treated are
+//! For three passes with o′ − o = 1 each time, the rows are processed in this order:
 //!
 //! ```text
 //! time      0   1   2   3   4   5
@@ -20,9 +20,9 @@
 //! ```
 //!
 //! # Bands of rows
-//! This part runs in parallel. The rows are halved recursively into *bands*, one for a thread. In either half, each
-//! pass omits the rows that depend on the other half. These are |o′ − o| more rows than in the previous pass. For o′ −
-//! o = −1 the halves A and B are
+//! The rows are halved recursively into *bands*, at most one for each thread, and the bands are processed in parallel.
+//! In either half, each pass omits the rows that depend on the other half. These are |o′ − o| more rows than in the
+//! previous pass. For o′ − o = −1 the halves A and B are
 //!
 //! ```text
 //! pass 1    A A A A A A B B B B B B
@@ -30,8 +30,8 @@
 //! pass 3    A A A A A A . . B B B B
 //! ```
 //!
-//! When both halves are complete, one thread treats the omitted rows (dots) around the border. This is a split tiling:
-//! no row is computed twice, and the result does not depend on the number of bands.
+//! When both halves are complete, one thread processes the omitted rows (dots) around the border. This is a split
+//! tiling: no row is computed twice, and the result does not depend on the number of bands.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
@@ -44,17 +44,16 @@ use super::plane::{Plane, Ramps, row};
 use crate::lattice::{Along, Counts};
 use crate::{Error, formula};
 
-/// The least number of updates that justifies a thread.
+/// The smallest number of updates that justifies a thread.
 const WORTH_A_THREAD: usize = 1 << 13;
 
-/// Consecutive passes, with the values that each adds in every plane.
+/// Consecutive passes, each with the values that it adds in every plane.
 pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];
 
 /// Makes consecutive passes in all planes. Each pass adds its increments, and applies `turn` where it ends at a sign
 /// change.
 ///
-/// After the last pass has treated a row, `finish` is called with the planes and the cells of that row.
-///
+/// After the last pass has processed a row, `finish` is called with the planes and the cells of that row.
 ///
 /// # Errors
 /// [`Error::Bug`] if a line has no cell.
@@ -73,7 +72,6 @@ where
 }
 
 /// Makes the passes over whole layers, in at most `number` bands.
-///
 ///
 /// # Errors
 /// As for [`make`].
@@ -104,37 +102,37 @@ fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
     let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
-    // The order matters: the number of threads is requested only for enough work.
+    // The order matters: a call of `threads` may start the thread pool, so the amount of work is compared first.
     if worth < 2 || parallel::threads() < 2 {
         return 1;
     }
     let Some((first, _)) = passes.first() else {
         return 1;
     };
-    // Around a border a band omits rows, one for each step of the offset.
+    // Around a border, each pass omits |o′ − o| more rows than the previous one.
     let shifts = || passes.iter().map(|(pass, _)| pass.shift);
     let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
     let lost: i128 = steps.map(i128::abs).sum();
     let rows = first.rows();
     let most = (rows.end - rows.start) / (2 * lost + 2);
-    // At most one band for a thread: the rows around each border are left to one thread.
+    // More bands than threads would only add borders, and one thread alone processes the rows around a border.
     (worth.min(parallel::threads()) as i128).min(most).max(1)
 }
 
-/// The rows to treat, one range for each pass.
+/// The rows to process, one range for each pass.
 type RowsByPass = Vec<Range<i128>>;
 
-/// A band of rows with the cells of their lines in every plane, and the rows that each pass treats.
+/// A band of rows with the cells of their lines in every plane, and the rows that each pass processes.
 struct Band<'c, V> {
     rows: RowsByPass,
-    /// The first cell of each slice, among all cells.
+    /// The index of the first cell of each slice, by direction.
     starts: [usize; 3],
     planes: Vec<[&'c mut [V]; 3]>,
 }
 
 impl<V> Band<'_, V> {
     /// Returns the border after the first half of the bands: the row of the first pass at which the second half begins,
-    /// and its row of γ cells. The border is never the first row.
+    /// and the row of its γ cells. The border is never the first row.
     fn border(&self, number: i128, passes: &Passes<V>) -> Option<[i128; 2]> {
         let ((pass, _), rows) = (passes.first()?, self.rows.first()?.clone());
         let sites = |j| {
@@ -145,9 +143,8 @@ impl<V> Band<'_, V> {
         Some([border, border + pass.shift])
     }
 
-    /// Splits the band before a row of the first pass. In either part each pass treats the rows that depend on that
-    /// part alone. Also returns the remaining rows around the border, by pass.
-    ///
+    /// Splits the band before a row of the first pass. In either part, each pass processes the rows that depend on that
+    /// part alone. Also returns, for each pass, the remaining rows around the border.
     ///
     /// # Errors
     /// [`Error::Bug`] for a row that has no cells.
@@ -174,7 +171,7 @@ impl<V> Band<'_, V> {
         let behind = by_pass(|rows, around| rows.start.max(around.end)..rows.end);
         let omitted =
             by_pass(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
-        // The γ cells are cut at another row than those of α and β: where the second half of the first pass begins.
+        // The cells of α and β are cut at the row `border`, and those of γ at the row `gamma`.
         let own = grid.row_start(border)?;
         let starts = [own, own, grid.row_start(gamma)?];
         let mut parts = [(before, self.starts), (behind, starts)].map(|(rows, starts)| Band {
@@ -195,9 +192,8 @@ impl<V> Band<'_, V> {
 }
 
 impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
-    /// Makes all passes over their rows, in at most `number` bands, in parallel if there are threads. Then treats the
-    /// rows omitted around the borders.
-    ///
+    /// Makes all passes over their rows, in at most `number` bands, in parallel if there are threads. Then processes
+    /// the rows omitted around the borders.
     ///
     /// # Errors
     /// As for [`make`](Self::make).
@@ -228,7 +224,6 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
     /// Makes all passes over their rows. Each pass follows as many rows behind the previous one as its dependencies
     /// require.
-    ///
     ///
     /// # Errors
     /// [`Error::Bug`] if a line has no cell.
@@ -283,7 +278,6 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
 
     /// Makes a pass over row j, and returns the cells of the row.
     ///
-    ///
     /// # Errors
     /// As for [`make`](Self::make).
     fn pass(
@@ -322,7 +316,8 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     along @ [a, b, c]: &[Along<'_, V>; 3],
     turn: &impl Fn(&[V; 3]) -> [V; 3],
 ) {
-    /// Up to this number of positions, a single loop is faster than one loop for each part of the rows.
+    /// For at most this number of positions outside the level part, one loop over them is faster than one loop for each
+    /// part of the rows.
     const FEW: usize = 16;
     let n = alpha.len();
     let up = a.up.len().max(b.up.len()).max(c.up.len());
@@ -352,7 +347,7 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     }
 }
 
-// A function of its own keeps the common path small.
+// Not inlined, to keep the common path small.
 #[inline(never)]
 fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     mut rows: [&mut [V]; 3],
@@ -366,7 +361,7 @@ fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     turn_disjoint(alpha, beta, gamma, turn);
 }
 
-/// Turns three disjoint rows. As parameters of a function they are known to the compiler not to overlap.
+/// Applies `turn` to three disjoint rows. As function parameters, the slices are known not to overlap.
 #[inline(never)]
 fn turn_disjoint<V: Clone>(
     a: &mut [V],
@@ -490,7 +485,7 @@ mod tests {
         assert_eq!(compared, 144);
     }
 
-    /// From bands of a few rows to as many as the omitted rows allow.
+    /// Cuts small layers into 2 to 9 bands, each of few rows.
     #[test]
     fn bands_of_low_layers_give_the_same_numbers() {
         for (side, stacking) in [(12, "+-+-+-+-"), (20, "-++-+--+"), (31, "+++---+-")] {

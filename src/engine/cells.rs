@@ -1,4 +1,4 @@
-//! The layer of a sweep in the numerators of a scalar, with deferred passes.
+//! One layer of a sweep, as numerators of a scalar, with deferred passes.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -11,27 +11,27 @@ use super::plane::{Plane, Ramps};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
-/// The number of deferred passes after which they are made, unless a number is read before.
-const WAITING: usize = 8;
+/// The number of passes that are deferred and then made together. They are made earlier if a number is read.
+const MAX_DEFERRED: usize = 8;
 
 /// One number for each line of a layer, and the deferred passes with their increments.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells<V> {
     plane: Plane<V>,
-    waiting: Vec<(Pass, [V; 3])>,
+    deferred: Vec<(Pass, [V; 3])>,
 }
 
 impl<V: Clone> Cells<V> {
     pub(crate) fn new(grid: &Grid<'_>, zero: &V) -> Self {
         Self {
             plane: Plane::new(grid, zero),
-            waiting: Vec::new(),
+            deferred: Vec::new(),
         }
     }
 
     /// Returns the numbers on consecutive lines, by direction.
     pub(super) fn slices(&self, cells: [Range<usize>; 3]) -> [&[V]; 3] {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         self.plane.slices(cells)
     }
 }
@@ -43,39 +43,39 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
         pass: &Pass,
         increments: &[T::Numerator; 3],
     ) -> Result<(), Error> {
-        self.waiting.push((*pass, increments.clone()));
-        if self.waiting.len() == WAITING {
+        self.deferred.push((*pass, increments.clone()));
+        if self.deferred.len() == MAX_DEFERRED {
             return Layer::<T>::catch_up(self, grid);
         }
         Ok(())
     }
 
     fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
-        let waiting = core::mem::take(&mut self.waiting);
+        let deferred = core::mem::take(&mut self.deferred);
         let ramps = |pass: &Pass, increments| {
             let times = |w: &_, n| formula::force(T::Numerator::from_i128(n), w);
             alloc::vec![Ramps::new(pass, increments, times)]
         };
-        let passes = waiting.iter().map(|(pass, w)| (*pass, ramps(pass, w)));
+        let passes = deferred.iter().map(|(pass, w)| (*pass, ramps(pass, w)));
         let passes: Vec<_> = passes.collect();
         let plane = core::slice::from_mut(&mut self.plane);
         make(plane, grid, &passes, formula::half_turn::<T>, |_, _| ())
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error> {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         self.plane.add_to(cells, values);
         Ok(())
     }
 
     fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         let zero = T::Numerator::zero();
         self.plane.move_to(&mut Vec::new(), next, moves, &zero);
     }
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         self.plane.carried(cells).map(Clone::clone)
     }
 }

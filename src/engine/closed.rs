@@ -1,8 +1,9 @@
-//! The method *closed*: forces below no sign change, by the paper's (8) and (9), with the loads on the line.
+//! The method *closed*: forces without a sign change above them, by (8) and (9) of the paper, plus the loads on the
+//! line.
 //!
-//! Within a run the force on a line is its increment times the number of spheres above on it. So a force takes O(1)
-//! operations, whatever the height. Each load on the line adds one term. Below a sign change the lines mix, and no such
-//! formula exists.
+//! Within the first run, the force on a line is the increment of its direction times the number of spheres above on the
+//! line. So a force takes O(1) operations, whatever the height. Each load on the line adds one term. Below a sign
+//! change the lines mix, and no such formula exists.
 
 use num_traits::Zero;
 
@@ -17,8 +18,8 @@ use crate::shape::Stretch;
 
 /// Returns the force that a sphere of a straight stacking transmits along one line.
 ///
-/// It is one increment more than the spheres above it on the line contribute. The caller has checked the site. Returns
-/// `None` if the stacking has a sign change, or if another method is required.
+/// The force is the sum of the increments of this sphere and of the spheres above it on the line. The caller has
+/// checked the site. Returns `None` if the stacking has a sign change, or if another method is requested.
 pub(crate) fn closed_contact<T: Algebra>(
     lines: &Lines<'_, T>,
     (site, direction): (Site, Direction),
@@ -39,7 +40,7 @@ pub(crate) fn closed_contact<T: Algebra>(
 }
 
 impl<T: Algebra> Lines<'_, T> {
-    /// Returns the forces from above on a sphere without a sign change above it, and zero on lines that are not wanted.
+    /// Returns the forces from above on a sphere without a sign change above it, and zero on lines outside `wanted`.
     ///
     /// The caller has checked the site. Returns `None` below a sign change.
     pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
@@ -60,7 +61,8 @@ impl<T: Algebra> Lines<'_, T> {
         }))
     }
 
-    /// Returns the sum that the `n` spheres above a site add to a line, over the first denominator.
+    /// Returns the sum of the increments of the `n` spheres above a site on a line of the run, loads included. It is a
+    /// numerator over the denominator before any sign change.
     pub(super) fn counted(
         &self,
         run: Stretch,

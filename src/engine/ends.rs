@@ -5,7 +5,7 @@
 //! the lemma with its reason. A search therefore visits the ends of the pieces: a few sites for each row, instead of
 //! all its spheres.
 //!
-//! For example, the count of spheres on a line may run along a row as follows:
+//! For example, the count of spheres on a line may vary along a row as follows:
 //!
 //! ```text
 //! site     0  1  2  3  4  5  6  7
@@ -41,8 +41,8 @@ impl<T: Algebra> Lines<'_, T> {
 
     /// Returns the rows of layer `k`, each with the sites at which a linear piece of the forces ends.
     ///
-    /// They include every sphere on a line from a sign change, and its neighbours. They also include every sphere on a
-    /// line with an extra weight of the last run, and its neighbours.
+    /// They include every sphere on a line that begins at a sign change, and its neighbours. They also include every
+    /// sphere on a line with an extra weight of the last run, and its neighbours.
     pub(crate) fn ends_of_pieces(
         &self,
         k: i128,
@@ -114,7 +114,8 @@ mod tests {
     use crate::engine::Wanted;
     use crate::lattice::{Region, Site};
 
-    /// Straight stackings and sign changes, lines of odd and of even length, with a load inside and one near the floor.
+    /// Returns piles with and without sign changes, with lines of odd and of even length. Each pile has a variant with
+    /// a load inside, one with a load near the floor, and one without loads.
     fn piles() -> Vec<Pile> {
         let tops = [
             Region::SITE,
@@ -141,11 +142,11 @@ mod tests {
     /// At a site that is not listed, each force is the mean of the forces on its two neighbours. So no end is missing.
     #[test]
     fn forces_are_linear_between_them() {
-        let unlisted = are_linear(piles());
+        let unlisted = check_linearity(piles());
         assert!(unlisted > 1000, "{unlisted}");
     }
 
-    /// Lines that end at a surface within the run, on rows of odd and even length.
+    /// Tests lines that end at a surface within the run, on rows of odd and even length.
     #[test]
     fn forces_under_a_few_spheres_are_linear_between_them() {
         let low = Region::new(-3..=3, -4..=4, -2..=5).unwrap();
@@ -155,19 +156,19 @@ mod tests {
             (Region::triangle(6).unwrap(), "(2,9)"),
         ];
         let pile = |(top, runs): (Region, &str)| Pile::under(top, runs.parse().unwrap()).unwrap();
-        let unlisted = are_linear(piles.into_iter().map(pile));
+        let unlisted = check_linearity(piles.into_iter().map(pile));
         assert!(unlisted > 100, "{unlisted}");
     }
 
-    /// A base whose corner is cut off: the counts rise and fall before they reach the length of the run. Their maximum
-    /// covers one site or two.
+    /// Tests bases with a corner cut off. The counts rise and fall before they reach the length of the run. Their
+    /// maximum covers one site or two.
     #[test]
     fn forces_on_a_base_are_linear_between_them() {
         let cut = Region::new(0..=12, 0..=18, 9..=18).unwrap();
         let opposite = Region::new(-12..=0, -18..=0, -18..=-9).unwrap();
         let piles = [(cut, "(9)"), (cut, "(1,8)"), (opposite, "-(9)")];
         let pile = |(base, runs): (Region, &str)| Pile::on(base, runs.parse().unwrap()).unwrap();
-        let unlisted = are_linear(piles.into_iter().map(pile));
+        let unlisted = check_linearity(piles.into_iter().map(pile));
         assert!(unlisted > 100, "{unlisted}");
     }
 
@@ -191,7 +192,7 @@ mod tests {
     }
 
     /// Returns the number of sites that are not listed. Checks that each has the mean force of its neighbours.
-    fn are_linear(piles: impl IntoIterator<Item = Pile>) -> usize {
+    fn check_linearity(piles: impl IntoIterator<Item = Pile>) -> usize {
         let mut unlisted = 0;
         for pile in piles {
             let system = pile.system();

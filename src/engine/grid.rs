@@ -2,17 +2,17 @@
 //!
 //! # Cells of lines
 //! From one layer to the next every line of contacts continues: each sphere receives three forces and transmits three.
-//! So a line has one cell for the whole sweep. The cell is named by the position of the line in the last layer. A
-//! sphere (i, j) of layer k finds its three lines in the cells
+//! So a line has one cell for the whole sweep. The cell is named by the position of the line in the last layer. The
+//! three lines of a sphere (i, j) of layer k have the cells
 //!
-//! α: (i, j), β: (i+o, j), γ: (i, j+o), with o the net number of + steps from layer k to the last one.
+//! α: (i, j), β: (i+o, j), γ: (i, j+o), where o is the net number of + steps from layer k to the last one.
 //!
 //! For example, a pile of three layers has the stacking "++". For its top sphere (0, 0) the offset o is 2. Its lines
 //! have the cells (0, 0), (2, 0) and (0, 2): they end in the three corners of the base.
 //!
-//! So a step moves no number. A whole run is one pass, which adds to each cell the increments of the spheres on its
-//! line ([`Region::spheres_above`]). A sign change turns the three cells of each sphere in place. The cell of a line
-//! that has not begun contains zero.
+//! So a step to the next layer moves no number. A whole run is one pass, which adds to each cell the increments of the
+//! spheres on its line ([`Region::spheres_above`]). A sign change applies the half-turn to the three cells of each
+//! sphere in place. The cell of a line that has not begun contains zero.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -39,7 +39,7 @@ pub(crate) struct Grid<'p> {
     pub(super) last: i128,
     /// The last layer of the sweep.
     pub(super) end: i128,
-    /// The lower bounds of i and i+j in layer `last`, if a third of each layer is stored.
+    /// The lower bounds of i and i+j in layer `last`, if only a third of each layer is stored.
     pub(super) corner: Option<[i128; 2]>,
     first_row: i128,
     /// For each row of the last layer: its first site, and the cell of that site.
@@ -47,7 +47,7 @@ pub(crate) struct Grid<'p> {
     pub(super) cells: usize,
 }
 
-/// One pass of a sweep: through a run, or a part of one.
+/// One pass of a sweep, through a run or a part of one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pass {
     /// The run of the pass. It may continue below layer `k`.
@@ -72,8 +72,8 @@ impl Pass {
         *rows.start()..rows.end() + 1
     }
 
-    /// Returns an upper bound of the spheres that a line meets in the pass: the steps of the pass, and the sides of the
-    /// layer.
+    /// Returns an upper bound of the number of spheres on a line in the pass: the smallest of the number of steps and
+    /// the widths of the layer.
     pub(super) fn greatest_count(&self) -> i128 {
         let widths = self.region.widths();
         widths.into_iter().fold(self.k - self.from, i128::min)
@@ -82,7 +82,6 @@ impl Pass {
 
 impl<'p> Grid<'p> {
     /// Returns the cells of a sweep from the top to layer `last`, each of `planes` numbers.
-    ///
     ///
     /// # Errors
     /// [`Error::TooLarge`], with the size; [`Error::LayerOutside`].
@@ -118,8 +117,7 @@ impl<'p> Grid<'p> {
         })
     }
 
-    /// Returns the number of values in such a sweep.
-    ///
+    /// Returns the number of values in a sweep from the top to layer `last`.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -135,7 +133,7 @@ impl<'p> Grid<'p> {
     }
 
     /// Returns the next pass from layer `from` towards layer `to`. It ends with its run, at layer `to`, or with the
-    /// window, whichever comes first. Returns `None` if `from` is not above that layer.
+    /// window, whichever comes first. Returns `None` if no such layer lies below `from`.
     ///
     /// # Errors
     /// [`Error::Bug`] if a line of the layer where the pass ends has no cell.
@@ -156,7 +154,7 @@ impl<'p> Grid<'p> {
             part: self.part(k)?,
             shift: self.shift(k),
         };
-        // Layers are convex, and so are the cells of their lines. So a check of the corners suffices.
+        // Layers are convex, and so are the sets of cells of their lines. So a check of the corners suffices.
         let places = pass.part.corners().into_iter().flat_map(|[i, j]| {
             let shift = pass.shift;
             [[i, j], [i + shift, j], [i, j + shift]]
@@ -168,7 +166,6 @@ impl<'p> Grid<'p> {
     }
 
     /// Returns the spheres of a layer that the sweep stores.
-    ///
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
@@ -188,10 +185,10 @@ impl<'p> Grid<'p> {
     /// Returns the cells of `length` consecutive lines, from the line that ends at site (i, j) of the last layer.
     ///
     /// # Errors
-    /// [`Error::Bug`] if one of them is outside.
+    /// [`Error::Bug`] if one of the cells does not exist.
     fn cells(&self, i: i128, j: i128, length: usize) -> Result<Range<usize>, Error> {
         let cells = self.cells_in_row(i, j, length);
-        cells.ok_or_else(|| bug("every line of a layer goes on to the last one"))
+        cells.ok_or_else(|| bug("every line of a layer continues to the last one"))
     }
 
     fn cells_in_row(&self, i: i128, j: i128, length: usize) -> Option<Range<usize>> {
@@ -212,11 +209,10 @@ impl<'p> Grid<'p> {
         let row = usize::try_from(j - self.first_row).ok();
         let row = row.and_then(|row| self.rows.get(row));
         row.map(|(_, cell)| *cell)
-            .ok_or_else(|| bug("every row of a layer goes on to the last one"))
+            .ok_or_else(|| bug("every row of a layer continues to the last one"))
     }
 
     /// Returns the cells of a row of sites of a layer, by direction.
-    ///
     ///
     /// # Errors
     /// [`Error::Bug`] if one of their lines has no cell.
@@ -236,7 +232,6 @@ impl<'p> Grid<'p> {
 
     /// Returns the cells of a sphere of layer `k`, by direction.
     ///
-    ///
     /// # Errors
     /// As for [`row`](Self::row).
     pub(crate) fn site(&self, i: i128, j: i128, k: i128) -> Result<[usize; 3], Error> {
@@ -254,7 +249,8 @@ pub(crate) struct Moves {
     pub(super) images: Vec<Piece>,
 }
 
-/// A piece of a row that is stored in other cells of the next window: direction and first cell in both, and the length.
+/// A piece of a row that is stored in other cells of the next window: direction and first cell in both windows, and the
+/// length.
 pub(super) struct Piece {
     pub(super) from: (usize, usize),
     pub(super) to: (usize, usize),
@@ -275,15 +271,13 @@ pub(crate) trait Layer<T: Algebra> {
         increments: &[T::Numerator; 3],
     ) -> Result<(), Error>;
 
-    /// Makes all deferred passes. Required before any other method is called.
-    ///
+    /// Makes all deferred passes. Must be called before any method other than `pass`.
     ///
     /// # Errors
     /// As for [`pass`](Self::pass).
     fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error>;
 
     /// Adds values to the three lines of a sphere.
-    ///
     ///
     /// # Errors
     /// As for [`pass`](Self::pass).
@@ -304,7 +298,7 @@ pub(super) fn assert_none_deferred<P>(deferred: &[P]) {
     );
 }
 
-/// Returns the sites of a region above a corner, which is lowered by `lower`.
+/// Returns the sites of a region whose i and i+j are at least the bounds `corner`, both lowered by `lower`.
 pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Region, Error> {
     let part = region.above(corner.map(|bound| bound - lower));
     part.ok_or_else(|| bug("a third of a layer has a sphere"))
@@ -328,7 +322,7 @@ mod tests {
     #[test]
     #[cfg_attr(
         debug_assertions,
-        should_panic(expected = "every line of a layer goes on")
+        should_panic(expected = "every line of a layer continues")
     )]
     fn a_sphere_past_the_end_of_its_row_is_a_bug() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();

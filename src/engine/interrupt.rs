@@ -9,7 +9,6 @@ pub(crate) use with_threads::{current, within};
 
 /// Returns an error if the work of the current thread has been cancelled.
 ///
-///
 /// # Errors
 /// [`Error::Interrupted`].
 pub fn check() -> Result<(), Error> {
@@ -35,8 +34,8 @@ mod with_threads {
     ///
     /// Work inside [`during`](Self::during) checks the request before each row, layer, contact or equation, in all its
     /// threads. It ends with [`Error::Interrupted`] within a fraction of a second. Without a request the results do not
-    /// change. An answer that is complete before the check is still returned. If calls of `during` are nested, only the
-    /// innermost request is checked.
+    /// change. A result that is complete before the next check is still returned. If calls of `during` are nested, only
+    /// the innermost request is checked.
     ///
     /// # Examples
     /// ```
@@ -73,7 +72,7 @@ mod with_threads {
             Self::default()
         }
 
-        /// Makes the request: the work is to end.
+        /// Makes the request. The work ends at its next check.
         ///
         /// # Examples
         /// ```
@@ -129,7 +128,6 @@ mod with_threads {
         }
 
         /// Returns an error if the work of the current thread has been cancelled. Call it in loops around this library.
-        ///
         ///
         /// # Errors
         /// [`Error::Interrupted`].

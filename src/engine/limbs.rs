@@ -8,9 +8,10 @@
 //! After d sign changes every force is an integer over D·3^d, with D the common denominator of weights and loads
 //! ([`paper`](crate::paper#transfer)). A sign change triples the numerators, 3G g = 2Σg − 3g, so nothing is divided.
 //!
-//! Let the spheres have the weight u and the loads e, in mg. Let w be the weights and loads in one layer. G is
-//! orthogonal, and each line of a layer continues as one line of the next. So in the ℓ² norm over a layer ‖f‖ ≤ ‖g‖ +
-//! √3·‖w‖. For K layers of N spheres in all, the Cauchy–Schwarz inequality gives
+//! Let the spheres have the weight u and the loads e, in mg. Let w be the weights and loads in one layer, g the forces
+//! that the layer receives, and f those that it transmits. G is orthogonal, and each line of a layer continues as one
+//! line of the next. So in the ℓ² norm over a layer ‖f‖ ≤ ‖g‖ + √3·‖w‖. For K layers of N spheres in all, the
+//! Cauchy–Schwarz inequality gives
 //!
 //! ‖f‖ ≤ B = u√(3·K·N) + √3·Σ|e|.
 //!
@@ -22,12 +23,12 @@
 //! they act on each plane separately, in the same loop. Only carries connect a plane to the next one, and they can be
 //! deferred.
 //!
-//! The idea in base 10, with digits −5 … 4: let the low digits of a, b, c be 3, 4, 4. The transfer 2(b + c) − a gives
-//! 13. It stays in the low position, since 13 is a valid value there until the carry. The carry then writes 3, and adds
-//!     1 to the next digit.
+//! An example in base 10, with digits −5 … 4: let the low digits of a, b, c be 3, 4, 4. The transfer 2(b + c) − a gives
+//! the value 13, which is valid in the low position until the carry. The carry then writes 3 there, and adds one to the
+//! next digit.
 //!
-//! *Lemma.* Immediately after a carry the lower limbs lie in [−2^54, 2^54). Let M·2^55 bound them some passes later,
-//! with M = 1/2 at first. A pass adds a limb of an increment, at most 2^54, and may apply 2(b + c) − a.
+//! *Lemma.* Immediately after a carry the lower limbs lie in [−2^54, 2^54). Let M·2^55 bound their magnitudes after
+//! some passes, with M = 1/2 at first. A pass adds a limb of an increment, at most 2^54, and may apply 2(b + c) − a.
 //!
 //! | after | M | reason |
 //! |---|---|---|
@@ -49,7 +50,8 @@
 //!
 //! # Deferred passes
 //! Between carries the planes are independent. Passes are therefore deferred until a carry is required or a number is
-//! read. Then they are made together, row after row ([`make`]). Each row is carried when the last pass has treated it.
+//! read. Then they are made together, row after row ([`make`]). Each row is carried when the last pass has processed
+//! it.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering::{Equal, Less};
@@ -72,7 +74,7 @@ use crate::lattice::Direction;
 pub(super) const LIMB: u32 = 55;
 
 /// The number of passes that the lower limbs allow between two carries.
-const TURNS: u32 = 3;
+const PASSES_PER_CARRY: u32 = 3;
 
 /// The invariant behind the width of the numbers.
 const WIDE_ENOUGH: &str = "no force is wider than the bound on all forces";
@@ -80,14 +82,14 @@ const WIDE_ENOUGH: &str = "no force is wider than the bound on all forces";
 /// The width of the numbers of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Size {
-    /// The bits that the proved bound requires, without a sign.
+    /// The bits that the proved bound requires, without the sign.
     pub(crate) bits: u64,
     /// The number of `i64` planes that provide these bits.
     pub(crate) planes: usize,
 }
 
 impl Size {
-    /// Returns the width after some sign changes, from an upper bound of 2√3·B·D ([`bound`]).
+    /// Returns the width after `changes` sign changes, from an upper bound of 2√3·B·D ([`bound`]).
     pub(crate) fn new(bound: &BigInt, changes: usize) -> Self {
         let turned = bound * num_traits::pow(BigInt::from(3), changes.saturating_sub(1));
         let bits = turned.bits();
@@ -120,12 +122,12 @@ pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: 
 pub(crate) struct Planes {
     /// The planes in use, the lowest first. Their number grows on the way down.
     limbs: Vec<Plane<i64>>,
-    /// A buffer for moves between windows. It is kept, so that it grows in place.
+    /// A buffer for moves between windows. It is reused, so that it grows in place.
     spare: Vec<i64>,
     /// An upper bound of 2√3·B·D.
     bound: BigInt,
     /// The deferred passes, with their increments.
-    waiting: Vec<(Pass, [BigInt; 3])>,
+    deferred: Vec<(Pass, [BigInt; 3])>,
     /// The passes since the last carry, deferred ones included.
     passes: u32,
     /// The number of sign changes so far.
@@ -140,7 +142,7 @@ impl Planes {
             limbs: alloc::vec![Plane::new(grid, &0); size.planes],
             spare: Vec::new(),
             bound,
-            waiting: Vec::new(),
+            deferred: Vec::new(),
             passes: 0,
             changes: 0,
         }
@@ -148,12 +150,12 @@ impl Planes {
 
     /// Adds the planes that the deferred passes require.
     ///
-    /// The former top limb becomes a lower one. It is carried on all lines of the first deferred pass. The other limbs
-    /// allow as many passes as before.
+    /// The former top limb becomes a lower one. It is carried on all lines of the first deferred pass. The former lower
+    /// limbs allow as many passes as before.
     fn grow(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         let available = self.limbs.len();
         let planes = Size::new(&self.bound, self.changes).planes;
-        let Some((pass, _)) = self.waiting.first().filter(|_| planes > available) else {
+        let Some((pass, _)) = self.deferred.first().filter(|_| planes > available) else {
             return Ok(());
         };
         self.limbs.resize(planes, Plane::new(grid, &0));
@@ -166,13 +168,13 @@ impl Planes {
         Ok(())
     }
 
-    /// Makes the deferred passes, and carries the lower limbs if that is required.
-    fn make_waiting(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
+    /// Makes the deferred passes. Then carries the lower limbs if they allow no further pass.
+    fn make_deferred(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         self.grow(grid)?;
         let planes = self.limbs.len();
-        let waiting = core::mem::take(&mut self.waiting);
-        let mut passes = Vec::with_capacity(waiting.len());
-        for (pass, increments) in waiting {
+        let deferred = core::mem::take(&mut self.deferred);
+        let mut passes = Vec::with_capacity(deferred.len());
+        for (pass, increments) in deferred {
             let ramps = Ramps::new(&pass, &increments, |w, n| {
                 limbs(&force(n.into(), w), planes)
             });
@@ -180,7 +182,7 @@ impl Planes {
             let ramps: Option<Vec<_>> = (0..planes).map(of_plane).collect();
             passes.push((pass, ramps.ok_or_else(|| bug(WIDE_ENOUGH))?));
         }
-        if self.passes < TURNS {
+        if self.passes < PASSES_PER_CARRY {
             return make(&mut self.limbs, grid, &passes, tripled_apart, |_, _| ());
         }
         let fits = AtomicBool::new(true);
@@ -201,7 +203,7 @@ impl Planes {
 
     /// Returns the limbs of consecutive lines, by direction. The top limbs come first.
     pub(super) fn slices(&self, cells: &[Range<usize>; 3]) -> Vec<[&[i64]; 3]> {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         let top_down = self.limbs.iter().rev();
         top_down.map(|plane| plane.slices(cells.clone())).collect()
     }
@@ -233,13 +235,12 @@ impl Planes {
     }
 
     /// Returns the smallest number on the lines of the layer that a pass leads to, and its first position and direction
-    /// in row order. Carries first.
-    ///
+    /// in row order. Carries all limbs before the search.
     ///
     /// # Errors
     /// [`Error::Bug`].
     pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Result<Least, Error> {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         self.carry()?;
         let mut least: Option<(Vec<i64>, (i128, i128, Direction))> = None;
         for row in pass.part.rows(pass.k) {
@@ -254,8 +255,8 @@ impl Planes {
                         Some((least, ..)) => limbs.clone().cmp(least.iter().copied()),
                         None => Less,
                     };
-                    // In a whole layer, row order finds the first position first. In a third of it, images may precede
-                    // the stored line.
+                    // In a whole layer, row order finds the first position first. If only a third is stored, images may
+                    // precede the stored line.
                     if order == Less || order == Equal && grid.corner.is_some() {
                         let first = grid.first_image([i, row.j], direction, pass.k)?;
                         match &mut least {
@@ -295,23 +296,23 @@ impl Layer<BigRational> for Planes {
         increments: &[BigInt; 3],
     ) -> Result<(), Error> {
         self.changes = pass.run.index + usize::from(pass.turns);
-        self.waiting.push((*pass, increments.clone()));
+        self.deferred.push((*pass, increments.clone()));
         self.passes += 1;
-        if self.passes == TURNS {
-            return self.make_waiting(grid);
+        if self.passes == PASSES_PER_CARRY {
+            return self.make_deferred(grid);
         }
         Ok(())
     }
 
     fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
-        if self.waiting.is_empty() {
+        if self.deferred.is_empty() {
             return Ok(());
         }
-        self.make_waiting(grid)
+        self.make_deferred(grid)
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) -> Result<(), Error> {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         let planes = self.limbs.len();
         let [Some(a), Some(b), Some(c)] = values.each_ref().map(|value| limbs(value, planes))
         else {
@@ -325,14 +326,14 @@ impl Layer<BigRational> for Planes {
     }
 
     fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         for plane in &mut self.limbs {
             plane.move_to(&mut self.spare, next, moves, &0);
         }
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {
-        assert_none_deferred(&self.waiting);
+        assert_none_deferred(&self.deferred);
         let top_down = self.limbs.iter().rev();
         let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
         [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))
@@ -354,12 +355,12 @@ fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool
     top.into_iter().flatten().all(|top| are_within_2_62(top))
 }
 
-/// Carries to the next limbs the parts outside [−2^54, 2^54).
+/// Reduces limbs to [−2^54, 2^54), and adds the carries to the next limbs.
 #[inline(never)]
 fn carry(lower: &mut [i64], upper: &mut [i64]) {
     const HALF: i64 = 1 << (LIMB - 1);
-    // Computes x >> 55, rounded down, from the unsigned x + 2^63: old processors have no vector shift of signed
-    // numbers.
+    // The arithmetic shift x >> 55 is computed as a logical shift of x + 2^63, because old processors have no vector
+    // instruction for an arithmetic shift of 64 bits.
     const OFFSET: u64 = 1 << 63;
     for (x, next) in lower.iter_mut().zip(upper) {
         let moved = (*x + HALF).cast_unsigned();
@@ -440,8 +441,8 @@ mod tests {
         assert_eq!(planes.at(cells), [sum.clone(), BigInt::zero(), -sum]);
     }
 
-    /// One number has 2^55 + 10 in its lower limb, uncarried. Another has 2^55 + 5 in both limbs. By the top limbs
-    /// alone the first would be the smaller.
+    /// One number is 2^55 + 10, all of it in the lower limb. Another is 2^55 + 5, carried into both limbs. Judged by
+    /// the top limbs before the carry, the first would be smaller.
     #[test]
     fn the_smallest_number_is_found_after_a_carry() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
@@ -476,7 +477,7 @@ mod tests {
         }
     }
 
-    /// Checks 2√3·B·D ≤ bound < 2√3·B·D + 7 for B = u√(3KN) + √3·Σ|e|. Squares keep the comparison in integers.
+    /// Checks 2√3·B ≤ bound ≤ 2√3·B + u for D = 1 and B = u√(3KN) + √3·Σ|e|. Squares keep the comparison in integers.
     #[test]
     fn the_bound_is_close_to_the_proved_one() {
         for (layers, spheres, ordinary, extras) in [
@@ -504,13 +505,13 @@ mod tests {
     fn lower_limbs_allow_three_passes_and_no_more() {
         let half = 1_i128 << (LIMB - 1);
         let bounds = |passes| (0..passes).fold(1, |halves, _| 5 * (halves + 1));
-        assert_eq!(bounds(TURNS), 280);
-        assert!((bounds(TURNS) + 1) * half < 1 << 63);
-        assert!(bounds(TURNS + 1) * half >= 1 << 63);
+        assert_eq!(bounds(PASSES_PER_CARRY), 280);
+        assert!((bounds(PASSES_PER_CARRY) + 1) * half < 1 << 63);
+        assert!(bounds(PASSES_PER_CARRY + 1) * half >= 1 << 63);
     }
 
-    /// Turns the greatest limbs three times, each time after increments as great. They grow by 3^3 at least. A checked
-    /// build detects an overflow.
+    /// Turns the largest limbs three times, each time after adding increments of the same size. The largest limb grows
+    /// more than 16-fold. A build with overflow checks detects an overflow.
     #[test]
     fn great_limbs_do_not_overflow() {
         let half = 1_i64 << (LIMB - 1);
@@ -519,7 +520,7 @@ mod tests {
             [half - 1; 3],
             [-half, -half, 0],
         ] {
-            for _ in 0..TURNS {
+            for _ in 0..PASSES_PER_CARRY {
                 limbs = tripled_apart(&limbs.map(|x| x + x.signum() * (half - 1)));
             }
             let greatest = limbs.iter().map(|x| x.unsigned_abs()).max();
@@ -536,7 +537,7 @@ mod tests {
         assert!(!are_within_2_62(&[within, within, 0]));
     }
 
-    /// Compares all lines of all layers, in limbs and in big integers, down to many planes.
+    /// Compares the forces on all lines of some layers, in limbs and in big integers.
     fn compare(pile: &Pile) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         let lines = Lines::<BigRational>::new(&system);
@@ -544,7 +545,7 @@ mod tests {
             exact_sweep(&lines, &system, last).unwrap();
         let mut plain: Descent<'_, BigRational, Cells<BigInt>> =
             plain_sweep(&lines, &system, last).unwrap();
-        // Large steps first, so that passes are deferred, then single layers.
+        // The first steps cross 13 layers, so that passes are deferred. The last steps cross single layers.
         for k in (0..=last).filter(|k| *k % 13 == 7 || last - *k < 4) {
             exact.advance(k, crate::engine::Meter::NONE).unwrap();
             plain.advance(k, crate::engine::Meter::NONE).unwrap();
@@ -590,15 +591,16 @@ mod tests {
         let grid = Grid::new(&shape, 8, 2).unwrap();
         let mut planes = two_planes(&grid);
         let one = [1, 1, 1].map(BigInt::from);
-        for (k, waiting) in (0..8).zip([1, 2, 0, 1, 2, 0, 1, 2]) {
+        for (k, deferred) in (0..8).zip([1, 2, 0, 1, 2, 0, 1, 2]) {
             let pass = grid.pass(k, k + 1).unwrap().unwrap();
             planes.pass(&grid, &pass, &one).unwrap();
-            assert_eq!(planes.waiting.len(), waiting, "{k}");
-            assert_eq!(planes.passes as usize, waiting, "{k}");
+            assert_eq!(planes.deferred.len(), deferred, "{k}");
+            assert_eq!(planes.passes as usize, deferred, "{k}");
         }
     }
 
-    /// Two sign changes need slightly more bits than one limb has. The pass to the second one adds a plane.
+    /// After two sign changes the numbers need slightly more bits than one limb has. The pass to the second one adds a
+    /// plane.
     #[test]
     fn limbs_grow_with_the_pass_that_turns() {
         let shape = Shape::under(Region::SITE, "+-++-".parse().unwrap()).unwrap();
@@ -643,7 +645,7 @@ mod tests {
         assert_eq!(limbs(&(half - 1).into(), 2), Some(alloc::vec![half - 1, 0]));
     }
 
-    /// Converts the smallest and the largest number of so many limbs, and refuses the next ones.
+    /// Converts the smallest and the largest number that fit in some limbs, and refuses wider ones.
     #[test]
     fn a_number_wider_than_its_limbs_is_refused() {
         let half = 1_i64 << (LIMB - 1);
@@ -656,7 +658,7 @@ mod tests {
             let [least, greatest] = ends.each_ref().map(|limbs| value(limbs.iter().rev()));
             let of = |number: &BigInt| limbs(number, below + 1);
             assert_eq!([of(&least), of(&greatest)], ends.map(Some));
-            // In the last two, all bits of two words above the limbs are one, and the lower bits are half a limb.
+            // The magnitude of the last two is (2^128 − 1)/2 units of the top limb, rounded down.
             let bits: BigInt = (BigInt::from(1) << 127) - 1;
             let bits: BigInt = ((bits * 2 + 1) << (LIMB as usize * below)) / 2;
             let wider: [BigInt; 4] = [least - 1, greatest + 1, bits.clone(), -bits];

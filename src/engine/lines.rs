@@ -1,7 +1,7 @@
 //! The forces on the lines of contacts, run by run: the common part of the methods *closed* and *tree*.
 //!
-//! Within a run the force on a line is proportional to a count of spheres, see [`paper`](crate::paper#lines). A sphere
-//! m layers into a run receives the increments of the N spheres above it on the line.
+//! Within a run the force on a line grows linearly with a count of spheres, see [`paper`](crate::paper#lines). A sphere
+//! m layers into a run receives on a line the increments of the N spheres above it on this line.
 //! [`Region::spheres_above`](crate::lattice::Region::spheres_above) returns N ≤ m.
 //!
 //! * If N < m, the line begins at a surface, with zero force.
@@ -29,7 +29,7 @@ use crate::shape::{Shape, Stretch};
 #[derive(Clone, Debug)]
 pub(crate) struct Received<T: Algebra> {
     pub(crate) forces: [T::Numerator; 3],
-    /// The number of sign changes above. The denominator is [`Lines::scale`] of it.
+    /// The number of sign changes above. The denominator is [`Lines::scale`] of this number.
     pub(crate) changes: usize,
 }
 
@@ -43,8 +43,8 @@ pub(crate) struct Lines<'p, T: Algebra> {
     pub(super) ordinary: [T::Numerator; 3],
     /// The further increments of some spheres, by line and layer, from extra weights, loads and horizontal contacts.
     pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
-    /// The weight of some spheres and their loads, less an ordinary weight, in mg/W. It is 0 for a sphere with
-    /// horizontal contacts only.
+    /// The weight of some spheres and their loads, less an ordinary weight, in mg/W, where W is the sum of the three
+    /// increments. The value is 0 for a sphere with horizontal contacts only.
     pub(super) extra_weights: BTreeMap<Site, T::Numerator>,
     scale: T::Numerator,
     /// Whether a sign change triples the denominator. It does if the ring of numerators does not contain 1/3.
@@ -103,12 +103,12 @@ impl<'p, T: Algebra> Lines<'p, T> {
         lines
     }
 
-    /// Returns the denominator of forces after some sign changes.
+    /// Returns the denominator of forces after `changes` sign changes.
     pub(crate) fn scale(&self, changes: usize) -> T::Numerator {
         self.scaled(self.scale.clone(), changes)
     }
 
-    /// Converts a numerator from the first denominator to the one after some sign changes.
+    /// Converts a numerator from the denominator before any sign change to the one after `changes` sign changes.
     pub(super) fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
         if self.triples && changes > 0 {
             numerator * &pow(T::Numerator::from_i128(3), changes)
@@ -122,7 +122,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         self.scaled(numerator, to.saturating_sub(from))
     }
 
-    /// Returns the weight of a sphere and its load, in mg/W, over the denominator after some sign changes.
+    /// Returns the weight of a sphere and its load, in mg/W, over the denominator after `changes` sign changes.
     pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
         let ordinary = self.ordinary_weight(changes);
         match self.extra_weights.get(&site) {
@@ -131,17 +131,18 @@ impl<'p, T: Algebra> Lines<'p, T> {
         }
     }
 
-    /// Returns the weight of an ordinary sphere, in mg/W, over the denominator after some sign changes.
+    /// Returns the weight of an ordinary sphere, in mg/W, over the denominator after `changes` sign changes.
     pub(crate) fn ordinary_weight(&self, changes: usize) -> T::Numerator {
         self.scaled(formula::weight(&self.ordinary), changes)
     }
 
-    /// Returns the sum of `n` increments of ordinary spheres on a line of a direction, over the first denominator.
+    /// Returns the sum of the increments of `n` ordinary spheres, over the denominator before any sign change. `line`
+    /// is the index of the direction.
     pub(crate) fn ordinary(&self, n: T::Numerator, line: usize) -> T::Numerator {
         force(n, &self.ordinary[line])
     }
 
-    /// Returns the increments of an ordinary sphere, over the denominator after some sign changes.
+    /// Returns the increments of an ordinary sphere, over the denominator after `changes` sign changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
         let ordinary = self.ordinary.each_ref();
         ordinary.map(|w| self.scaled(w.clone(), changes))
@@ -202,7 +203,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     }
 
     /// Returns the forces that a sphere transmits, from the forces that it receives. At a sign change the caller has
-    /// turned them.
+    /// already applied the half-turn to these.
     pub(crate) fn with_own(
         &self,
         site: Site,

@@ -1,9 +1,10 @@
-//! Counters of the work for an answer.
+//! Counters of the work of queries.
 
 use core::fmt;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-/// Counts the work of answers: spheres visited, sign changes crossed, passes of a sweep, rows answered.
+/// Counts the work of queries: spheres visited, spheres whose forces cross a sign change, passes of a sweep, rows
+/// returned.
 ///
 /// The counts are of type `usize` internally. A count stops at the maximum of this type.
 ///
@@ -17,7 +18,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 /// let pile = Pile::under(Region::SITE, "++-+".parse()?)?;
 /// let forces = pile.forces::<f64>().with_counters(&counters);
 /// assert_eq!(forces.base(Selection::Base)?.count(), 18);
-/// // Two sign changes, in layers of 6 and 12 spheres, and then the 18 of the base.
+/// // The forces are turned on 6 and 12 spheres at the two sign changes. The 18 spheres of the base are visited.
 /// assert_eq!(counters.to_string(), "18 visited, 18 turned, 3 passes, 18 rows");
 ///
 /// // One force of a straight pile visits one sphere, whatever the height.
@@ -54,7 +55,7 @@ impl Counters {
         count(&self.passes)
     }
 
-    /// Returns the number of rows that iterators returned. The answer to a single question does not count as a row.
+    /// Returns the number of rows that iterators returned. A query for a single force does not count as a row.
     #[must_use]
     pub fn rows(&self) -> u64 {
         count(&self.rows)
@@ -87,7 +88,7 @@ impl<'c> Meter<'c> {
         Self(Some(counters))
     }
 
-    /// Returns whether counters are present. Some counts take time to compute.
+    /// Returns whether counters are present. Engines compute expensive counts only if so.
     pub(crate) const fn counts(self) -> bool {
         self.0.is_some()
     }
@@ -107,7 +108,7 @@ impl<'c> Meter<'c> {
         self.add(|counters| &counters.passes, 1);
     }
 
-    /// Counts rows that were answered.
+    /// Counts rows that iterators returned.
     pub(crate) fn answer(self, rows: usize) {
         self.add(|counters| &counters.rows, rows);
     }

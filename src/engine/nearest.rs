@@ -1,11 +1,12 @@
 //! Correctly rounded floats of sums of line forces, straight from the limbs.
 //!
 //! A force is an integer n over a denominator, times c·√r: in short n·v with v = c·√r/denominator. An exact evaluation
-//! needs a long integer, a gcd and a root for each force. Here a screen decides almost all of them:
+//! needs a long integer, a gcd and a root for each force. Here a screen, a floating-point filter, rounds almost all
+//! forces:
 //!
 //! 1. v is enclosed once, in a double-double.
 //! 2. The leading bits of n are read from its top limbs, and the remainder is bounded.
-//! 3. If both ends of the product round to the same float, the exact value rounds to it as well.
+//! 3. The product of both enclosures is an interval. If its ends round to the same float, so does the exact value.
 //!
 //! Otherwise the exact [`Surd`] decides. This happens once in some hundreds of forces, or at a tie.
 
@@ -61,7 +62,7 @@ impl Unit {
         let decided = if below == 0 {
             n.to_i128().and_then(|n| self.decide(n, 0, 0.0))
         } else {
-            // n is rounded down, and the bits shifted out amount to less than one.
+            // n is rounded down, and the bits shifted out amount to less than one unit of the leading part.
             let (leading, exponent) = ((n >> below).to_i128()?, i64::try_from(below).ok()?);
             self.decide(leading, exponent, 1.0)
         };
@@ -98,7 +99,7 @@ impl Unit {
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
-        reason = "high is correctly rounded, low the exact rest, its rounding within the slack; below 2^127 nothing wraps"
+        reason = "high rounds correctly, the slack covers the rounding of the remainder low, nothing wraps below 2^127"
     )]
     fn decide<F: CorrectlyRounded>(&self, n: i128, exponent: i64, remainder: f64) -> Option<F> {
         // With u = 2^−53, the errors of both sums and of the product are 3u² + 7u² + 2^−104, less than 2^−101.
@@ -127,7 +128,7 @@ impl Factor {
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
-        reason = "high is correctly rounded, low the exact rest, rounded by 2^−107 of it all at most; of 108 bits nothing wraps"
+        reason = "high rounds correctly, the remainder low rounds by at most 2^−107 of the root, 108 bits do not wrap"
     )]
     fn new(surd: &Surd, denominator: &BigInt) -> Option<Self> {
         // The root of 2^(2s)·(c²r/d²) has 106 to 108 bits. Rounded down, its relative error is below 2^−105.
@@ -166,7 +167,7 @@ impl Readout {
     /// `top_down` holds the limbs of their lines, by direction, the top limbs first.
     ///
     /// # Errors
-    /// [`Error::Bug`] if the own weight exceeds the limbs.
+    /// [`Error::Bug`] if an entry of `own` does not fit in the limbs.
     pub(crate) fn write<F: CorrectlyRounded>(
         &self,
         units: &[Unit; 3],
@@ -208,7 +209,7 @@ impl Readout {
     }
 }
 
-/// Returns Σ limb(p)·2^(55p) units, correctly rounded. Reads as few limbs as it needs, from the top.
+/// Returns Σ limb(place, p)·2^(55p) units, correctly rounded. Reads as few limbs as it needs, from the top.
 fn nearest_of<F: CorrectlyRounded>(
     limb: &impl Fn(usize, usize) -> i128,
     place: usize,
@@ -216,7 +217,8 @@ fn nearest_of<F: CorrectlyRounded>(
     remainder: f64,
     unit: &Unit,
 ) -> Option<F> {
-    // Shifted by the 55 bits of a limb, and with a further limb below 5·2^63, the sum stays below 2^126.
+    // A sum below 2^70 stays below 2^126 after a shift by the 55 bits of a limb and the addition of a limb below
+    // 5·2^63.
     const ENOUGH: u128 = 1 << 70;
     let (mut leading, mut left) = (0_i128, planes);
     while left > 0 && leading.unsigned_abs() < ENOUGH {
@@ -266,7 +268,8 @@ mod tests {
         unit.surd.scaled(&multiple).nearest()
     }
 
-    /// Compares all lines of all layers as floats, from limbs and from exact numbers, before and after a half-turn.
+    /// Compares the floats from limbs with those from exact numbers, on all lines below the top layer, before and after
+    /// a half-turn.
     fn compare<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(pile: &Pile) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         let lines = Lines::<BigRational>::new(&system);
@@ -321,7 +324,7 @@ mod tests {
         }
     }
 
-    /// Reads out a single integer in limbs.
+    /// Returns `n` units as a float, rounded by [`Readout::write`] from the limbs of `n`.
     fn read<F: CorrectlyRounded>(unit: &Unit, n: &BigInt) -> Option<F> {
         let limbs = limbs(n, 26).unwrap();
         let top_down: Vec<[&[i64]; 3]> = limbs
@@ -341,7 +344,7 @@ mod tests {
         defined.then(|| out[0][0])
     }
 
-    /// Ties and their neighbours, which no enclosure decides, and the ends of the range of floats.
+    /// Tests ties and their neighbours, which no enclosure decides, and the ends of the range of floats.
     #[test]
     fn the_exact_number_decides_where_the_screen_cannot() {
         let mut met = 0;
@@ -368,7 +371,7 @@ mod tests {
     /// limbs may be below a tie while the number is above it.
     #[test]
     fn deferred_carries_are_bounded_in_full() {
-        // Nearly 2^7.5, where the factor is close to its maximum 1/√2.
+        // This is nearly 2^7.5. For integers the largest factor is 1/√2, and here the factor is close to it.
         let great = BigRational::from(BigInt::from(181));
         let unit = Unit::new(great.into(), 1.into());
         let units = [(); 3].map(|()| unit.clone());
@@ -383,7 +386,8 @@ mod tests {
         let below = |tie| (0..1_320).step_by(15).map(move |below| (tie, below));
         let cases = ties.flat_map(below);
         for ((tie, below), sign) in cases.flat_map(|case| [(case, 1), (case, -1)]) {
-            // The upper limbs of β count twice, with five lower limbs.
+            // The upper limbs are those of β, which counts twice. The lower limbs of the three lines add up to five
+            // times `i64::MAX`.
             let upper = limbs(&((tie - below) / 2 * i128::from(sign)).into(), 2).unwrap();
             let least = [-sign, sign, sign].map(|sign| sign * i64::MAX);
             let top_down = [[0, upper[1], 0], [0, upper[0], 0], least];
@@ -425,7 +429,7 @@ mod tests {
         assert_eq!(met, 312);
     }
 
-    /// Ties of one limb and of several, zero with a negative unit, and the ends of the range of integers.
+    /// Tests ties of one limb and of several, zero with a negative unit, and the ends of the range of `i128`.
     #[test]
     fn ties_zeros_and_ends_agree_with_the_exact_number() {
         let units = units(&BigInt::from(1));
@@ -472,7 +476,7 @@ mod tests {
         }
     }
 
-    /// Numbers below a tie of `f32`, by less than the remainder: the leading limbs alone lie above the tie.
+    /// Each number lies below a tie of `f32`, by less than the remainder. The leading limbs alone lie above the tie.
     #[test]
     fn numbers_just_below_a_tie_are_rounded_down() {
         let surd = |c: (i32, i32), r: (i32, i32)| {

@@ -1,4 +1,4 @@
-//! Work in parallel, with the feature `rayon`. Without it the same functions work one item after the other.
+//! Parallel work with the feature `rayon`. Without the feature, the same functions process one item after the other.
 //!
 //! The engines use it for bands of rows of a sweep, for rows that are written into slices, and for halves of a table.
 
@@ -23,7 +23,8 @@ pub fn threads() -> usize {
 /// Returns the first row of the second half of the work, and the number of spheres before it. Returns `None` if no row
 /// is left for the second half.
 ///
-/// The first half belongs to `threads / 2` of the threads. Its rows hold their share of the spheres, or just more.
+/// The first half is for `threads / 2` of the `threads` threads. It has the fewest rows that contain this share of the
+/// spheres.
 pub(crate) fn cut(
     mut rows: Range<i128>,
     threads: i128,

@@ -38,7 +38,7 @@ impl Keeping {
     }
 }
 
-/// The method for a part of a pile, and its cost.
+/// The method that computes a quantity for a part of a pile, and its cost.
 ///
 /// # Examples
 /// ```
@@ -51,7 +51,7 @@ impl Keeping {
 /// assert_eq!(plan.method, Method::Sweep);
 /// assert_eq!(plan.to_string(), "sweep: 5 runs, 81 numbers of 1 x 64 bits");
 ///
-/// // A base of 3·10³⁰ rows is streamed, row by row.
+/// // A base of more than 10³⁰ rows is computed row by row, with a tree for each piece of a row.
 /// let high = Pile::under(Region::SITE, format!("(2,1,{})", 10_i128.pow(30)).parse()?)?;
 /// assert_eq!(high.plan(Selection::Base)?.method, Method::Tree);
 /// # Ok::<(), cannonpile::Error>(())
@@ -61,7 +61,7 @@ impl Keeping {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Plan {
-    /// The method by which the forces are found.
+    /// The method that computes the forces.
     pub method: Method,
     /// The number of runs above the lowest layer of the question. A sweep makes a pass for each run, and a tree has a
     /// level for each.
@@ -116,7 +116,7 @@ impl fmt::Display for Plan {
 
 /// Returns whether the trees with `above` spheres cost less than a sweep over `sweep` spheres.
 pub(crate) fn trees_are_cheaper(above: &BigUint, sweep: &BigUint) -> bool {
-    /// The cost of the tree of one sphere, as a number of spheres of a sweep.
+    /// The cost of one sphere of a tree, as a number of spheres of a sweep.
     const COST_OF_A_TREE: u32 = 16;
     above * COST_OF_A_TREE < *sweep
 }
@@ -171,7 +171,6 @@ impl System<'_> {
     /// Returns the method and its cost for a question about the spheres in `rows`, with numbers in the given
     /// representation.
     ///
-    ///
     /// # Errors
     /// [`Error::NoSuchMethod`], [`Error::NotOnFloor`], [`Error::TooLarge`].
     pub(crate) fn plan(
@@ -218,10 +217,10 @@ impl System<'_> {
             Some(Method::Tree) => self.plan_trees(&mut plan, rows)?,
             Some(Method::Sweep) => self.plan_sweep(&mut plan, rows, keeping)?,
             None if rows.one().is_some() => {
-                // A single sphere falls back to a sweep if its tree is too large.
+                // A query for a single sphere falls back to a sweep if the tree is too large.
                 if let Err(too_large) = self.plan_trees(&mut plan, rows) {
                     let growing = match keeping {
-                        // This sweep uses big integers, whose digits are stored elsewhere.
+                        // This sweep uses big integers, whose digits are stored on the heap.
                         Keeping::Limbs => {
                             let digits = self.size_of_sweep(last).planes;
                             Keeping::Words(digits + size_of::<BigInt>().div_ceil(size_of::<i64>()))
@@ -234,7 +233,7 @@ impl System<'_> {
             }
             None => {
                 let swept = self.plan_sweep(&mut plan, rows, keeping);
-                // An answer that does not fit in memory is streamed by rows.
+                // If the sweep does not fit in memory, the rows are computed one by one.
                 swept.or_else(|_| self.plan_trees(&mut plan, rows))?;
             }
         }
@@ -261,7 +260,8 @@ impl System<'_> {
             pieces = BigUint::from(layers) * (height.unsigned_abs() + 1);
             pieces += &sites / CHUNK.unsigned_abs();
         }
-        // At a sign change, each sphere below needs at most three, and the layer limits their number.
+        // Each sphere below a sign change depends on at most three spheres at it, and the size of that layer limits
+        // their number.
         let most = BigUint::from(MAX_NODES);
         let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());
         let mut above = BigUint::zero();
@@ -273,7 +273,7 @@ impl System<'_> {
             run = run.filter(|run| run.index > 0);
         }
         if above > most {
-            // This bound may be too large, so the trees are counted. None of them may exceed `most`.
+            // This bound is not sharp, so the nodes of the trees are counted. No tree may have more than `most`.
             match rows.one() {
                 Some(Site { i, j, k }) => check_tree(self.shape, k, &[[i, j]])?,
                 None => self.sample_trees(last)?,
@@ -294,7 +294,7 @@ impl System<'_> {
         pieces.try_for_each(|piece| check_tree(self.shape, k, &piece))
     }
 
-    /// Plans one sweep, down to the last layer.
+    /// Plans one sweep, down to the last layer of `rows`.
     fn plan_sweep(&self, plan: &mut Plan, rows: &Rows<'_>, keeping: Keeping) -> Result<(), Error> {
         let (last, shape) = (last_of(rows), self.shape);
         let size = self.size_of_sweep(last);
@@ -320,7 +320,8 @@ impl System<'_> {
     }
 }
 
-/// Returns four pieces of rows, each for one tree: at the middle of the rows, and at the mean of the corners.
+/// Returns four pieces of rows, each for one tree. They lie in the middle row and in the row of the mean corner, at the
+/// middle of the row and at the mean corner.
 fn samples(region: &Region) -> impl Iterator<Item = Vec<[i128; 2]>> + use<> {
     let corners = region.corners();
     let mean = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<i128>() / 6;

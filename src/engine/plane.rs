@@ -31,7 +31,7 @@ impl<V: Clone + PartialEq> Ramps<V> {
         Self([alpha, beta, gamma])
     }
 
-    /// Returns the ramps of one part of each number, or `None` if a number does not have this part.
+    /// Applies `part` to each value. Returns `None` if `part` does so for a value.
     pub(super) fn try_map<U>(&self, part: impl Fn(&V) -> Option<U>) -> Option<Ramps<U>> {
         let of_line = |ramp: &Vec<V>| ramp.iter().map(&part).collect::<Option<Vec<U>>>();
         let [a, b, c] = self.0.each_ref().map(of_line);
@@ -50,8 +50,8 @@ impl<V: Clone> Plane<V> {
         ))
     }
 
-    /// Moves the numbers to the cells of the next window. Each direction is copied into the buffer `other`, which is
-    /// then swapped with it.
+    /// Moves the numbers to the cells of the next window. The numbers of each direction are copied into the buffer
+    /// `other`, which then replaces their old storage.
     pub(super) fn move_to(&mut self, other: &mut Vec<V>, next: &Grid<'_>, moves: &Moves, zero: &V) {
         let images = moves.images.iter();
         let images: Vec<_> = images
@@ -59,8 +59,8 @@ impl<V: Clone> Plane<V> {
             .collect();
         for (line, numbers) in self.0.iter_mut().enumerate() {
             other.clear();
-            // The reserve leaves room for later windows. A buffer that grows slightly each time leaves gaps too small
-            // for reuse.
+            // `reserve` allocates extra room for later windows. A buffer that grew slightly each time would leave holes
+            // in the heap that are too small for reuse.
             other.reserve(next.cells);
             other.resize(next.cells, zero.clone());
             for Piece { from, to, length } in moves.rows.iter().filter(|row| row.to.0 == line) {

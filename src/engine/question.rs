@@ -41,7 +41,7 @@ named!(
     "a method: closed, tree or sweep"
 );
 
-/// A quantity that a question requests of each sphere.
+/// A quantity that a question requests for each sphere.
 ///
 /// # Examples
 /// ```
@@ -144,8 +144,8 @@ named!(
 
 /// A question: the spheres, the quantity, and optionally the method.
 ///
-/// A [`Selection`] alone converts to a question for multiples: on the floor for the base, and of the contacts for any
-/// other part.
+/// A [`Selection`] alone converts to a question for forces in pile units: those on the floor for the base, and contact
+/// forces for any other part.
 ///
 /// # Examples
 /// ```
@@ -162,7 +162,7 @@ named!(
 pub struct Question {
     /// The spheres.
     pub part: Selection,
-    /// The quantity requested of them.
+    /// The quantity requested for each sphere.
     pub quantity: Quantity,
     /// The method, or `None` for the cheapest one.
     pub method: Option<Method>,

@@ -41,7 +41,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     ) -> Result<Self, Error> {
         Ok(match plan.method {
             Method::Tree if rows.one().is_none() => Self::Tree,
-            // Each sphere tries this method, and a tree where *closed* does not apply.
+            // Each sphere uses this method, or a tree if *closed* does not apply to the sphere.
             method @ (Method::Closed | Method::Tree) => Self::Single(Some(method)),
             Method::Sweep => Self::Sweep(Box::new(sweep(last_of(rows))?)),
         })
@@ -61,7 +61,6 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
 
     /// Advances a sweep to layer `k`. Other methods do nothing.
     ///
-    ///
     /// # Errors
     /// [`Error::Bug`], [`Error::Interrupted`].
     pub(crate) fn go_down_to(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
@@ -71,7 +70,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         }
     }
 
-    /// Returns the forces from above on each sphere of a piece of a row. A sweep must be at its layer.
+    /// Returns the forces from above on each sphere of a piece of a row. A sweep must be at the layer of the row.
     pub(crate) fn received_in(
         &self,
         pile: (&Lines<'p, T>, &System<'p>),
@@ -97,7 +96,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     }
 
     /// Returns the forces that each sphere of a piece of a row transmits. The row is above the floor, and a sweep must
-    /// be at its layer.
+    /// be at the layer of the row.
     pub(crate) fn transmitted_in(
         &self,
         pile: (&Lines<'p, T>, &System<'p>),
@@ -121,7 +120,6 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
 impl<'p, T: Algebra> Engine<'p, T, Cells<T::Numerator>> {
     /// Returns the engine that a plan has chosen, in the numerators of the scalar.
     ///
-    ///
     /// # Errors
     /// [`Error::TooLarge`] if it does not fit in memory.
     pub(crate) fn plain(
@@ -136,7 +134,6 @@ impl<'p, T: Algebra> Engine<'p, T, Cells<T::Numerator>> {
 impl<'p> Engine<'p, BigRational, Planes> {
     /// Returns the engine that a plan has chosen. A sweep works in limbs.
     ///
-    ///
     /// # Errors
     /// [`Error::TooLarge`] if it does not fit in memory.
     pub(crate) fn exact(
@@ -149,7 +146,6 @@ impl<'p> Engine<'p, BigRational, Planes> {
 }
 
 /// Returns a sweep in limbs down to layer `last`. It starts at the top.
-///
 ///
 /// # Errors
 /// [`Error::TooLarge`] if a layer does not fit in memory.
@@ -167,7 +163,7 @@ pub(crate) fn exact_sweep<'p>(
 /// Returns the forces from above on consecutive spheres of a row, with one tree for each piece of it.
 ///
 /// # Errors
-/// [`Error::TooLarge`] if they are too far below too many sign changes.
+/// [`Error::TooLarge`] if a tree has too many nodes.
 fn received_in<T: Algebra>(
     lines: &Lines<'_, T>,
     row: &Row,
@@ -184,8 +180,8 @@ fn received_in<T: Algebra>(
     Ok(received)
 }
 
-/// Returns the same sweep. If the pile has threefold symmetry, it stores a third of each layer.
-///
+/// Returns a sweep in limbs down to layer `last`. It stores a third of each layer if the pile has threefold symmetry,
+/// and whole layers otherwise.
 ///
 /// # Errors
 /// As for [`exact_sweep`].

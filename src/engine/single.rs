@@ -16,10 +16,10 @@ use crate::lattice::Site;
 use crate::pile::System;
 use crate::scalar::{Algebra, Exactness};
 
-/// Returns the forces from above on a sphere of the pile, and zero on lines that are not wanted.
+/// Returns the forces from above on a sphere of the pile, and zero on lines outside `wanted`.
 ///
 /// # Errors
-/// [`Error::TooLarge`] if the sphere is too far below too many sign changes.
+/// [`Error::TooLarge`] if the method does not fit in memory.
 pub(crate) fn received<T: Algebra>(
     (lines, system): (&Lines<'_, T>, &System<'_>),
     (site, wanted): (Site, Wanted),
@@ -47,11 +47,11 @@ pub(crate) fn received<T: Algebra>(
     if method.is_some() {
         return by_tree();
     }
-    // A tree that is too large for its sign changes may still have few enough spheres for a sweep.
+    // If many sign changes make the tree too large, the layers may still be small enough for a sweep.
     unless_too_large(by_tree, || by_sweep(lines, system, site, meter))
 }
 
-/// Returns the forces from above on spheres of one layer, by the tree.
+/// Returns the forces from above on spheres of one layer, by one tree.
 pub(super) fn by_tree<T: Algebra>(
     lines: &Lines<'_, T>,
     k: i128,
@@ -80,7 +80,6 @@ fn by_sweep<T: Algebra>(
 
 /// Returns a sweep down to layer `last` in the numerators of the scalar. It starts at the top.
 ///
-///
 /// # Errors
 /// [`Error::TooLarge`] if a layer does not fit in memory.
 pub(crate) fn plain_sweep<'p, T: Algebra>(
@@ -93,7 +92,7 @@ pub(crate) fn plain_sweep<'p, T: Algebra>(
         Keeping::Limbs => size_of::<T::Numerator>().div_ceil(size_of::<i64>()),
     };
     if T::EXACTNESS == Exactness::Exact {
-        // The digits of a big integer are stored elsewhere.
+        // The digits of a big integer are stored on the heap.
         words += system.size_of_sweep(last).planes;
     }
     let grid = Grid::new(lines.shape, last, words)?;

@@ -1,4 +1,4 @@
-//! Rows of a layer, written one after the other into slices, in parallel.
+//! Writes the rows of a layer into slices, in row order, with several threads for large layers.
 
 use core::ops::Range;
 
@@ -8,10 +8,10 @@ use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Region, Row};
 
-/// The least number of spheres that justifies a thread.
+/// The smallest number of spheres that justifies a thread.
 const WORTH_A_THREAD: usize = 1 << 12;
 
-const LENGTH_INVARIANT: &str = "slices are as long as the layer has spheres";
+const LENGTH_INVARIANT: &str = "slices have one entry for each sphere of the layer";
 
 /// Splits the first `n` elements off each slice.
 ///
@@ -23,7 +23,7 @@ pub(crate) fn split_front<'a, V>(
 ) -> Result<[&'a mut [V]; 3], Error> {
     match rest.each_mut().map(|rest| rest.split_off_mut(..n)) {
         [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
-        _ => Err(bug("slices are as long as was checked")),
+        _ => Err(bug("slices have the length that was checked")),
     }
 }
 
@@ -31,7 +31,7 @@ pub(crate) fn split_front<'a, V>(
 /// if there are threads.
 ///
 /// # Errors
-/// Those of `write`, and [`Error::Bug`] for slices of another length.
+/// The errors of `write`, and [`Error::Bug`] for slices of another length.
 pub(crate) fn fill_rows<V: Send>(
     layer: &Region,
     k: i128,
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(debug_assertions, should_panic(expected = "slices are as long"))]
+    #[cfg_attr(debug_assertions, should_panic(expected = "slices have one entry"))]
     fn slices_longer_than_the_layer_are_a_bug() {
         let layer = Region::triangle(9).unwrap();
         let mut numbers = [(); 3].map(|()| alloc::vec![0; 46]);

@@ -5,17 +5,19 @@
 //!
 //! 1. At a sign change, each sphere replaces its three forces g by G g, with G = (2/3)J − I.
 //! 2. Each sphere adds its own weight, one increment to each line.
-//! 3. Each line continues to the sphere below. This permutes the state, and a [`Grid`] makes it free.
+//! 3. Each line continues to the sphere below. This permutes the state. The layout of a [`Grid`] makes the permutation
+//!    free.
 //!
-//! For example, let one sphere lie on "+−". It transmits (1, 0, 0), (0, 1, 0) and (0, 0, 1) to its three supports. The
-//! sign changes there, so the first of them transmits G(1, 0, 0) + (1, 1, 1) = (2/3, 5/3, 5/3), in f₀.
+//! For example, let the stacking "+−" begin with one sphere. This sphere transmits (1, 0, 0), (0, 1, 0) and (0, 0, 1)
+//! to its three supports. The sign changes there, so the first of them transmits G(1, 0, 0) + (1, 1, 1) = (2/3, 5/3,
+//! 5/3), in f₀.
 //!
-//! Between two sign changes the second step is all that remains. So a whole run is one *pass*: it adds to each line the
+//! Between two sign changes only the second step remains. So a whole run is one *pass*: it adds to each line the
 //! increments of all spheres of the run that lie on it.
 //!
 //! The step is the same for every type of number. A [`Cells`] of the numerators of a scalar gives the generic sweep.
-//! [`Planes`] of `i64`, one for each limb, give the exact engine. All memory is for one layer, and no call is
-//! recursive.
+//! [`Planes`] of `i64`, one for each limb, give the exact engine. The memory is that of one layer, and no call recurses
+//! over layers.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -68,18 +70,16 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
 
     /// Returns the stored spheres of the current layer: all of them, or a third whose images are the rest.
     ///
-    ///
     /// # Errors
     /// [`Error::Bug`].
     pub(crate) fn part(&self) -> Result<Region, Error> {
         self.grid.part(self.k)
     }
 
-    /// Advances to layer `k`. Does nothing if the sweep is there already, or further down.
-    ///
+    /// Advances to layer `k`. Does nothing if the sweep is already at this layer or below.
     ///
     /// # Errors
-    /// [`Error::Bug`].
+    /// [`Error::Bug`], [`Error::Interrupted`].
     pub(crate) fn advance(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
         while k > self.k {
             check_interrupt()?;
@@ -107,7 +107,6 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     }
 
     /// Adds the extra weights and loads of the current layer to its lines.
-    ///
     ///
     /// # Errors
     /// [`Error::Bug`].
@@ -137,11 +136,11 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     /// [`Error::Bug`] if the sphere belongs to another layer.
     pub(crate) fn received(&self, site: Site) -> Result<Received<T>, Error> {
         if site.k != self.k {
-            return Err(bug("a sweep is asked of the layer that it is at"));
+            return Err(bug("a sweep is queried only at its current layer"));
         }
         let ([i, j], turns) = self.grid.kept([site.i, site.j], site.k)?;
         let mut forces = self.layer.at(self.grid.site(i, j, site.k)?);
-        // The rotation maps each direction to the one whose line carries its force.
+        // After the rotations, the force along each direction is on the line of the rotated direction.
         forces.rotate_left(turned(0, turns));
         Ok(Received {
             forces,
@@ -203,7 +202,7 @@ impl Descent<'_, BigRational, Planes> {
     ) -> Result<bool, Error> {
         let kept = self.part()?.row_within(row.j);
         if row.k != self.k || row.i.start < kept.start || row.i.end > kept.end {
-            return Err(bug("a sweep is asked of rows that it keeps"));
+            return Err(bug("a sweep is queried only for rows that it stores"));
         }
         let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k))?;
         readout.write(units, &self.layer.slices(&cells), out)
@@ -248,7 +247,7 @@ mod tests {
         Pile::under(Region::SITE, "+-+-+-".parse().unwrap()).unwrap()
     }
 
-    /// Writes a row when the sweep is at layer 4.
+    /// Writes a row with a sweep that is at layer 4.
     fn write(row: &Row) -> Result<bool, Error> {
         let pile = pile();
         let system = pile.system();
@@ -279,7 +278,7 @@ mod tests {
         }
     }
 
-    /// Returns the second row of layer 4 as a row of layer `k`, extended by so many sites at either end.
+    /// Returns the second row of layer 4 as a row of layer `k`, extended by `before` and `behind` sites at its ends.
     fn row(k: i128, [before, behind]: [i128; 2]) -> Row {
         let layer = pile().shape().layer(4).unwrap();
         let Row { j, i, .. } = layer.rows(4).nth(1).unwrap();
@@ -293,19 +292,19 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it stores"))]
     fn a_row_of_another_layer_is_a_bug() {
         assert!(matches!(write(&row(3, [0, 0])), Err(Error::Bug { .. })));
     }
 
     #[test]
-    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it stores"))]
     fn a_row_that_begins_too_soon_is_a_bug() {
         assert!(matches!(write(&row(4, [1, 0])), Err(Error::Bug { .. })));
     }
 
     #[test]
-    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it stores"))]
     fn a_row_that_ends_too_late_is_a_bug() {
         assert!(matches!(write(&row(4, [0, 1])), Err(Error::Bug { .. })));
     }

@@ -14,8 +14,8 @@
 //! γ, j+1        2  2  2    one entry
 //! ```
 //!
-//! Under any other top each direction rises, is level, and falls along a row. A row needs no other row and no memory of
-//! its own. So two halves of the layers are filled in parallel.
+//! Under any other top, the force in each direction rises, is level, and falls along a row. A row needs no other row
+//! and no memory of its own. So two halves of the layers are filled in parallel.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -40,7 +40,8 @@ pub(crate) struct Table<V> {
     shape: Shape,
 }
 
-/// The maximum number of increments in a table. The contacts of so many layers fill 10¹⁹ bytes.
+/// The maximum number of increments in a table. In a pile of so many layers under one sphere, the contact forces fill
+/// 4·10¹⁸ bytes as `f64`.
 const MOST: i128 = 1_000_000;
 
 impl<V> Table<V> {
@@ -48,7 +49,6 @@ impl<V> Table<V> {
     ///
     /// Returns `None` for piles with sign changes or loads, for weights other than mg, for discs, and for more than a
     /// million increments.
-    ///
     ///
     /// # Errors
     /// Those of `value`.
@@ -75,8 +75,7 @@ impl<V> Table<V> {
 }
 
 impl<V> Table<V> {
-    /// Returns the table of a function of these values.
-    ///
+    /// Returns the table with `value` applied to each entry.
     ///
     /// # Errors
     /// Those of `value`.
@@ -94,12 +93,12 @@ impl<V> Table<V> {
     }
 }
 
-/// The least number of spheres that justifies a thread.
+/// The smallest number of spheres that justifies a thread.
 const WORTH_A_THREAD: u32 = 1 << 15;
 
 impl<V: Clone + Send + Sync> Table<V> {
-    /// Writes the forces below layers above the floor, one layer after the other, into slices with one entry for each
-    /// sphere. Treats two halves in parallel if there are threads.
+    /// Writes the contact forces below the spheres of `layers` into slices with one entry for each sphere, layer after
+    /// layer. The layers must be above the floor. Halves are written in parallel if there are threads.
     pub(crate) fn fill(&self, layers: Range<i128>, slices: [&mut [V]; 3]) -> Result<(), Error> {
         let Some((upper, lower)) = self.halves(&layers) else {
             let mut rest = slices;
@@ -115,14 +114,15 @@ impl<V: Clone + Send + Sync> Table<V> {
         first.and(second)
     }
 
-    /// Returns two parts of some layers with similar numbers of spheres, or `None` if a second thread would not pay.
+    /// Splits some layers into two parts with similar numbers of spheres. Returns `None` if a second thread would not
+    /// save time.
     fn halves(&self, layers: &Range<i128>) -> Option<(Range<i128>, Range<i128>)> {
         let spheres = self.shape.spheres_in(layers.clone());
         if !parallel::HAS_THREADS || spheres < BigUint::from(2 * WORTH_A_THREAD) {
             return None;
         }
-        // The number of spheres in a layer grows like a square, so half of the spheres lie above 0.8 of the height, or
-        // less.
+        // Under one sphere, the number of spheres grows with the cube of the depth, so half of them lie in the upper
+        // 0.8 of the height. Under a larger top this part is smaller.
         let mut inside = layers.start + 1..layers.end;
         let middle = inside.find(|k| self.shape.spheres_in(layers.start..*k) * 2_u32 >= spheres)?;
         Some((layers.start..middle, middle..layers.end))
@@ -143,8 +143,8 @@ impl<V: Clone + Send + Sync> Table<V> {
         Ok(())
     }
 
-    /// Writes the forces below consecutive spheres of a row of any straight pile. On the floor they are the forces to a
-    /// further layer.
+    /// Writes the forces below consecutive spheres of a row of any straight pile. For spheres on the floor, these are
+    /// the forces that they would transmit to a further layer.
     pub(crate) fn fill_row(&self, row: &Row, slices: [&mut [V]; 3]) -> Result<(), Error> {
         let region = self.shape.layer(row.k)?;
         let shape = &self.shape;
@@ -170,7 +170,7 @@ impl<V: Clone + Send + Sync> Table<V> {
         let (Some(alpha), Some(beta)) = (alpha.get(..n), beta.get(..n)) else {
             return Err(too_short());
         };
-        // One loop serves both. Two loops, or a copy, take 1.5 times as long on rows this short.
+        // One loop fills both slices. Two loops, or a copy, take 1.5 times as long on rows this short.
         let values = alpha.iter().rev().zip(beta);
         for ((a, b), (down, up)) in a.iter_mut().zip(b).zip(values) {
             (*a, *b) = (down.clone(), up.clone());
@@ -185,7 +185,7 @@ fn too_short() -> Error {
     bug("a table has every force of its pile, and slices have the length that was checked")
 }
 
-/// Writes forces that rise along a row, are level, and fall.
+/// Writes a row of forces that rise, are level, and fall.
 fn write<V: Clone>(along: &Along<'_, V>, row: &mut [V]) -> Result<(), Error> {
     let Along { up, level, down } = *along;
     let same = row.len().checked_sub(up.len() + down.len());
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     #[cfg_attr(debug_assertions, should_panic(expected = "a table has every force"))]
-    fn a_force_that_the_table_has_not_is_a_bug() {
+    fn a_force_that_is_not_in_the_table_is_a_bug() {
         let nothing = Along {
             up: &[],
             level: None,
@@ -225,7 +225,7 @@ mod tests {
     /// halved.
     #[cfg(feature = "rayon")]
     #[test]
-    fn halves_have_as_many_spheres_to_a_layer() {
+    fn halves_have_equal_numbers_of_spheres_up_to_one_layer() {
         use crate::lattice::Dimension;
 
         let table = |layers| Table::<i64> {

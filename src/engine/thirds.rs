@@ -27,10 +27,10 @@
 //! (i, j−n). After − steps they come from (i, j), (i+n, j) and (i, j+n). So the stored part of a layer follows from
 //! that of a layer above, if the corner of the latter is lower by one for each + step between them.
 //!
-//! Further up, such parts are larger than a third. So the sweep is divided into *windows* of a few runs. The cells of a
+//! Further up, these parts grow beyond a third. So the sweep is divided into *windows* of a few runs. The cells of a
 //! window are named by its last layer. They cover the stored part of that layer, widened by the distance that lines
-//! move in the window. Below it the next window begins. Its first layer stores more than the last one of the window
-//! above. The additional numbers are copied from their images.
+//! move in the window. The next window begins with the same layer, and stores a larger part of it. The additional
+//! numbers are copied from their images.
 
 use super::grid::{Grid, Moves, Piece, cut};
 use crate::Error;
@@ -56,7 +56,6 @@ pub(crate) fn has_threefold_symmetry(system: &System<'_>) -> bool {
 impl<'p> Grid<'p> {
     /// Returns the first window of a sweep of thirds from the top to layer `end`, with `planes` numbers in each cell.
     ///
-    ///
     /// # Errors
     /// As for [`new`](Self::new).
     pub(crate) fn of_thirds(shape: &'p Shape, end: i128, planes: usize) -> Result<Self, Error> {
@@ -70,7 +69,9 @@ impl<'p> Grid<'p> {
     /// [`Error::Bug`] at the end of the sweep.
     pub(super) fn next_window(&self) -> Result<(Self, Moves), Error> {
         if self.last == self.end {
-            return Err(bug("a sweep is asked of layers that it leads to"));
+            return Err(bug(
+                "a sweep is queried only for layers down to its last one",
+            ));
         }
         let next = Self::window(self.shape, self.end, self.last)?;
         let moves = self.moves_to(&next)?;
@@ -96,7 +97,6 @@ impl<'p> Grid<'p> {
 
     /// Returns the images of a sphere under 0, 1 and 2 rotations, or only the sphere if whole layers are stored.
     ///
-    ///
     /// # Errors
     /// [`Error::LayerOutside`].
     pub(super) fn images(
@@ -114,7 +114,6 @@ impl<'p> Grid<'p> {
 
     /// Returns the stored image of a sphere, and the number of rotations that lead to it.
     ///
-    ///
     /// # Errors
     /// [`Error::Bug`].
     pub(super) fn kept(&self, place: [i128; 2], k: i128) -> Result<([i128; 2], usize), Error> {
@@ -127,8 +126,7 @@ impl<'p> Grid<'p> {
         kept.ok_or_else(|| bug("one of three images is kept"))
     }
 
-    /// Returns the first image of a line of layer `k`, in row order: its row, its position and its direction.
-    ///
+    /// Returns the first image of a line of layer `k` in row order, as (j, i, direction).
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
@@ -184,12 +182,12 @@ impl<'p> Grid<'p> {
     }
 }
 
-/// Returns the direction after some rotations: α becomes γ, γ becomes β, and β becomes α.
+/// Returns the direction after `turns` rotations: α becomes γ, γ becomes β, and β becomes α.
 pub(super) fn turned(line: usize, turns: usize) -> usize {
     (line + 2 * turns) % 3
 }
 
-/// Returns i+j+a for a layer that the rotation maps onto itself.
+/// Returns s = i+j+a for a layer that the rotation maps onto itself.
 fn sum(region: &Region) -> Result<i128, Error> {
     let sum = region.sum_of_turn();
     sum.ok_or_else(|| bug("every layer of a pile is mapped onto itself if its base is"))
@@ -207,8 +205,8 @@ mod tests {
     use crate::engine::rows::{exact_sweep, shortest_exact_sweep};
     use crate::engine::{Cells, Descent, Lines};
 
-    /// Tops with one sphere, with six and with three sides, and away from the origin, and a base. The sign changes
-    /// everywhere, seldom, and irregularly.
+    /// Returns piles under tops of one sphere, with six sides, with three sides, and away from the origin, and one pile
+    /// on a base. The sign changes at every step, seldom, or irregularly.
     fn piles() -> Vec<Pile> {
         let hexagon = Region::hexagon(3, 2).unwrap();
         let elsewhere = Region::new(5..=8, 5..=8, 9..=12).unwrap();
@@ -259,7 +257,8 @@ mod tests {
         }
     }
 
-    /// Some layers at a time and all at once, with several windows, and with a run longer than a window.
+    /// Advances by three layers and by all layers at once, through several windows and through a run longer than a
+    /// window.
     #[test]
     fn thirds_of_a_small_pile_give_the_same_numbers() {
         for (top, stacking) in [
@@ -308,8 +307,8 @@ mod tests {
         }
     }
 
-    /// Returns whether in every window each stored part contains an image of every site, and every sphere that the next
-    /// part receives from. The corners are raised by `higher`.
+    /// Returns whether in every window each stored part contains an image of every site, and every sphere from which
+    /// the next part receives forces. The corners are raised by `higher`.
     fn parts_suffice(pile: &Pile, higher: i128) -> bool {
         let shape = pile.shape();
         let mut grid = Grid::of_thirds(shape, shape.layers() - 1, 1).unwrap();

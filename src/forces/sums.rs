@@ -11,7 +11,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::Forces;
-use super::terms::{Terms, edge, edge_all};
+use super::terms::{Terms, to_scalar, to_scalars};
 use crate::Error;
 use crate::error::refuse_beyond;
 use crate::formula;
@@ -26,8 +26,8 @@ impl Forces<'_, BigRational> {
     /// The cost is linear in the layers of the part, and in the sign changes, loads and special weights of the pile.
     ///
     /// # Errors
-    /// [`Error::LayerOutside`], [`Error::SiteOutside`]; [`Error::TooLarge`] for more than ten million layers, or for
-    /// one sphere too far below too many sign changes.
+    /// [`Error::LayerOutside`], [`Error::SiteOutside`]; [`Error::TooLarge`] for more than ten million layers, or if the
+    /// forces of one sphere need too much memory.
     ///
     /// # Examples
     /// ```
@@ -38,7 +38,7 @@ impl Forces<'_, BigRational> {
     ///
     /// let pile = Pile::under(Region::SITE, "++-".parse()?)?;
     /// let sum = pile.forces::<BigRational>().sum_of_contacts(Selection::All)?;
-    /// // The contacts below a layer sum to 3 f₀ for each sphere down to it: 1, 1 + 3 and 1 + 3 + 6.
+    /// // The forces below a layer sum to 3 f₀ for each sphere in or above the layer: 1, 1 + 3 and 1 + 3 + 6 spheres.
     /// assert_eq!(sum, BigRational::from_integer(45.into()));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -68,22 +68,22 @@ impl Forces<'_, BigRational> {
         let add = |[a, b, c]: &[BigInt; 3], changes| {
             *sums.entry(changes).or_default() += a + b + c;
         };
-        terms.pass_layers_on(layers, add);
+        terms.sum_layers(layers, add);
         let quantity = "a sum of forces";
         let mut total = BigRational::zero();
         for (changes, sum) in sums {
-            total += edge::<BigRational>(quantity, sum, &terms.lines.scale(changes))?;
+            total += to_scalar::<BigRational>(quantity, sum, &terms.lines.scale(changes))?;
         }
         Ok(total)
     }
 
     /// Returns the sums of the forces of a part on the floor: normal in mg, shear_x in mg·tanθ, shear_y in
-    /// 2cosφ·mg·tanθ. The items are those of [`base`](Self::base). Over the whole base, the normal force is the weight
-    /// of the pile with its loads, and the shears are zero.
+    /// 2cosφ·mg·tanθ. The terms are the items of [`base`](Self::base). Over the whole base, the normal force is the
+    /// weight of the pile with its loads, and the shears are zero.
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::NotOnFloor`] for a part outside the base;
-    /// [`Error::TooLarge`] for one sphere too far below too many sign changes.
+    /// [`Error::TooLarge`] if the forces of one sphere need too much memory.
     ///
     /// # Examples
     /// ```
@@ -106,7 +106,7 @@ impl Forces<'_, BigRational> {
         }
         terms.system.check_on_floor(&self.pile.rows(part)?)?;
         let lines = &terms.lines;
-        let (received, changes) = terms.pass_layers_on(floor..floor, |_, _| ());
+        let (received, changes) = terms.sum_layers(floor..floor, |_, _| ());
         let ordinary = lines.ordinary_weight(changes);
         let spheres = BigInt::from(terms.system.shape.layer(floor)?.site_count());
         let extras = lines.extras_in(floor..floor + 1);
@@ -115,18 +115,18 @@ impl Forces<'_, BigRational> {
         let force = formula::support_load(&received, &terms.directions_above(floor), &weight);
         let force = force.scaled(&terms.sum_scale);
         let unit = terms.floor_unit(changes);
-        edge_all("a sum of forces", [force.z, force.x, force.y], &unit)
+        to_scalars("a sum of forces", [force.z, force.x, force.y], &unit)
     }
 }
 
 impl Terms<'_, BigRational> {
-    /// Calls `show` with the total force that each of some layers transmits, by direction, and with the number of sign
-    /// changes. The totals are integers over the scale of that number. Returns the total of the last layer above the
-    /// end of `layers`.
-    fn pass_layers_on(
+    /// Calls `visit` for each of `layers` with the sums of the forces that the layer transmits, by direction, and with
+    /// the number of sign changes above these forces. The sums are integers over the scale of this number. Returns the
+    /// sums for the last layer above the end of `layers`.
+    fn sum_layers(
         &self,
         layers: Range<i128>,
-        mut show: impl FnMut(&[BigInt; 3], usize),
+        mut visit: impl FnMut(&[BigInt; 3], usize),
     ) -> ([BigInt; 3], usize) {
         let mut sums = [(); 3].map(|()| BigInt::zero());
         let mut changes = 0;
@@ -136,11 +136,11 @@ impl Terms<'_, BigRational> {
                 sums = half_turn::<BigRational>(&sums);
                 changes = run.index;
             }
-            let asked = layers.start.max(run.from).min(run.to)..run.to.min(layers.end);
-            sums = self.with_own(sums, &run, run.from..asked.start);
-            for k in asked {
+            let visited = layers.start.max(run.from).min(run.to)..run.to.min(layers.end);
+            sums = self.with_own(sums, &run, run.from..visited.start);
+            for k in visited {
                 sums = self.with_own(sums, &run, k..k + 1);
-                show(&sums, changes);
+                visit(&sums, changes);
             }
         }
         (sums, changes)
