@@ -38,7 +38,7 @@ use crate::scalar::{Algebra, Ring};
 use crate::shape::{Rows, Selection};
 use crate::{Error, Pile};
 
-use terms::{Terms, edge, edge_all, of_direction};
+use terms::{Terms, of_direction, to_scalar, to_scalars};
 use walk::Walk;
 
 /// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
@@ -53,8 +53,8 @@ use walk::Walk;
 /// | any of these in newtons and metres | a [`Packing`](crate::Packing) |
 ///
 /// A plan selects the method ([`Pile::plan`]). In a straight stacking, a closed form gives each force in O(1), whatever
-/// the number of layers. In other stackings, a single force comes from the lines above its sphere. Many forces come
-/// from a layer-by-layer sweep.
+/// the number of layers. In other stackings, a single force is computed along the lines above its sphere, and many
+/// forces by a layer-by-layer sweep.
 ///
 /// Exact scalars give exact results. With rounded scalars, contact forces and normal forces of a straight stacking have
 /// errors of a few units in the last place. Shears, resultants and positions are differences. Their errors are a few
@@ -153,8 +153,8 @@ impl Pile {
         self.system().plan(&rows, quantity, method, Keeping::Limbs)
     }
 
-    /// Returns the number of spheres at sign changes that the force of a contact depends on. They are the nodes of its
-    /// tree.
+    /// Returns the number of spheres at sign changes on which the force of a contact depends. These spheres are the
+    /// nodes of its tree.
     ///
     /// For d sign changes above the contact, the number is at most (3^d − 1)/2. It is also at most the number of
     /// spheres above the contact at these sign changes.
@@ -186,7 +186,7 @@ impl Pile {
 }
 
 impl<'p, T: Algebra> Forces<'p, T> {
-    /// Counts the work of every answer with `counters`.
+    /// Counts the work of every query with `counters`.
     ///
     /// # Examples
     /// ```
@@ -321,6 +321,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// In a straight pile under one sphere, the normal force is mg[1 + ((L−1−j) + 2sj)/(2(1+s))]. On an equilateral
     /// base this is mg(L+2)/3 under every sphere (paper, (13)), and the shear is −mg·tanθ/3·((L−1−3j)/2,
     /// √3/2·(L−1−2i−j)) (paper, (14)).
+    ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NotOnFloor`] for a sphere of another layer; [`Error::Overflow`].
     ///
@@ -343,8 +344,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
         self.terms.floor(site, &self.received(site, Wanted::All)?)
     }
 
-    /// Iterates over the contact forces of a part of the pile in row order, in f₀. Each sphere is listed with its
-    /// contacts below, so spheres on the floor have none.
+    /// Iterates over the contact forces of a part of the pile in row order, in f₀. The contacts of a sphere are those
+    /// with its supports, so a sphere on the floor has none.
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer does not fit in memory and
@@ -415,7 +416,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     ///     layer.fill([alpha, beta, gamma])?;
     ///     total += forces.concat().iter().sum::<f64>();
     /// }
-    /// // The contacts below a layer sum to 3 f₀ for each sphere down to it: 1, 1 + 3 and 1 + 3 + 6.
+    /// // The forces below a layer sum to 3 f₀ for each sphere in or above the layer: 1, 1 + 3 and 1 + 3 + 6 spheres.
     /// assert!((total - 45.0).abs() < 1e-12);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -426,8 +427,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// Returns the force between the sphere at `site` and the one below it along `direction`, in units of f₀ =
     /// mg/(3 cos θ).
     ///
-    /// Positive: compression. Negative: the contact would be tensile, and the pile is unstable. The unit is mg/(2(1+s)
-    /// cos θ) on an isosceles base and mg/(2 cos θ) for discs.
+    /// The force is positive in compression. It is negative if the contact would be tensile, and then the pile is
+    /// unstable. The unit is mg/(2(1+s) cos θ) on an isosceles base and mg/(2 cos θ) for discs.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::OnFloor`] for a sphere of the bottom layer;
@@ -444,7 +445,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn contact(&self, site: Site, direction: Direction) -> Result<T, Error> {
         let (force, changes) = self.contact_numerator(site, direction)?;
-        edge("a contact force", force, &self.terms.lines.scale(changes))
+        to_scalar("a contact force", force, &self.terms.lines.scale(changes))
     }
 
     /// Returns the contact force on the upper sphere as a vector, f·ê, in f₀ and the symbolic basis. The force on the
@@ -493,7 +494,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         let along = self
             .contact_direction_numerators(site, direction)?
             .into_array();
-        let [x, y, z] = edge_all("a direction", along, self.direction_scale())?;
+        let [x, y, z] = to_scalars("a direction", along, self.direction_scale())?;
         Ok(Vector { x, y, z })
     }
 
@@ -570,7 +571,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn direction(&self, direction: Direction) -> Result<Vector<T>, Error> {
         let numerators = of_direction(self.terms.directions.clone(), direction).into_array();
-        let [x, y, z] = edge_all("a direction", numerators, &self.terms.direction_scale)?;
+        let [x, y, z] = to_scalars("a direction", numerators, &self.terms.direction_scale)?;
         Ok(Vector { x, y, z })
     }
 
@@ -619,7 +620,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn position(&self, site: Site) -> Result<Vector<T>, Error> {
         let r = self.position_numerators(site)?.into_array();
-        let [x, y, z] = edge_all("a position", r, self.direction_scale())?;
+        let [x, y, z] = to_scalars("a position", r, self.direction_scale())?;
         Ok(Vector { x, y, z })
     }
 

@@ -67,7 +67,7 @@ impl<T> FloorForce<T> {
 }
 
 impl<T: fmt::Display> fmt::Display for FloorForce<T> {
-    /// Prints `(3,3,9): normal 4, shear (0, 0)`. A sign and a precision apply to the components.
+    /// Prints `(3,3,9): normal 4, shear (0, 0)`. The flag `+` and a precision apply to the components.
     ///
     /// # Examples
     /// ```

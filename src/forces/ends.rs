@@ -15,32 +15,32 @@ use crate::lattice::Site;
 use crate::shape::Selection;
 
 impl Forces<'_, BigRational> {
-    /// Calls `meet` with the forces of some bottom spheres on the floor, as integers (shear_x, shear_y, normal).
+    /// Calls `visit` with the forces of some bottom spheres on the floor, as integers (shear_x, shear_y, normal).
     /// Returns their common denominator. `across` is 4cos²φ.
     ///
     /// The extremes over the base are among these spheres. In a straight pile under one sphere they are the corners. In
     /// other piles they are the spheres between which the forces are linear, if these are far fewer than all. Otherwise
-    /// they are all bottom spheres whose floats do not exclude them.
+    /// they are all bottom spheres that correctly rounded floats do not exclude.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10⁸ spheres.
     pub(crate) fn ends_of_base(
         &self,
         across: &BigRational,
-        mut meet: impl FnMut(&Vector<BigInt>),
+        mut visit: impl FnMut(&Vector<BigInt>),
     ) -> Result<BigInt, Error> {
         const MOST: u64 = 100_000_000;
         let (terms, floor) = (&self.terms, self.floor());
         let (lines, shape) = (&terms.lines, terms.system.shape);
         let changes = shape.changes_above(floor);
-        let mut meet = |site, above: &Received<BigRational>| {
-            meet(&terms.floor_numerators(site, above).0);
+        let mut visit = |site, above: &Received<BigRational>| {
+            visit(&terms.floor_numerators(site, above).0);
         };
         let rows = self.pile.rows(Selection::Base)?;
         let (sites, ends) = (rows.site_count(), lines.most_ends_of_pieces(floor)?);
         if self.pile.is_paper_pile() {
             for corner in rows.corners() {
-                meet(corner, &self.received(corner, Wanted::All)?);
+                visit(corner, &self.received(corner, Wanted::All)?);
             }
             return Ok(terms.floor_unit(changes));
         }
@@ -55,7 +55,7 @@ impl Forces<'_, BigRational> {
                 let above = lines.forces_above(floor, &row, Wanted::All)?;
                 let changes = above.changes;
                 for ([i, j], forces) in row.into_iter().zip(above.forces) {
-                    meet(Site { i, j, k: floor }, &Received { forces, changes });
+                    visit(Site { i, j, k: floor }, &Received { forces, changes });
                 }
             }
         } else {
@@ -67,7 +67,7 @@ impl Forces<'_, BigRational> {
                 let part = sweep.part()?;
                 let mut screen = Screen::new((terms, &sweep), across);
                 if let Some(screen) = &mut screen {
-                    // A sample of rows comes first. Then few spheres of the other rows exceed its extremes.
+                    // The extremes of a sample of rows come first. Then few spheres of the other rows are candidates.
                     for row in part.rows(floor).step_by(16) {
                         screen.candidates(row)?;
                     }
@@ -85,7 +85,7 @@ impl Forces<'_, BigRational> {
                             None => false,
                         };
                         if !alike {
-                            meet(site, &sweep.received(site)?);
+                            visit(site, &sweep.received(site)?);
                             last = Some(site);
                         }
                     }
@@ -95,7 +95,7 @@ impl Forces<'_, BigRational> {
                 for row in rows {
                     let received = engine.received_in((lines, &terms.system), &row, Meter::NONE);
                     for (site, above) in row.into_iter().zip(received) {
-                        meet(site, &above?);
+                        visit(site, &above?);
                     }
                 }
             }

@@ -173,8 +173,8 @@ impl<'p, T: Algebra> Layers<'p, T> {
     /// Writes the contact forces of all remaining layers into slices, one slice for each direction, layer after layer,
     /// in f₀.
     ///
-    /// With the feature `rayon` the work runs on all cores. Only exact numbers below sign changes are written by one
-    /// thread.
+    /// With the feature `rayon` the work runs on all cores. Exact numbers below sign changes are an exception: one
+    /// thread writes them.
     ///
     /// # Errors
     /// [`Error::Length`] for a slice whose length is not [`slice_len`](Self::slice_len); otherwise as for
@@ -262,7 +262,7 @@ pub(crate) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<
     }
 }
 
-/// Returns the table of distinct forces of a straight pile down to layer `last`, if it is small.
+/// Returns the table of distinct forces of a straight pile down to layer `last`, if the table is small.
 fn table<T: Algebra>(
     plan: &Plan,
     Terms { lines, system, .. }: &Terms<'_, T>,
@@ -274,7 +274,7 @@ fn table<T: Algebra>(
     let scale = lines.scale(0);
     Table::new(system, most_increments(system.shape, last), |n, line| {
         let force = lines.ordinary(T::Numerator::from_i128(n), line);
-        super::edge("a contact force", force, &scale)
+        super::to_scalar("a contact force", force, &scale)
     })
 }
 

@@ -221,8 +221,8 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
 
     /// Returns whether every nonzero contact force is certain to be rounded to a normal float, with full precision.
     ///
-    /// Each force is an integer multiple of the unit over a denominator. This smallest possible force is checked. The
-    /// result may be `false` although every actual force is larger.
+    /// Each force is an integer multiple of the unit over a denominator. The function checks one such multiple, the
+    /// smallest possible force. So the result may be `false` although every actual force is larger.
     ///
     /// # Examples
     /// ```
@@ -244,8 +244,8 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         least.exceeds_power_of_two(normal)
     }
 
-    /// Writes the contact forces on consecutive upper spheres as vectors into slices: x, y and z, each by direction.
-    /// Pile units are those of [`contact_vector`](crate::Forces::contact_vector).
+    /// Writes the contact forces on consecutive spheres from their supports, as vectors, into slices: one for each
+    /// component x, y, z and each direction. Pile units are those of [`contact_vector`](crate::Forces::contact_vector).
     ///
     /// # Errors
     /// As for [`fill_row`](Self::fill_row).
@@ -262,7 +262,7 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
     /// let mut vectors = [[[0.0]; 3]; 3];
     /// let slices = vectors.each_mut().map(|of| of.each_mut().map(|slice| slice.as_mut_slice()));
     /// layers.nearest::<f64>()?.fill_row_of_vectors(&Row { k: 1, j: 0, i: 1..2 }, slices)?;
-    /// // β of this sphere: f·ê.
+    /// // The force f·ê of the contact along β.
     /// assert_eq!(vectors.map(|component| component[1][0]), [1.0, -1.0, -2.0]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -331,7 +331,7 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
             self.prepared.push((asked, k, source));
         }
         let source = self.prepared.iter().find(|prepared| known(prepared));
-        let (.., source) = source.ok_or_else(|| bug("what was prepared is there"))?;
+        let (.., source) = source.ok_or_else(|| bug("a prepared source is in the list"))?;
         self.layers.write_row((asked, source), row, slices)
     }
 }

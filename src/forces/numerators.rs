@@ -66,7 +66,7 @@ impl<'p> Layers<'p, BigRational> {
     /// ```
     pub fn numerators<V: TryFrom<BigInt>>(self) -> Result<NumeratorLayers<'p, V>, Error> {
         let scale = self.denominator(0);
-        // An integer, because the scale is a multiple of all denominators.
+        // The product is an integer, because the scale is a multiple of all denominators.
         let whole = |multiple: &BigRational| numerator((multiple * &scale).to_integer());
         Ok(NumeratorLayers {
             table: self
@@ -93,11 +93,11 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayers<'p, V> {
     ///
     /// let pile = Pile::triangular(4)?;
     /// let mut layers = pile.forces::<BigRational>().layers(Selection::All)?.numerators::<i64>()?;
-    /// let mut layers_met = 0;
+    /// let mut layer_count = 0;
     /// while let Some(_) = layers.next_layer()? {
-    ///     layers_met += 1;
+    ///     layer_count += 1;
     /// }
-    /// assert_eq!(layers_met, 4);
+    /// assert_eq!(layer_count, 4);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn next_layer(&mut self) -> Result<Option<NumeratorLayer<'_, 'p, V>>, Error> {

@@ -2,8 +2,8 @@
 //! cores.
 //!
 //! The items are those of the serial iterators, and `collect` keeps their order. Each thread takes a part of the rows.
-//! A sweep advances layer by layer, and each thread takes a part of each layer. A request to end
-//! ([`Interrupt`](crate::Interrupt)) ends the work of all threads. [`Layers::fill`](crate::Layers::fill) writes many
+//! A sweep advances layer by layer, and each thread takes a part of each layer. A cancellation by an
+//! [`Interrupt`](crate::Interrupt) ends the work of all threads. [`Layers::fill`](crate::Layers::fill) writes many
 //! forces into slices faster.
 //!
 //! # Examples
@@ -114,7 +114,7 @@ where
         })
     }
 
-    /// Computes the forces of a part. A sweep must be at its layer.
+    /// Computes the forces of a part. A sweep must be at the layer of the part.
     fn share<C: UnindexedConsumer<Result<I, Error>>>(
         &self,
         part: Part<'p>,
@@ -147,8 +147,8 @@ where
         }
     }
 
-    /// Computes the forces layer after layer. Consumers are split in halves, so the splits are as deep as in other
-    /// iterators.
+    /// Computes the forces layer after layer. The consumer is split in halves recursively, so the depth of the splits
+    /// is logarithmic in the number of layers.
     fn layers<C>(&mut self, shape: &'p Shape, layers: Range<i128>, consumer: C) -> C::Result
     where
         C: UnindexedConsumer<Result<I, Error>>,
@@ -210,8 +210,8 @@ mod tests {
         ])
     }
 
-    /// Compares the items of the serial and the parallel iterator, for each method that applies, on two or more
-    /// threads.
+    /// Compares the items of the serial and the parallel iterator, for each method that applies, in the current thread
+    /// pool.
     fn compare<T: Algebra>() {
         for pile in &piles() {
             let floor = pile.layers() - 1;
@@ -284,7 +284,7 @@ mod tests {
         assert_eq!(floor.count(), 0);
     }
 
-    /// The pile has too many layers to split the consumer once for each.
+    /// The pile has 121 layers, too many for a split of the consumer at each layer in turn.
     #[test]
     fn a_first_item_of_a_sweep_is_found() {
         let pile = Pile::under(
@@ -325,7 +325,7 @@ mod tests {
             assert_eq!(interrupt.during(all), Err(Error::Interrupted));
             assert_eq!(interrupt.during(bottom), Err(Error::Interrupted));
         }
-        // The interrupt comes while items are computed.
+        // The request is made while items are computed.
         let (pile, interrupt) = (Pile::triangular(10_i128.pow(30)).unwrap(), Interrupt::new());
         let forces = pile.forces::<f64>();
         let asked = interrupt.during(|| {

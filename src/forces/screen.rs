@@ -1,12 +1,13 @@
-//! A screen of the bottom spheres. Correctly rounded floats exclude most of them, and exact integers compare the rest.
+//! A screen for extreme bottom spheres. Correctly rounded floats exclude most spheres, and exact integers compare the
+//! rest.
 //!
-//! Correct rounding keeps the order. So the smallest normal force is among the forces with the smallest float, and the
-//! largest likewise.
+//! Correct rounding is monotonic. So the smallest normal force is among the forces with the smallest float, and the
+//! largest force among those with the largest float.
 //!
-//! Let r = (x² + c·y²)/n² be the squared ratio of shear to normal force, with c = 4cos²φ. Its float r′ has ten
-//! roundings, where repeated numbers count twice. With u = 2^−53, |r′ − r| ≤ 11u·r + 2^−796. This needs 2^−100 ≤ |n| <
-//! 2^200, |x| and |y| < 2^200, and 2^−100 ≤ c ≤ 4. The second term is the loss of squares below 2^−1000, divided by n²
-//! ≥ 2^−200.
+//! Let r = (x² + c·y²)/n² be the squared ratio of shear to normal force, with c = 4cos²φ. Ten rounding errors enter its
+//! float r′, where those of a repeated factor count twice. With u = 2^−53, |r′ − r| ≤ 11u·r + 2^−796. This needs 2^−100
+//! ≤ |n| < 2^200, |x| and |y| < 2^200, and 2^−100 ≤ c ≤ 4. The second term is the loss of squares below 2^−1000,
+//! divided by n² ≥ 2^−200.
 //!
 //! Let r be the largest ratio and m the largest float. Then r′ ≥ (1 − 11u)/(1 + 11u)·m − 2^−795, which exceeds
 //! (1 − 32u)·m for m ≥ 2^−700. Values beyond these bounds are compared as exact integers, and so are spheres with extra
@@ -41,7 +42,7 @@ pub(super) struct Screen<'s, 'p> {
     extras: BTreeSet<Site>,
     least: f64,
     most: f64,
-    /// The largest squared ratio.
+    /// The largest squared ratio so far.
     ratio: f64,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Terms<'p, T: Algebra> {
     /// W, over `sum_scale`.
     increment_sum: T::Numerator,
     pub(super) sum_scale: T::Numerator,
-    /// Numerators over `direction_scale`.
+    /// The directions under a + step, as numerators over `direction_scale`.
     pub(super) directions: [Vector<T::Numerator>; 3],
     pub(super) direction_scale: T::Numerator,
 }
@@ -49,13 +49,13 @@ impl<'p, T: Algebra> Terms<'p, T> {
 
     pub(super) fn increment_sum(&self) -> Result<T, Error> {
         let sum = self.increment_sum.clone();
-        edge("the sum of increments", sum, &self.sum_scale)
+        to_scalar("the sum of increments", sum, &self.sum_scale)
     }
 
     /// Converts numerators into contact forces in f₀.
     pub(super) fn contacts(&self, numerators: Received<T>) -> Result<[T; 3], Error> {
         let Received { forces, changes } = numerators;
-        edge_all("a contact force", forces, &self.lines.scale(changes))
+        to_scalars("a contact force", forces, &self.lines.scale(changes))
     }
 
     /// Converts numerators of increments times directions into a vector in f₀.
@@ -66,14 +66,14 @@ impl<'p, T: Algebra> Terms<'p, T> {
         changes: usize,
     ) -> Result<Vector<T>, Error> {
         let scale = self.lines.scale(changes) * &self.direction_scale;
-        let [x, y, z] = edge_all(quantity, vector.into_array(), &scale)?;
+        let [x, y, z] = to_scalars(quantity, vector.into_array(), &scale)?;
         Ok(Vector { x, y, z })
     }
 
     /// Returns the force of a bottom sphere on the floor.
     pub(super) fn floor(&self, site: Site, above: &Received<T>) -> Result<FloorForce<T>, Error> {
         let (force, unit) = self.floor_numerators(site, above);
-        let force = edge_all("a force on the floor", force.into_array(), &unit)?;
+        let force = to_scalars("a force on the floor", force.into_array(), &unit)?;
         let [shear_x, shear_y, normal] = force;
         Ok(FloorForce {
             site,
@@ -123,7 +123,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         self.lines.scale(changes) * &self.direction_scale * &self.increment_sum
     }
 
-    /// Returns the sum of weight and load of a sphere, in the scale of forces along directions.
+    /// Returns the sum of weight and load of a sphere, over the common denominator of forces times directions.
     pub(super) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
         self.lines.weight(site, changes) * &self.direction_scale
     }
@@ -155,8 +155,8 @@ impl Terms<'_, BigRational> {
         readout(&self.floor_factors(floor, changes))
     }
 
-    /// Returns the same readout from the numbers of increments on the lines of a straight pile, the sphere's own one
-    /// included.
+    /// Returns the readout of the same forces from the numbers of increments on the lines of a straight pile. Each
+    /// number includes the increment of the sphere itself.
     pub(super) fn floor_readout_of_counts(&self) -> Option<Readout> {
         let (floor, changes) = self.floor_and_changes();
         let (lines, mut own) = self.floor_factors(floor, changes);
@@ -210,7 +210,7 @@ pub(super) fn of_direction<V>([alpha, beta, gamma]: [V; 3], direction: Direction
 }
 
 /// Returns `n / d`, or an error if the scalar cannot hold it.
-pub(super) fn edge<T: Algebra>(
+pub(super) fn to_scalar<T: Algebra>(
     quantity: &'static str,
     n: T::Numerator,
     d: &T::Numerator,
@@ -220,15 +220,15 @@ pub(super) fn edge<T: Algebra>(
 }
 
 /// Returns each of `n` over `d`, or an error if the scalar cannot hold one of them.
-pub(super) fn edge_all<T: Algebra>(
+pub(super) fn to_scalars<T: Algebra>(
     quantity: &'static str,
     n: [T::Numerator; 3],
     d: &T::Numerator,
 ) -> Result<[T; 3], Error> {
     let [x, y, z] = n;
     Ok([
-        edge(quantity, x, d)?,
-        edge(quantity, y, d)?,
-        edge(quantity, z, d)?,
+        to_scalar(quantity, x, d)?,
+        to_scalar(quantity, y, d)?,
+        to_scalar(quantity, z, d)?,
     ])
 }

@@ -14,7 +14,7 @@ use crate::lattice::Row;
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::{Rows, exact_hint};
 
-/// A walk down through some rows of a pile.
+/// The computation of forces for some rows of a pile, from the top down.
 #[derive(Clone, Debug)]
 pub(super) enum Walk<'p, T: Algebra> {
     /// The engine on numerators of the scalar.
@@ -57,8 +57,8 @@ impl<'p, T: Algebra> Walk<'p, T> {
         }
     }
 
-    /// Returns the contact forces of each sphere of a piece of a row with the spheres below it. A sweep must be at its
-    /// layer.
+    /// Returns the contact forces of each sphere of a piece of a row with the spheres below it. A sweep must be at the
+    /// layer of the row.
     pub(super) fn contacts_in(
         &self,
         piece: &Row,
@@ -89,7 +89,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
     }
 
     /// Returns the forces of each sphere of a piece of a row on the spheres below. The row must be above the floor, and
-    /// a sweep must be at its layer.
+    /// a sweep must be at the layer of the row.
     pub(super) fn transmitted_in(
         &self,
         piece: &Row,
@@ -110,7 +110,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
         }
     }
 
-    /// Returns the force on the floor of each sphere of a piece of a bottom row. A sweep must be at its layer.
+    /// Returns the force on the floor of each sphere of a piece of a bottom row. A sweep must be at the bottom layer.
     pub(super) fn on_floor_in(
         &self,
         piece: &Row,
@@ -140,7 +140,7 @@ type Compute<'p, T, A> = fn(&Walk<'p, T>, &Row, Meter<'_>) -> Vec<Result<A, Erro
 /// An iterator over the forces of a part of a pile, in row order: contact forces ([`Contacts`](crate::Contacts)) or
 /// forces on the floor ([`FloorForces`](crate::FloorForces)).
 ///
-/// An item is an error if the scalar overflows. Several spheres of a row are computed at once.
+/// An item is an error if the scalar overflows. The iterator computes several spheres of a row in one batch.
 #[derive(Clone, Debug)]
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Answers<'p, T: Algebra, A> {

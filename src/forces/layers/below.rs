@@ -18,7 +18,7 @@ pub(super) struct Below<T: Algebra> {
 impl<T: Algebra> Below<T> {
     /// Writes the forces below a row, and returns whether all of them are defined.
     pub(super) fn write(&self, carried: [&[T::Numerator]; 3], out: [&mut [T]; 3]) -> bool {
-        // Separate loops, because the check of each value makes a loop take half as long again.
+        // Each case has its own loop, because a check of each value makes a loop take 1.5 times as long.
         match (self.turns, self.may_overflow) {
             (false, false) => self.write_checked(carried, out, |_| true),
             (false, true) => self.write_checked(carried, out, T::is_defined),

@@ -149,7 +149,8 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// let layer = layers.next_layer()?.expect("layer 1 is asked for");
     /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
     /// layer.fill([&mut alpha, &mut beta, &mut gamma])?;
-    /// // Each of the three transmits the weight of the apex as 2/3, 2/3 and −1/3, and adds 1.
+    /// // Each of the three spheres transmits the 1 f₀ from the apex as 2/3, 2/3 and −1/3 f₀, and adds 1 f₀ to each
+    /// // line.
     /// assert!((alpha[0] - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -184,7 +185,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         Ok(())
     }
 
-    /// Writes the values of one sphere into slices over the layer.
+    /// Writes the values of one sphere into slices that hold the whole layer.
     pub(in crate::forces) fn put_at<V>(
         &self,
         site: Site,
@@ -212,8 +213,8 @@ impl<T: Algebra> Layer<'_, '_, T> {
         table.fill(self.k..self.k + 1, slices)
     }
 
-    /// Writes the forces of the bottom layer on the floor into slices, row after row: normal in mg, shear_x in mg·tanθ and
-    /// shear_y in 2cosφ·mg·tanθ.
+    /// Writes the forces of the bottom layer on the floor into slices, row after row: normal in mg, shear_x in mg·tanθ
+    /// and shear_y in 2cosφ·mg·tanθ.
     ///
     /// # Errors
     /// [`Error::Length`]; [`Error::NotOnFloor`] for another layer; [`Error::Overflow`].
@@ -248,13 +249,15 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// Returns a bound on the rounding error of the contact forces below the layer, in f₀. The bound is 0 in an exact
     /// scalar.
     ///
-    /// Returns `None` if the scalar promises no precision or the bound would be useless. It also returns `None` for
-    /// forces so small that errors from underflow are as large as errors from rounding.
+    /// Returns `None` if the scalar promises no precision, or if the bound would be 1 % of the bound on all forces or
+    /// more. It also returns `None` for forces so small that errors from underflow are as large as errors from
+    /// rounding.
     ///
     /// Each operation of a sweep has an error of at most one unit in the last place. No partial sum of 3G g exceeds
     /// 2√3·‖g‖, and the transfer does not amplify errors. For n passes and sums, the error is at most 13·n units in the
     /// last place of the bound on all forces. A 64th of this is added for losses by underflow. This suffices, because
-    /// 2⁻¹⁶ of such a unit is not zero in the scalar, so the smallest positive value of the scalar is below it.
+    /// 2⁻¹⁶ of such a unit is not zero in the scalar, so the smallest positive value of the scalar is at most twice as
+    /// large.
     ///
     /// # Examples
     /// ```
@@ -283,7 +286,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         // The passes of the runs, the stops and the extras, and one more for the increments of the sphere itself.
         let steps = BigInt::from(self.layers.stops + changes + extras + 1);
         let unit = BigRational::new(steps * 13, BigInt::one() << bits);
-        // 2√3·B·D is at least 3·B·D.
+        // `bound_of_sweep` is at least 2√3·B·D, and so at least 3·B·D.
         let greatest = BigRational::new(system.bound_of_sweep(self.k), system.denominator() * 3);
         let little = unit < BigRational::new(1.into(), 100.into());
         let below = &greatest / (BigInt::one() << (bits + 16));
@@ -362,7 +365,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
             }
             Ok(())
         })?;
-        // Spheres with loads or with a weight of their own.
+        // Spheres with loads or with a weight of their own are written once more.
         for site in lines.extras_in(self.k..self.k + 1) {
             check_interrupt()?;
             let forces = self

@@ -100,7 +100,7 @@ impl Layers<'_, BigRational> {
             let table = Table::new(&terms.system, self.most_increments(), nearest)?;
             return table
                 .map(Source::Table)
-                .ok_or_else(|| bug("what was filled from a table is filled from a table"));
+                .ok_or_else(|| bug("a pile with a table of exact forces has one of floats"));
         }
         let changes = self.shape().changes_above(k + 1);
         let denominator = terms.lines.scale(changes);
@@ -110,7 +110,7 @@ impl Layers<'_, BigRational> {
         })
     }
 
-    /// Returns the combination that gives the forces below an ordinary sphere, below `changes` sign changes.
+    /// Returns the readout of the contact forces below an ordinary sphere, after `changes` sign changes.
     fn contacts_readout(&self, changes: usize) -> Option<Readout> {
         let (terms, sweep) = (&self.terms, self.exact_sweep()?);
         let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
@@ -152,8 +152,8 @@ impl Layers<'_, BigRational> {
                 };
             }
         };
-        // This pass treats every sphere as ordinary. If a float is undefined in it, the sphere's own force may still be
-        // defined.
+        // This readout treats every sphere as ordinary. It may overflow for a sphere of another weight whose actual
+        // force does not. Then the exact integers below give the row.
         if let (Some(readout), Some(sweep)) = (readout, self.exact_sweep())
             && sweep.nearest_row(row, (readout, units), [&mut *a, &mut *b, &mut *c])?
         {
@@ -184,7 +184,7 @@ impl Layers<'_, BigRational> {
         nearest((asked, units), &numbers)
     }
 
-    /// Returns the integers of consecutive spheres, before rounding.
+    /// Returns the quantity `asked` for consecutive spheres as integers, before rounding.
     fn numbers(&self, asked: Asked, row: &Row) -> Result<Vec<[BigInt; 3]>, Error> {
         if asked != Asked::Floor {
             let below = self.transmitted_in(row)?.into_iter();
@@ -219,7 +219,7 @@ impl Layer<'_, '_, BigRational> {
     ) -> Result<(), Error> {
         let (layers, k) = (self.layers, self.k());
         let [a, b, c] = slices;
-        // From limbs, on all cores, if every sphere has defined floats when it is treated as ordinary.
+        // All cores read the limbs, as if every sphere were ordinary. The result counts only if no float overflows.
         if let Source::Lines {
             units,
             readout: Some(readout),
@@ -251,7 +251,7 @@ impl Layer<'_, '_, BigRational> {
     }
 }
 
-/// Returns the numbers of a sphere times their units, correctly rounded.
+/// Returns three integers of a sphere times their units, correctly rounded.
 fn nearest<F: CorrectlyRounded>(
     (asked, units): (Asked, &[Unit; 3]),
     [x, y, z]: &[BigInt; 3],
