@@ -2,9 +2,9 @@
 //!
 //! G. Oron and H. J. Herrmann ("Contact forces in regular 3D granular pile", 1998) solved the stack of cannonballs:
 //! identical, stiff, frictionless spheres piled on a triangle. Every contact force is an integer multiple of mg/(3
-//! cosθ), and the pressure on the base is uniform. This crate computes their forces in numbers of any precision. They
-//! serve as a static test case with many contacts and a known answer. The crate also covers any stacking, layers with
-//! up to six sides, loads on any sphere, and the stability of all these piles.
+//! cosθ), and the pressure on the base is uniform. This crate computes these forces in number types of any precision.
+//! The forces serve as a static test case with many contacts and a known answer. The crate also covers any stacking,
+//! layers with up to six sides, loads on any sphere, and the stability of all these piles.
 //!
 //! # One pile in four scalars
 //! The formulas are generic over [`scalar::Algebra`]. The scalar type decides how exact the results are.
@@ -18,7 +18,8 @@
 //! // Sphere (i, j) = (1, 2) of layer k = 5, and its contact with the sphere below it along α.
 //! let site = Site { i: 1, j: 2, k: 5 };
 //!
-//! // In units of mg/(3 cosθ): two spheres above it on the line, and the sphere itself.
+//! // The force is 3 mg/(3 cosθ): one unit from the sphere itself, and one from each of two spheres above it on the
+//! // line.
 //! assert_eq!(pile.forces::<f64>().contact(site, Direction::Alpha)?, 3.0);
 //! assert_eq!(pile.forces::<f32>().contact(site, Direction::Alpha)?, 3.0);
 //! let exact = pile.forces::<BigRational>().contact(site, Direction::Alpha)?;
@@ -52,18 +53,18 @@
 //! |---|---|
 //! | one contact force, in any scalar, in multiples of f₀ | [`pile.forces::<T>()`](Pile::forces)[`.contact(site, direction)`](Forces::contact) |
 //! | the force of one bottom sphere on the floor | [`.on_floor(site)`](Forces::on_floor) |
-//! | all these forces, one by one | [`.contacts(part)`](Forces::contacts), [`.base(part)`](Forces::base); `part` is a [`Selection`](shape::Selection) |
+//! | all forces of a part, one by one | [`.contacts(part)`](Forces::contacts), [`.base(part)`](Forces::base); `part` is a [`Selection`](shape::Selection) |
 //! | the same on all cores (feature `rayon`) | `parallel::contacts(&forces, part)`, `parallel::base(&forces, part)` |
 //! | the sites of a part | [`pile.sites(part)`](Pile::sites); by rows: [`pile.rows(part)`](Pile::rows) |
 //! | many forces, fast, in slices | [`.layers(part)`](Forces::layers), also as [correctly rounded floats](Layers::nearest) or [exact integers](Layers::numerators) |
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for correctly rounded floats in slices |
 //! | forces row by row, for piles larger than memory | [`fill_row`](NearestLayers::fill_row) and similar methods; [`packing.places()`](Packing::places) for centres and contact points |
-//! | totals | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
+//! | sums of forces | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
 //! | the stability of a pile; the extreme forces on its base | [`Pile::standing`], [`Pile::base_extremes`] |
 //! | the stable stackings | [`census`] |
 //! | theorems for every pile | [`theorem`] |
 //! | to cancel a long computation | `Interrupt` |
-//! | the work of a query, planned and done | [`Pile::plan`], [`Counters`] |
+//! | the work of a query, estimated and counted | [`Pile::plan`], [`Counters`] |
 //! | random piles for my own tests | `testing::piles` (feature `proptest`), `arbitrary` for fuzz targets |
 //! | a scalar of my own | [`scalar::Ring`], [`scalar::Algebra`], [`scalar::OwnNumerators`], checked by [`scalar::laws`] |
 //!
@@ -84,15 +85,16 @@
 //! | `rayon` | sweeps and slices on all cores; the module `parallel` |
 //! | `serde` | `Serialize` and `Deserialize` for the data types; the module `data` |
 //! | `arbitrary` | `arbitrary`: random piles, regions, stackings and sites from plain bytes, for fuzz targets |
-//! | `proptest` | `testing`: strategies of proptest for the same values |
+//! | `proptest` | `testing`: proptest strategies for the same values |
 //!
 //! The crate needs Rust 1.88 or later. The types of `num-bigint` 0.4 and `num-rational` 0.4 are part of its public API,
 //! which re-exports the crates as [`num_bigint`] and [`num_rational`].
 //!
-//! The [`Plan`] of each query chooses the method. Two piles that compare equal give the same results.
+//! The [`Plan`] of each query names the method that computes the result. Two piles that compare equal give the same
+//! results.
 //!
 //! # Map
-//! A module may use the modules above it, never one below. A test reads the `use` lines and this table.
+//! A module may use only the modules above it in the following table. A test reads the `use` lines and this table.
 //!
 //! | layer | module | contents |
 //! |---|---|---|
@@ -103,13 +105,13 @@
 //! | | [`geometry`] | a/R, θ, φ, the symbolic basis, positions, overlap |
 //! | physics | [`formula`] | the paper's equations with their printed numbers, and the transfer across a sign change |
 //! | | [`Pile`] | a validated pile: any stacking, any region, loads |
-//! | queries | `engine` | the [`Plan`], and the methods it chooses from; not part of the public API |
+//! | queries | `engine` | the [`Plan`], and the methods to compute forces; not part of the public API |
 //! | | [`Forces`], [`Packing`] | the forces, in pile units and in SI units |
 //! | | [`Standing`], [`census`] | stability |
 //! | | [`theorem`] | theorems about [`formula`], for every pile |
 //! | tools | `data` | the serialised form of the types (feature `serde`) |
 //! | | `arbitrary` | random piles and their parts from plain bytes (feature `arbitrary`) |
-//! | | `testing` | strategies of proptest for the same (feature `proptest`) |
+//! | | `testing` | proptest strategies for the same values (feature `proptest`) |
 //! | errors | [`Error`] | the reasons why a query fails |
 //!
 //! The module [`paper`] lists the equations of the paper by their printed numbers, and the mathematics beyond the
@@ -121,21 +123,21 @@
 //! * [`scalar::Surd::nearest`] returns the correctly rounded float. It encloses the exact value in double-doubles, and
 //!   decides close cases in integers.
 //! * The theorems in [`theorem`] are proved for every pile, by evaluating the formulas on polynomials.
-//! * `f32` and `f64` as scalars round each operation, and a result takes only a few. A difference (a shear, a position)
-//!   is as accurate as its greatest term, and loses relative accuracy where the terms cancel. [`Layer::error_bound`]
-//!   bounds the error of a sweep through sign changes.
+//! * `f32` and `f64` as scalars round each operation. A closed form takes only a few operations. A difference (a shear,
+//!   a position) is as accurate as its greatest term, and loses relative accuracy where the terms cancel.
+//!   [`Layer::error_bound`] bounds the error of a sweep through sign changes.
 //! * Each query computes only what it needs. [`Pile::plan`] returns upper bounds on its work, and [`Counters`] count
 //!   the work done.
-//! * No input causes a panic, except a malformed rational made by `Ratio::new_raw`. Errors are one enum, [`Error`],
-//!   with the value given and the remedy. The generic formulas on your own machine integers overflow as those integers
-//!   do.
+//! * No input causes a panic, except a malformed rational made by `Ratio::new_raw`. All errors are variants of one
+//!   enum, [`Error`], and name the value given and the remedy. Generic formulas that you call with machine integers
+//!   overflow like these integers.
 //! * The crate contains no `unsafe` code. It is `no_std` with `alloc` if you disable the default feature `std`.
 //!
 //! # Notation
 //! θ is the angle of a contact with the vertical, φ the azimuth in (1) of the paper, and s = sin φ. R is the radius of
-//! a sphere, a half the distance between horizontal neighbours, and q = (a/R)². L is the number of layers, and k the
-//! layer counted from the top. f₀ = mg/(3 cosθ) is the unit of contact force, in general mg/(2(1+s) cosθ). "Paper, (8)"
-//! cites a printed equation. The module [`paper`] lists all of them.
+//! a sphere, a is half the distance between horizontal neighbours, and q = (a/R)². L is the number of layers, and k the
+//! layer, counted from 0 at the top. f₀ = mg/(3 cosθ) is the unit of contact force. On an isosceles base f₀ =
+//! mg/(2(1+s) cosθ). "Paper, (8)" cites a printed equation. The module [`paper`] lists all cited equations.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(docsrs, feature(doc_cfg))]

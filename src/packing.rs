@@ -26,8 +26,8 @@ use crate::{Error, FloorForce, Forces, Pile};
 /// bottom layer. The origin of x and y is site (0, 0) of the top layer, which is the apex in a pile under one sphere.
 /// In a pile grown from a base, it is site (0, 0) of the base.
 ///
-/// The reversal of z alone changes the orientation of the frame. The reflection α ↔ β, y → −y restores it and leaves
-/// all forces unchanged.
+/// Only z is reversed relative to the paper, so the frame has the opposite handedness. The reflection α ↔ β, y → −y
+/// restores the handedness, and leaves all forces unchanged.
 ///
 /// Lengths are in the unit of the radius, and forces in the unit of mass times gravity. With kg, m and m/s², forces are
 /// in N.
@@ -111,7 +111,7 @@ impl<'p> Packing<'p> {
 }
 
 impl<'p> Packing<'p> {
-    /// Counts the work of every answer with `counters`.
+    /// Counts the work of every query with `counters`.
     ///
     /// # Examples
     /// ```
@@ -313,7 +313,7 @@ impl<'p> Packing<'p> {
     }
 
     /// Returns the pairs of spheres that touch in addition to the contacts α, β, γ. The forces between them are
-    /// unknown. Strictly between the bounds of [`Clearance`](crate::geometry::Clearance) no such spheres touch.
+    /// unknown. Strictly between the bounds of [`Clearance`](crate::geometry::Clearance) no such pairs touch.
     ///
     /// # Examples
     /// ```
@@ -394,8 +394,8 @@ impl<'p> Packing<'p> {
         self.unit_force.scaled(&self.diameter().recip())
     }
 
-    /// Returns the force between the sphere at `site` and the one below it along `direction`. Positive: compression.
-    /// Negative: the contact would be tensile.
+    /// Returns the force between the sphere at `site` and the one below it along `direction`. The force is positive in
+    /// compression. It is negative if the contact would be tensile.
     ///
     /// # Errors
     /// As for [`Forces::contact`].

@@ -175,7 +175,7 @@ impl Pile {
     /// use num_rational::BigRational;
     ///
     /// let pile = Pile::triangular(10)?.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
-    /// // A third of 3 mg on each support.
+    /// // Each support carries a third of 3 mg, along a contact force of 3 f₀.
     /// assert_eq!(pile.forces::<f64>().contact(Site::APEX, Direction::Alpha)?, 3.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -250,7 +250,8 @@ impl Pile {
         &self.sin_phi
     }
 
-    /// Returns whether all directions are alike: on an equilateral base, or in a pile of discs.
+    /// Returns whether all contact directions are equivalent by symmetry: on an equilateral base, or in a pile of
+    /// discs.
     ///
     /// # Examples
     /// ```
@@ -380,7 +381,7 @@ impl Pile {
     }
 
     fn count(&self, formula: impl FnOnce(BigRational, u32) -> BigRational) -> BigUint {
-        // The number of objects, so an integer that is not negative.
+        // The formula counts objects, so its value is a non-negative integer.
         let layers = BigRational::from_i128(self.layers());
         formula(layers, self.dimension().number())
             .to_integer()
@@ -443,7 +444,7 @@ impl Pile {
         Ok(self.rows(selection)?.sites())
     }
 
-    /// Returns the numbering of all spheres, in both directions: [`Shape::numbering`].
+    /// Returns the numbering of all spheres, which converts sites to numbers and back: [`Shape::numbering`].
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10¹¹ spheres.
@@ -555,7 +556,7 @@ impl Pile {
     /// let contact = HorizontalContact { site, axis: Axis::AlphaBeta };
     /// let pile = Pile::triangular(3)?.with_horizontal_force(contact, BigRational::from_integer(1.into()))?;
     /// let forces = pile.forces::<BigRational>();
-    /// // The force is larger on the side away from the neighbour, and smaller on its side.
+    /// // The contact force grows on the side away from the neighbour, and shrinks on the side of the neighbour.
     /// assert_eq!(forces.contact(site, Direction::Alpha)?.to_string(), "3");
     /// assert_eq!(forces.contact(site, Direction::Beta)?.to_string(), "0");
     /// # Ok::<(), cannonpile::Error>(())
@@ -574,7 +575,7 @@ impl Pile {
         Ok(self)
     }
 
-    /// Returns the horizontal contacts with a given force, and the forces, in f₀, in the order of tables.
+    /// Returns the horizontal contacts with prescribed forces, in their order, and these forces in f₀.
     ///
     /// # Examples
     /// See [`with_horizontal_force`](Self::with_horizontal_force).
@@ -591,7 +592,7 @@ impl Pile {
         self.loading.horizontal()
     }
 
-    /// Returns the given force of a horizontal contact, in f₀. It is 0 unless it was set.
+    /// Returns the prescribed force of a horizontal contact, in f₀. It is 0 unless it was set.
     ///
     /// # Examples
     /// ```
@@ -607,7 +608,7 @@ impl Pile {
         self.loading.horizontal_force(contact)
     }
 
-    /// Returns the pile without the given forces of horizontal contacts.
+    /// Returns the pile without prescribed forces of horizontal contacts.
     ///
     /// # Examples
     /// ```
@@ -652,7 +653,7 @@ impl Pile {
         }
     }
 
-    /// Returns whether every sphere has the weight mg and no other force acts on any.
+    /// Returns whether every sphere has the weight mg and carries no load or horizontal force.
     #[doc(hidden)]
     #[must_use]
     pub fn is_uniform(&self) -> bool {

@@ -35,7 +35,7 @@ use crate::{Error, Packing};
 #[derive(Clone, Debug)]
 pub struct Places<'p, F> {
     packing: Packing<'p>,
-    /// The denominator of half the coordinates in the symbolic basis.
+    /// The denominator of the coordinates in the symbolic basis, which are sums of half directions.
     halves: BigInt,
     units: [Unit; 3],
     floats: PhantomData<F>,
@@ -99,8 +99,8 @@ impl<F: CorrectlyRounded> Places<'_, F> {
         self.fill(row, slices, |site| self.centre(site))
     }
 
-    /// Writes the points of contact of consecutive spheres with the spheres below them in a direction into slices of x,
-    /// y and z.
+    /// Writes the contact points of consecutive spheres with their supports along `direction` into slices of x, y and
+    /// z.
     ///
     /// # Errors
     /// [`Error::OnFloor`], [`Error::NoSuchDirection`]; otherwise as for [`fill_row`](Self::fill_row).
@@ -184,7 +184,7 @@ impl<F: CorrectlyRounded> Places<'_, F> {
         let forces = &self.packing.forces;
         let lean = forces.contact_direction_numerators(site, direction)?;
         let [x, y, z] = self.centre(site)?;
-        // Half the contact direction back from the centre, with z up.
+        // The contact point lies half a contact direction back from the centre. The z of `lean` points down.
         Ok([x - lean.x, y - lean.y, z + lean.z])
     }
 }

@@ -36,7 +36,7 @@ pub struct PackedContact {
     pub site: Site,
     /// The direction from `site` to the other sphere.
     pub direction: ContactKind,
-    /// The force. Positive: compression. Negative: the contact would be tensile.
+    /// The force is positive in compression. It is negative if the contact would be tensile.
     pub force: Surd,
     /// The force on the sphere `site`, with z up.
     pub vector: [Surd; 3],
@@ -47,6 +47,7 @@ pub struct PackedContact {
 impl<'p> Packing<'p> {
     /// Iterates over the layers of `part`, from the top. Each layer writes its contact forces, in newtons and correctly
     /// rounded, into caller-provided slices. This is the fastest way to compute many forces.
+    ///
     /// # Errors
     /// As for [`Forces::layers`](crate::Forces::layers); [`Error::Overflow`] for a force beyond the range of the
     /// floats.
@@ -82,7 +83,7 @@ impl<'p> Packing<'p> {
         self.forces.layers(part)?.nearest_in(units)
     }
 
-    /// Iterates over the contacts of a part of the pile. Each sphere is listed with its contacts below.
+    /// Iterates over the contacts of a part of the pile. The contacts of a sphere are those with its supports.
     ///
     /// # Errors
     /// As for [`Forces::contacts`](crate::Forces::contacts).
@@ -198,8 +199,8 @@ impl<'p> Packing<'p> {
         })
     }
 
-    /// Iterates over the contact forces of a part of the pile, without vectors and points. Positive: compression.
-    /// Negative: the contact would be tensile.
+    /// Iterates over the contact forces of a part of the pile, without vectors and points. A force is positive in
+    /// compression, and negative if the contact would be tensile.
     ///
     /// # Errors
     /// As for [`Forces::contacts`](crate::Forces::contacts).
@@ -243,7 +244,7 @@ impl<'p> Packing<'p> {
     /// Iterates over the positions of the spheres of a part of the pile.
     ///
     /// # Errors
-    /// As for [`Forces::contacts`](crate::Forces::contacts). For each item, as for [`position`](Self::position).
+    /// As for [`Forces::contacts`](crate::Forces::contacts). An item has the errors of [`position`](Self::position).
     ///
     /// # Examples
     /// ```

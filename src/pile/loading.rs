@@ -13,7 +13,7 @@ use crate::lattice::{HorizontalContact, Sign, Site};
 /// The weights of the spheres and the vertical loads on them, in mg, and the forces of horizontal contacts, in f₀. None
 /// is negative.
 ///
-/// In the equations a load has the same effect as weight of its sphere. The two differ only in the mass of the sphere.
+/// In the equations a load acts like additional weight of its sphere, but it does not change the mass of the sphere.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Loading {
     weightless: bool,
@@ -96,7 +96,7 @@ impl Loading {
         &self.pushes
     }
 
-    /// Returns whether every sphere has the ordinary weight and no other force acts on any.
+    /// Returns whether every sphere has the ordinary weight and carries no load or horizontal force.
     pub(crate) fn is_ordinary(&self) -> bool {
         self.pushes.is_empty() && self.extras().next().is_none()
     }

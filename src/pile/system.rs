@@ -75,7 +75,7 @@ impl System<'_> {
     /// to lines.
     pub(crate) fn magnitudes(&self) -> [BigInt; 2] {
         let denominator = self.denominator();
-        // Integers, because the denominator is a multiple of all denominators.
+        // The results are integers, because the denominator is a multiple of all denominators.
         let over = |value: &BigRational| value.numer().abs() * (&denominator / value.denom());
         let weights = self.loading.extras().map(|(_, extra)| over(&extra));
         let pushes = self.loading.pushes().values().flatten().map(over);
@@ -96,8 +96,8 @@ impl System<'_> {
         self.shape.stacking().is_straight()
     }
 
-    /// Returns whether every sphere has the weight mg and no other force acts on any. Then a straight pile has few
-    /// distinct forces.
+    /// Returns whether every sphere has the weight mg and carries no load or horizontal force. Then a straight pile has
+    /// few distinct forces.
     pub(crate) fn is_even(&self) -> bool {
         !self.loading.is_weightless() && self.loading.is_ordinary()
     }
