@@ -16,7 +16,8 @@ use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Signed;
 
-/// Returns the vertical force of sphere (i, j) of layer k on the layer below, with its own weight, in mg/(2(1+s)).
+/// Returns the vertical force of sphere (i, j) of layer k on the layer below, in mg/(2(1+s)). It includes the sphere's
+/// own weight.
 ///
 /// s = sin φ is the sine of the angle of the base triangle.
 fn carried<T: Algebra>([i, j, k, s]: [T; 4]) -> T {
@@ -39,7 +40,7 @@ fn main() -> Result<(), Error> {
     println!("a fraction of any size   {exact}");
 
     let fixed: FixedRational<i64> = answer(&numbers);
-    println!("a fraction of 64 bits    {fixed}, or an overflow that is never silent");
+    println!("a fraction of 64 bits    {fixed} (an overflow would be reported)");
     assert_eq!(fixed.to_rational(), Some(exact.clone()));
 
     let float: f64 = answer(&numbers);
@@ -57,7 +58,7 @@ fn main() -> Result<(), Error> {
 
     let bounds: Interval = answer(&numbers);
     println!(
-        "bounds that hold it      {:?} to {:?}",
+        "bounds that contain it   {:?} to {:?}",
         bounds.lower(),
         bounds.upper()
     );
@@ -74,7 +75,7 @@ fn main() -> Result<(), Error> {
     let pile = Pile::isosceles(10, numbers[3].clone())?;
     let site = Site { i: 4, j: 1, k: 9 };
     let normal = pile.forces::<BigRational>().on_floor(site)?.normal;
-    println!("\nOn the floor of 10 layers, sphere (4, 1) presses with {normal} mg.");
+    println!("\nOn the floor of 10 layers, the normal force of sphere (4, 1) is {normal} mg.");
     assert_eq!(normal, exact / ratio(8, 3));
     Ok(())
 }

@@ -1,7 +1,9 @@
 //! The greatest shear force at the base, with a bound on its rounding error.
 //!
-//! In the scalar type `Interval` every result contains the exact value, so a scan with `>` compares numbers whose order is
-//! certain. The width of the answer bounds its error. Run it with `cargo run --example greatest_shear`.
+//! In the scalar type `Interval` every result contains the exact value. A comparison with `>` is true only if it is
+//! certain for the exact values. The width of the result bounds its error.
+//!
+//! Run it with `cargo run --example greatest_shear`.
 
 use cannonpile::scalar::Interval;
 use cannonpile::shape::Selection;
@@ -22,7 +24,7 @@ fn main() -> Result<(), Error> {
     }
     println!("The square of the greatest shear force is in {greatest} (mg·tanθ)².");
     println!(
-        "It is {} within {:e}.",
+        "It is {} to within {:e}.",
         greatest.midpoint(),
         greatest.width()
     );

@@ -1,4 +1,4 @@
-//! Contact forces as JSON, and read back without loss.
+//! Writes contact forces as JSON, and reads them back without loss.
 //!
 //! Indices are JSON numbers and exact forces are strings such as "2/3". Both read back as the same values. Run it with
 //! `cargo run --features serde --example json_forces`.

@@ -1,7 +1,7 @@
 //! A million contact forces, written layer by layer into slices.
 //!
-//! This is the fastest way to many forces, and it needs the memory of one layer. With the feature `rayon` it uses all
-//! cores. Run it with `cargo run --release --features rayon --example million_forces`.
+//! This is the fastest way to compute many forces, and it needs the memory of one layer. With the feature `rayon` it
+//! uses all cores. Run it with `cargo run --release --features rayon --example million_forces`.
 
 use cannonpile::lattice::Region;
 use cannonpile::shape::Selection;
@@ -25,7 +25,8 @@ fn main() -> Result<(), Error> {
         count += 3 * layer.sphere_count();
     }
 
-    // The slices now hold the contacts with the base. Each sphere above the base adds 3 f₀ to them, and has three contacts.
+    // The slices now contain the forces on the base. Each sphere above the base has three contacts and adds 3 f₀ to
+    // these forces, so their sum equals the number of contacts.
     let sum: f64 = [alpha, beta, gamma].iter().flatten().sum();
     println!("{count} forces; those of the lowest layer add up to {sum} f₀.");
     assert_eq!(format!("{sum:.0}"), count.to_string());

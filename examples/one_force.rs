@@ -17,7 +17,7 @@ fn main() -> Result<(), Error> {
         .forces::<BigRational>()
         .contact(site, Direction::Alpha)?;
     let float = pile.forces::<f64>().contact(site, Direction::Alpha)?;
-    println!("The sphere at {site} pushes the one below it with {exact} f₀ = {float} f₀.");
+    println!("The sphere at {site} transmits {exact} f₀ = {float} f₀ along α.");
     assert_eq!(exact, ratio!(5 / 3));
     assert!((float - 5.0 / 3.0).abs() < 1e-15);
     Ok(())

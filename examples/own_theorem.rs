@@ -16,7 +16,7 @@ use num_traits::{One, Zero};
 
 type P = Polynomial;
 
-/// sin φ is 1/2 on an equilateral base.
+/// The denominator of sin φ = 1/2, an equilateral base.
 const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 
 fn symbol(name: &'static str) -> P {
@@ -47,14 +47,14 @@ fn claimed() -> P {
 
 fn main() -> Result<(), Error> {
     let energy = energy();
-    println!("Theorem. The squares of all contact forces of a stack of L layers sum to");
+    println!("Theorem. The squares of all contact forces of a straight pile of L layers sum to");
     println!("(L-1) L (L+1) (L+2) (2L+1) / 40 in units of (mg/(3 cosθ))^2.\n");
     println!("Proof. Summed over the pile, the formulas give\n  {energy}");
     // Polynomials that are equal are equal for every L, so this line is the proof.
     assert_eq!(energy.clone() * &P::from_i128(40), claimed());
     println!("which, times 40, is\n  {}\nas claimed.\n", claimed());
 
-    // A slightly different polynomial is not equal.
+    // The comparison rejects a slightly different polynomial.
     let nearly = claimed() + &(symbol("L") - &P::one());
     assert_ne!(energy.clone() * &P::from_i128(40), nearly);
 

@@ -1,7 +1,7 @@
-//! Is a pile stable? Each verdict is found once and kept.
+//! Caches the verdicts on the stability of piles.
 //!
-//! Two piles are equal if they have the same spheres and loads, however they were described, and equal piles have equal
-//! hashes. So a pile is a key of a map. Run it with `cargo run --example pile_cache`.
+//! Two piles are equal if they have the same spheres and loads, in whatever notation they were given. Equal piles have
+//! equal hashes, so a pile can be the key of a map. Run it with `cargo run --example pile_cache`.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use cannonpile::{Error, Pile, Verdict};
 
 fn main() -> Result<(), Error> {
     let mut verdicts = HashMap::new();
-    // One stacking in three notations, and then one layer more.
+    // One stacking in three notations, and a stacking with one more layer.
     for stacking in ["ABABA", "+-+-", "(1,1,1,1)", "ABABAB"] {
         let pile = Pile::under(Region::SITE, stacking.parse()?)?;
         let verdict = match verdicts.get(&pile) {

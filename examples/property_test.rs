@@ -16,7 +16,7 @@ fn total(pile: &Pile) -> Result<BigRational, Error> {
 }
 
 fn main() {
-    // A test module has `fn base_carries_the_weight(pile in piles())` with `#[test]` here, and needs no configuration.
+    // In a test module, write `#[test] fn base_carries_the_weight(pile in piles())` instead. It needs no configuration.
     let config = ProptestConfig {
         failure_persistence: None,
         ..Default::default()

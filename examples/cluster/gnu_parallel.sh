@@ -1,11 +1,11 @@
 #!/bin/bash
-# Runs N parts of an ensemble, one for each core at a time:
+# Runs an ensemble in N parts, as many at a time as there are cores:
 #
 #   gnu_parallel.sh N FOLDER OPTIONS
 #   examples/cluster/gnu_parallel.sh 8 parts --layers 22 --all
 #
-# A second run repeats only the failed parts. To use other machines, with a shared folder:
-# PARALLEL='--sshlogin HOST1,HOST2 --workdir .' (`man parallel`).
+# A second run repeats only the failed parts. To use other machines that share the folder, set
+# PARALLEL='--sshlogin HOST1,HOST2 --workdir .' (see `man parallel`).
 set -euo pipefail
 
 parts=$1 folder=$2

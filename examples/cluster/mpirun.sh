@@ -1,5 +1,5 @@
 #!/bin/bash
-# Runs one part of an ensemble for each rank, into a shared folder:
+# Runs one part of an ensemble on each rank. The files are written into a shared folder:
 #
 #   mpirun -n N mpirun.sh FOLDER OPTIONS
 #   mpirun -n 8 examples/cluster/mpirun.sh parts --layers 22 --all
@@ -9,8 +9,8 @@ set -euo pipefail
 
 folder=$1
 shift
-rank=${OMPI_COMM_WORLD_RANK:-${PMI_RANK:?start it by mpirun}}
-parts=${OMPI_COMM_WORLD_SIZE:-${PMI_SIZE:?start it by mpirun}}
+rank=${OMPI_COMM_WORLD_RANK:-${PMI_RANK:?start this script with mpirun}}
+parts=${OMPI_COMM_WORLD_SIZE:-${PMI_SIZE:?start this script with mpirun}}
 mkdir -p "$folder"
 # Each part takes one core.
 export RAYON_NUM_THREADS=1

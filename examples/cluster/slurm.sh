@@ -1,10 +1,10 @@
 #!/bin/bash
-# Runs one part of an ensemble for each task of a job array: N parts in all, into a shared folder:
+# Runs one part of an ensemble in each task of a job array. The N files are written into a shared folder:
 #
 #   sbatch --array=1-N slurm.sh N FOLDER OPTIONS
 #   sbatch --array=1-8 examples/cluster/slurm.sh 8 parts --layers 22 --all
 #
-# When all are done: cannonpile merge parts/part-*.json --output whole.json
+# When all tasks are done: cannonpile merge parts/part-*.json --output whole.json
 # To run a missing part again, here the third:
 #
 #   sbatch --array=3 examples/cluster/slurm.sh 8 parts --layers 22 --all
@@ -13,7 +13,7 @@
 #SBATCH --cpus-per-task=1
 set -euo pipefail
 
-# N is an argument, because the array of a repeated part has the size 1.
+# N is an argument, because an array that repeats one part has only one task.
 parts=$1 folder=$2
 shift 2
 mkdir -p "$folder"

@@ -2,8 +2,8 @@
 
     drake_pile.py FOLDER [STIFFNESS [SOLVER]]
 
-writes FOLDER/drake.csv for `cannonpile verify`. STIFFNESS is that of a contact of two spheres, in mg/R (1e7). SOLVER is kTamsi
-(the default), kLagged, kSimilar or kSap.
+writes FOLDER/drake.csv for `cannonpile verify`. STIFFNESS is the stiffness of a contact of two spheres, in mg/R (by default
+1e7). SOLVER is kTamsi (the default), kLagged, kSimilar or kSap.
 
 The error comes from the compliance of the springs, and is inversely proportional to the stiffness. TAMSI shows this, but it is
 slow or does not converge for more than some hundred spheres. kLagged, the default of Drake, and related solvers relax hundreds
@@ -26,7 +26,7 @@ from pydrake.systems.framework import DiagramBuilder
 
 import exported
 
-# The time step and the end, in sqrt(R/g).
+# The time step and the duration, in sqrt(R/g).
 STEP, UNTIL = 0.01, 3
 
 folder = Path(sys.argv[1])
@@ -50,7 +50,7 @@ numbers, bodies = {}, {}
 for number, sphere in enumerate(piled):
     body, place = plant.world_body(), RigidTransform(sphere.place)
     if not sphere.fixed:
-        # Drake has no load at a sphere, so the load adds to its mass.
+        # The mass of the body is (weight + load)/g, so that gravity exerts the load too.
         inertia = SpatialInertia(sphere.down / gravity, [0, 0, 0], UnitInertia.SolidSphere(sphere.radius))
         body, place = plant.AddRigidBody(f"{number}", inertia), RigidTransform()
         bodies[number] = body

@@ -1,6 +1,7 @@
 """Reads the spheres of an exported pile, finds the pairs that touch from the positions, and writes a table for `verify`.
 
-Scripts that import this module use nothing else of cannonpile: no list of contacts, no force, no equation.
+The solvers that import this module use nothing else of cannonpile: no list of contacts, no force, no equation. Only
+fclib_pile.py also reads the exact forces, for comparison.
 """
 
 import csv
@@ -35,7 +36,7 @@ def spheres(folder):
 
 
 def touching(piled):
-    """Returns the pairs that touch, without pairs of fixed spheres. Cells are a little wider than a diameter."""
+    """Returns the pairs that touch, except pairs of fixed spheres, by a search in cells of 1.1 diameters."""
     diameter = 2 * piled[0].radius
     cells = {}
     for number, sphere in enumerate(piled):

@@ -5,12 +5,12 @@
 writes FOLDER/mujoco.csv for `cannonpile verify`. The defaults are those of MuJoCo: an impedance d of 0.9 to 0.95 and a time
 constant t of 0.02 s.
 
-MuJoCo regularises contacts. It adds (1 - d)/d to the inverse mass A of a contact, so that the problem always has one solution,
-and separates overlapping spheres with the time constant t. At rest a contact is a spring of the stiffness 1/(A t² (1 - d)),
-with A = 2/m between free spheres and 1/m on a fixed one. So the pile is compressed, and its forces have a relative error of
-about (1 - d) t² g L/R. The tolerance of the solver does not change this error. It decreases with d closer to 1 and with a
-smaller t. The time step is t/2, because MuJoCo requires t to be at least two steps. The stiffness is proportional to the mass,
-not to the weight: with the default parameters a pile of 1 mm spheres under 9.81 m/s² collapses.
+MuJoCo regularises contacts. It adds A (1 - d)/d to the inverse mass A of a contact, so that the problem always has one
+solution, and separates overlapping spheres with the time constant t. At rest a contact is a spring of the stiffness
+1/(A t² (1 - d)). A is 2/m between free spheres and 1/m on a fixed sphere. So the pile is compressed, and its forces have a
+relative error of about (1 - d) t² g L/R. The tolerance of the solver does not change this error. The error decreases with d
+closer to 1 and with a smaller t. The time step is t/2, because MuJoCo requires t to be at least two steps. The stiffness is
+proportional to the mass, not to the weight: with the default parameters a pile of 1 mm spheres under 9.81 m/s² collapses.
 """
 
 import sys
@@ -46,7 +46,7 @@ model = spec.compile()
 state = mujoco.MjData(model)
 for number, sphere in enumerate(piled):
     if not sphere.fixed:
-        # The mass carries weight and load.
+        # Gravity is off, so this force is the weight plus the load.
         state.body(f"{number}").xfrc_applied[2] = -sphere.down
 mujoco.mj_step(model, state, STEPS)
 mujoco.mj_forward(model, state)
