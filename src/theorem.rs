@@ -2,16 +2,17 @@
 //!
 //! # Kinds of proof
 //! A test shows that an identity holds for the piles it tries. The formulas of this crate are polynomials in i, j, k, L
-//! and s = sin φ, and they are generic over any [`Algebra`](crate::scalar::Algebra). Here they run on [`Polynomial`]s,
-//! so the same functions that engines call return polynomials. If the difference of the two sides of an identity is the
-//! zero polynomial, it holds for **every** i, j, k, L and s at once. There are three kinds of proof ([`ProofKind`]):
+//! and s = sin φ, and they are generic over any [`Algebra`](crate::scalar::Algebra). Here the formulas run on
+//! [`Polynomial`]s, so the same functions that engines call return polynomials. If the difference of the two sides of
+//! an identity is the zero polynomial, the identity holds for **every** i, j, k, L and s at once. There are three kinds
+//! of proof ([`ProofKind`]):
 //!
 //! * *identity*: on symbols, the two sides are the same polynomial.
 //! * *sum*: one side is a sum over a layer or the pile. Sums of a polynomial between polynomial bounds are polynomials
-//!   (Faulhaber). So the sum is formed in closed form and compared.
+//!   (Faulhaber). The proof computes the sum in closed form and compares it.
 //! * *induction*: the base case and the step from k to k+1 are identities.
 //!
-//! A statement claims only the content of its steps. Arguments in words are marked as such.
+//! A statement claims only what its steps prove. It marks arguments in words as such.
 //!
 //! # Scope
 //! The theorems prove the results of the formulas *as implemented* over ℚ. With exact scalars, the equations hold for

@@ -15,10 +15,10 @@ use crate::lattice::{Direction, Sign};
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "paper-system",
-        statement: "(3) is the paper's system (4), for any forces, and the increments (6), Δα = Δβ = 1, Δγ = 2s in the \
-                    unit mg/(2(1+s)cosθ), solve (5), denominators cleared: s(Δα+Δβ) − Δγ = 0, Δα − Δβ = 0, \
-                    Δα+Δβ+Δγ = 2(1+s), which is the weight W; for every φ. No others do: the determinant of the \
-                    three directions is 1+s, which is not 0; an identity",
+        statement: "For any forces, (3) is the paper's system (4). The increments (6), Δα = Δβ = 1 and Δγ = 2s in the \
+                     unit mg/(2(1+s)cosθ), solve (5) for every φ. With denominators cleared, (5) is s(Δα+Δβ) − Δγ = 0, \
+                     Δα − Δβ = 0 and Δα+Δβ+Δγ = 2(1+s), which is the weight W. The solution is unique, because the \
+                     determinant of the three directions is 1+s, which is not 0; an identity",
         hypotheses: "0 < s < 1",
         method: ProofKind::Identity,
         symbols: "s, w, α, β, γ, α', β', γ'",
@@ -26,8 +26,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "unit-directions",
-        statement: "The vectors ê_a, ê_b, ê_c have length 1, and squared distances are those of the Gram form: \
-                    |n_a ê_a + n_b ê_b + n_c ê_c|² = squared_distance(n), with σ = sin²θ; an identity",
+        statement: "The vectors ê_a, ê_b, ê_c have length 1, and the Gram form gives squared distances: |n_a ê_a + \
+                     n_b ê_b + n_c ê_c|² = squared_distance(n), with σ = sin²θ; an identity",
         hypotheses: "0 < s < 1, 0 < σ < 1",
         method: ProofKind::Identity,
         symbols: "a, b, c, s, σ",
@@ -35,9 +35,10 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "equilibrium",
-        statement: "Equilibrium of every sphere of the paper's pile, at the surface too: the three supports push with what the \
-                    forces from above and the weight press, in all three components, for every φ; and of every \
-                    sphere of any weight n·mg that receives any forces under steps of one sign; an identity",
+        statement: "Equilibrium of every sphere of the paper's pile, also at the surface: the forces from the three \
+                     supports balance the forces from above and the weight, in all three components, for every φ. The \
+                     same holds for a sphere of any weight n·mg that receives any forces under steps of one sign; an \
+                     identity",
         hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j, 0 < s < 1; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
         symbols: "i, j, k, s, n, g_1, g_2, g_3",
@@ -45,8 +46,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "surface",
-        statement: "Equilibrium at the surface: where no sphere lies above on a line, its force from above is zero, so \
-                    the equations of a sphere inside hold for one at the surface i = 0, j = 0 or i+j = k; an identity",
+        statement: "Equilibrium at the surface: if no sphere lies above on a line, the force from above along this \
+                     line is zero. So the equations of an inner sphere also hold for a sphere at the surface i = 0, j \
+                     = 0 or i+j = k; an identity",
         hypotheses: "sites of a face",
         method: ProofKind::Identity,
         symbols: "i, j, k, s",
@@ -63,9 +65,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "central-force",
-        statement: "Central force: the forces from above on a sphere of a pile with equilateral base sum to \
-                    mg/(6R cosθ)·r, r its position from the apex: in f₀ and 2R both are ((3j−k)/2, (2i+j−k)/2, k), y with \
-                    √3 in its unit; an identity",
+        statement: "Central force: on an equilateral base, the forces from above on a sphere sum to mg/(6R cosθ)·r, \
+                     where r is its position relative to the apex. In units of f₀ and 2R both are ((3j−k)/2, \
+                     (2i+j−k)/2, k), with √3 in the unit along y; an identity",
         hypotheses: "s = 1/2",
         method: ProofKind::Identity,
         symbols: "i, j, k",
@@ -73,9 +75,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "half-turn",
-        statement: "G = (2/3)J − I, which transmits forces across a sign change of the stacking, takes g to \
-                    (2/3)(g_1+g_2+g_3)(1,1,1) − g; it is orthogonal (|Gg|² = |g|²), symmetric (h·Gg = g·Gh), its own \
-                    inverse (GGg = g), and fixes (1, 1, 1); an identity",
+        statement: "The matrix G = (2/3)J − I, which transmits forces across a sign change of the stacking, maps g to \
+                     (2/3)(g_1+g_2+g_3)(1,1,1) − g. It is orthogonal (|Gg|² = |g|²), symmetric (h·Gg = g·Gh) and its \
+                     own inverse (GGg = g), and it fixes (1, 1, 1); an identity",
         hypotheses: "any forces g, h",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3",
@@ -146,7 +148,7 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
     let load = setting.support_load(f, &here);
     let left = setting.unbalanced(f, &here);
     let mut steps = by_component("supports = −(from above + weight)", supports, -load);
-    steps.extend(nothing_left("what is left of all forces is 0", left));
+    steps.extend(nothing_left("the resultant of all forces is 0", left));
     let g = ["g_1", "g_2", "g_3"].map(symbol);
     let (own, weight) = setting.loaded(f, &symbol("n"));
     let to_below = transmitted(f, g.clone(), &own);
@@ -155,7 +157,7 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
         ("−", setting.turned_directions(f)),
     ] {
         let left = (f.unbalanced)(&to_below, &e, &g, &e, &weight);
-        let claim = "nothing remains of any forces on a sphere of any weight";
+        let claim = "the resultant is 0 for any forces and any weight";
         steps.extend(nothing_left(&format!("under {sign}, {claim}"), left));
     }
     steps

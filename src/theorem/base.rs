@@ -61,9 +61,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "total-moment",
-        statement: "Total moment: the shear on the floor has no moment about the axis, and the normal forces have that \
-                    of the weights about both horizontal axes, ΣF_z r_b = Σ mg r_s; for every φ; by summing over \
-                    base and pile",
+        statement: "Total moment: the shear on the floor has no moment about the axis, and about both horizontal axes \
+                     the normal forces have the moments of the weights, ΣF_z r_b = Σ mg r_s; for every φ; by summing \
+                     over base and pile",
         hypotheses: "L ≥ 1, 0 < s < 1",
         method: ProofKind::Sum,
         symbols: "L, s",
@@ -71,8 +71,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "second-moment",
-        statement: "Second moment: ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ), r horizontal from the axis, H_s the height of \
-                    a sphere over the base; for every φ; by summing over base and pile",
+        statement: "Second moment: ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ), where r is the horizontal position relative \
+                     to the axis, and H_s the height of a sphere above the base; for every φ; by summing over base and \
+                     pile",
         hypotheses: "L ≥ 1, 0 < s < 1",
         method: ProofKind::Sum,
         symbols: "L, s",
@@ -80,10 +81,10 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "shear-on-axis",
-        statement: "The shear of a bottom sphere is its horizontal position from the axis, in f₀ and 2R, on an \
-                    equilateral base. It vanishes on the axis and nowhere else: with L−1 = 3n+p, twice the shear is \
-                    (3(j−n) − p, 2(i−n) + (j−n) − p), which is zero at i = j = n if p = 0, and nowhere if p is 1 or 2, \
-                    where (in words) 3 does not divide p; an identity",
+        statement: "On an equilateral base the shear of a bottom sphere, in f₀, is its horizontal position relative \
+                     to the axis, in 2R. It vanishes on the axis and nowhere else: with L−1 = 3n+p, twice the shear is \
+                     (3(j−n) − p, 2(i−n) + (j−n) − p). This is zero at i = j = n if p = 0, and nowhere if p is 1 or 2, \
+                     because then (in words) 3 does not divide p; an identity",
         hypotheses: "s = 1/2; p = 0, 1, 2",
         method: ProofKind::Identity,
         symbols: "L, i, j, n",
@@ -91,10 +92,10 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "shear-ratio",
-        statement: "Largest shear/normal ratio: tanθ(L−1)/(L+2) on an equilateral base, since the normal force is L+2 \
-                    everywhere, |shear|² is (L−1)² at the three corners, and (L−1)² − |shear|² = \
-                    3(N_αN_β + N_βN_γ + N_γN_α), which (in words) is 0 where two of the counts are 0, at the corners, \
-                    and positive everywhere else; an identity",
+        statement: "Largest shear/normal ratio: tanθ(L−1)/(L+2) on an equilateral base. The normal force is L+2 \
+                     everywhere, |shear|² is (L−1)² at the three corners, and (L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + \
+                     N_γN_α). The right side (in words) is 0 at the corners, where two of the counts are 0, and \
+                     positive everywhere else; an identity",
         hypotheses: "s = 1/2, N ≥ 0",
         method: ProofKind::Identity,
         symbols: "L, i, j",

@@ -16,8 +16,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "counts",
         statement: "The counts of the appendix: (N_α, N_β, N_γ) = (k−i−j, i, j) spheres lie above (i, j, k) on its \
-                    lines. None above the apex; one more at the sphere below on the line, and the same on the \
-                    other two lines; none at the surface where the line begins; by induction",
+                     lines. At the apex the counts are 0. One step down a line, the count of this line grows by one, \
+                     and the other two stay the same. At the surface where a line begins, its count is 0; by induction",
         hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j",
         method: ProofKind::Induction,
         symbols: "i, j, k",
@@ -25,7 +25,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "rotation",
-        statement: "The rotation {j → k−i−j, i → j} about the axis carries N_α → N_β → N_γ → N_α; an identity",
+        statement: "The rotation {j → k−i−j, i → j} about the axis permutes the counts, N_α → N_β → N_γ → N_α; an \
+                     identity",
         hypotheses: "any site",
         method: ProofKind::Identity,
         symbols: "i, j, k",
@@ -41,9 +42,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "contacts",
-        statement: "A pile has L(L−1)(L+1)/2 contacts: one in each of three directions below each sphere that is not on \
-                    the floor, and, counted from below, one above each sphere on each line on which N ≥ 1; by \
-                    summing over the spheres",
+        statement: "A pile has L(L−1)(L+1)/2 contacts. There is one in each of three directions below each sphere \
+                     that is not on the floor. Counted from below, there is one above each sphere on each line with N \
+                     ≥ 1; by summing over the spheres",
         hypotheses: "L ≥ 1",
         method: ProofKind::Sum,
         symbols: "L",
@@ -51,9 +52,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "strengths",
-        statement: "Of the contacts of one direction (L−n)(L−n+1)/2 carry n·f₀, n = 1 … L−1; in all they carry \
-                    C(L+2,4)·f₀, the mean contact carries (L+2)/4·f₀, and the sum of squares is \
-                    C(L+2,4)(2L+1)/5·f₀²; by summing over the spheres, and over n",
+        statement: "In one direction (L−n)(L−n+1)/2 contacts carry n·f₀, for n = 1 … L−1. The forces of one direction \
+                     sum to C(L+2,4)·f₀, their mean is (L+2)/4·f₀, and their squares sum to C(L+2,4)(2L+1)/5·f₀²; by \
+                     summing over the spheres, and over n",
         hypotheses: "1 ≤ n ≤ L−1, s = 1/2",
         method: ProofKind::Sum,
         symbols: "L, n",

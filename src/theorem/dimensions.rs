@@ -12,9 +12,9 @@ use crate::scalar::Symbol;
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "discs",
-        statement: "The pile of discs: every disc is in equilibrium, the normal force on the floor is mg(L+1)/2 under \
-                    every bottom disc, the shear −(L−1−2i)/2·mg tanθ, and they sum to the weight L(L+1)/2·mg and to \
-                    zero; identities, and by summing over the base",
+        statement: "The pile of discs: every disc is in equilibrium. Every bottom disc exerts the normal force \
+                     mg(L+1)/2 and the shear −(L−1−2i)/2·mg tanθ on the floor. The normal forces sum to the weight \
+                     L(L+1)/2·mg, and the shears to zero; identities, and by summing over the base",
         hypotheses: "0 ≤ i ≤ k, j = 0, s = 0",
         method: ProofKind::Sum,
         symbols: "L, i, k",
@@ -23,11 +23,11 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "dimensions",
         statement: "In d = 2 … 6 dimensions a sphere is supported by d others, in the directions of the corners of a \
-                    regular simplex, and adds 1 to each line. It is in equilibrium whatever it receives, and the force \
-                    that it transmits after n_m spheres of a line is the force that the sphere below receives after \
-                    n_m + 1. With n_1 + … + n_d = L−1 the normal force on the floor is mg(L+d−1)/d under every bottom \
-                    sphere, the spheres number C(L+d−1, d), and the normal forces sum to their weight; identities, and \
-                    by summing over the layers",
+                     regular simplex, and adds 1 to each line. It is in equilibrium for any forces from above. With \
+                     n_m spheres above it on a line, it transmits the force that the sphere below receives from n_m + \
+                     1 spheres. If n_1 + … + n_d = L−1, the normal force on the floor is mg(L+d−1)/d under every \
+                     bottom sphere. There are C(L+d−1, d) spheres, and the normal forces sum to their weight; \
+                     identities, and by summing over the layers",
         hypotheses: "n_m ≥ 0, L ≥ 1; any g_1 … g_d",
         method: ProofKind::Sum,
         symbols: "L, k, n_1 … n_d, g_1 … g_d",
@@ -44,7 +44,7 @@ fn discs(f: &Formulas) -> Vec<Step> {
     let force = setting.support_load(f, &floor);
     let over_base = |p: &P| p.sum(Symbol("i"), &P::zero(), &last_layer());
     let total = over_base(&force.z);
-    let mut steps = nothing_left("what is left of all forces is 0", left);
+    let mut steps = nothing_left("the resultant of all forces is 0", left);
     steps.extend(equations! {
         "normal force, in mg/2": force.z => l.clone() + &int(1),
         "shear, in mg tanθ/2": force.x.clone() => int(2) * &i - &last_layer(),
@@ -83,7 +83,7 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
         .collect();
     let vertical = added.iter().fold(P::zero(), |sum, more| sum + more);
     steps.extend(equations! {
-        (claim("what the supports push more than the spheres above is the weight")):
+        (claim("the forces from the supports minus those from above sum to the weight")):
             vertical => weight.clone(),
     });
     // The horizontal part of a direction times d, in d coordinates that sum to zero: d−1 along its own, −1 along the
@@ -99,7 +99,7 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
         });
         let horizontal = components.fold(P::zero(), |sum, part| sum + &part);
         let claim = format!(
-            "d = {d}: no push to the side, coordinate {}",
+            "d = {d}: no horizontal force, coordinate {}",
             coordinate + 1
         );
         steps.push(Step::equal(claim, horizontal, P::zero()));

@@ -1,4 +1,4 @@
-//! Theorems and proofs as text for people.
+//! Printing of theorems and proofs.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -6,7 +6,7 @@ use core::fmt;
 
 use super::{Proof, Relation, Step, Theorem};
 
-/// The width of a terminal, in columns.
+/// The greatest width of a line of a statement, in columns.
 const WIDTH: usize = 100;
 
 /// A theorem with its proof: the statement, and the two sides of every step with their difference.

@@ -29,7 +29,7 @@ pub fn half() -> P {
     int(1).div_int(TWO)
 }
 
-/// The constants of a pile of L layers with sin φ = s, from its formulas.
+/// The constants of a pile of L layers with sin φ = s, computed with given formulas.
 pub struct Setting {
     /// sin φ.
     pub s: P,
@@ -101,13 +101,13 @@ impl Setting {
         self.directions.clone().map(f.turned_about_z)
     }
 
-    /// Returns the load of a sphere on its supports, from the number of spheres above on each line and its weight.
+    /// Returns the load of a sphere on its supports, from its weight and the number of spheres above on each line.
     #[must_use]
     pub fn support_load(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
         (f.support_load)(&self.received(f, above), &self.directions, &self.weight)
     }
 
-    /// Returns the sum of all forces on such a sphere.
+    /// Returns the sum of all forces on a sphere, from the number of spheres above on each line.
     #[must_use]
     pub fn unbalanced(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
         let from_above = self.received(f, above);

@@ -14,14 +14,15 @@ use crate::scalar::{Algebra, Symbol, THREE};
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "region-counts",
-        statement: "Any base under straight steps: m steps into a run, in a layer x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, \
-                    s₀ ≤ i+j ≤ s₁, the spheres above (i, j) are min(m, x₁−i, y₁−j, s₁−i−j) along α, \
-                    min(m, i−x₀, y₁−j, i+j−s₀) along β, min(m, j−y₀, x₁−i, i+j−s₀) along γ, and under − steps the \
-                    same with upper and lower bounds in each other's place. Of the next site up the line, in the layer \
-                    above, whose bounds are one tighter on the side to which the steps lead, three distances to bounds \
-                    are those of (i, j), the other three and m are one less, and these are the arguments of the min. So \
-                    (in words, by induction) if all arguments are ≥ 1 there is a sphere above, with one less above it; if \
-                    one is 0 there is none. Of the paper's pile they are (9), and others no less; by induction",
+        statement: "Any base under straight steps: let (i, j) be a site m steps into a run, in a layer x₀ ≤ i ≤ x₁, \
+                     y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁. Under + steps the numbers of spheres above it are min(m, x₁−i, y₁−j, \
+                     s₁−i−j) along α, min(m, i−x₀, y₁−j, i+j−s₀) along β and min(m, j−y₀, x₁−i, i+j−s₀) along γ. Under \
+                     − steps the upper and lower bounds are interchanged. The bounds of the layer above are tighter by \
+                     one on the side to which the steps lead. For the next site up a line, three distances to bounds \
+                     are those of (i, j). The other three and m, which are the arguments of the min, are one less. So \
+                     (in words, by induction) if all arguments are ≥ 1, there is a sphere above, and its count is one \
+                     less. If an argument is 0, there is none. In the paper's pile, (9) is one of the arguments, and \
+                     no argument is less; by induction",
         hypotheses: "(i, j) within the bounds, m ≥ 0, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j",
         method: ProofKind::Induction,
         symbols: "i, j, k, m, x_0, x_1, y_0, y_1, s_0, s_1",
@@ -29,9 +30,10 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "run",
-        statement: "Within a run of one sign a line of contacts that carries f at its first sphere carries f + m w \
-                    after m spheres more, each of which transmits an increment w more than it receives: one jump is as \
-                    good as m steps, and what some spheres add besides may be added in any order; by induction",
+        statement: "Within a run, a line of contacts that carries f at its first sphere carries f + m w after m \
+                     spheres more, because each of them transmits an increment w more than it receives. So one \
+                     evaluation replaces m steps, and further forces that spheres add may be added in any order; by \
+                     induction",
         hypotheses: "m ≥ 0",
         method: ProofKind::Induction,
         symbols: "f, m, e, s",
@@ -39,8 +41,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "tripled-half-turn",
-        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, by which integers are turned, and (2(g_2+g_3) − g_1, …), by which bounds and \
-                    the limbs of the exact engine are, are 3Gg; an identity",
+        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, which is evaluated for integers, and (2(g_2+g_3) − g_1, …), which is \
+                     evaluated for bounds and for the limbs of the exact engine, are 3Gg; an identity",
         hypotheses: "any forces",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
@@ -48,9 +50,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "change-of-sign",
-        statement: "Equilibrium at a sign change: a sphere of weight n·mg that receives any forces g along the \
-                    directions of one sign, and transmits Gg + n(1, 1, 1) along those of the other, is in equilibrium, \
-                    from + to − and from − to +; on an equilateral base; an identity",
+        statement: "Equilibrium at a sign change on an equilateral base: a sphere of weight n·mg receives any forces \
+                     g along the directions of one sign, and transmits Gg + n(1, 1, 1) along those of the other sign. \
+                     It is in equilibrium, from + to − and from − to +; an identity",
         hypotheses: "s = 1/2; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, n",
@@ -58,13 +60,13 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "edge",
-        statement: "Under + steps spheres on the edge i+j = s₀ of a layer receive nothing along β and γ, those on i = \
-                    x₁ nothing along γ and α, those on j = y₁ nothing along α and β, and under − steps those on the \
-                    edges opposite. The third line stays on the edge (theorem region-counts): so if its first sphere \
-                    in a run of m steps transmits f, the last receives f + m − 1 along it and nothing else. If the \
-                    sign changes there, it transmits 1 − (f+m−1)/3 along it, a third of 4 − f − m: of −(1+f+p) if m = \
-                    5+p. So (in words) no run of five steps or more, after which the sign changes, is stable; an \
-                    identity",
+        statement: "Under + steps, spheres on the edge i+j = s₀ of a layer receive nothing along β and γ, those on i \
+                     = x₁ nothing along γ and α, and those on j = y₁ nothing along α and β. Under − steps this holds \
+                     on the opposite edges. The third line stays on the edge (theorem region-counts). So if its first \
+                     sphere in a run of m steps transmits f, the last receives f + m − 1 along the line and nothing \
+                     else. If the sign changes there, it transmits 1 − (f+m−1)/3 = (4 − f − m)/3 along the line, and \
+                     −(1+f+p)/3 for m = 5+p. So (in words) no run of five steps or more that ends at a sign change is \
+                     stable; an identity",
         hypotheses: "f ≥ 0, m ≥ 1, p ≥ 0, weights of mg",
         method: ProofKind::Identity,
         symbols: "f, i, j, m, p, x_0, x_1, y_0, y_1, s_0, s_1",
@@ -73,13 +75,14 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "point-load",
         statement: "A unit load on a wide flat top, in any stacking: at depth n the vertical parts v of the contact \
-                    forces have Σv = 1, Σv² = 1/3, Σv r = 0 and Σv r² = n²ρ², r from the load's line to the lower \
-                    sphere, ρ = 2R sinθ. The first layer has them, under either sign. With d the horizontal step of a \
-                    contact, Σv, Σv² and Σv d of the contacts below any sphere are those of the contacts above it, \
-                    while C = Σv r·d grows by ρ²Σv and Σv r² by 2C + ρ²Σv, whatever the two signs are: so (in words) C \
-                    = nρ² and Σv r² = n²ρ². Spheres transmit the sum of the forces of two loads, and a weight is a \
-                    load: so (in words, by summing over the spheres) under gravity, of every stacking and base, ΣF_z \
-                    is the weight, ΣF_z r_b = Σ mg r_s and ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ); by induction",
+                     forces satisfy Σv = 1, Σv² = 1/3, Σv r = 0 and Σv r² = n²ρ². Here r points from the line of the \
+                     load to the lower sphere, and ρ = 2R sinθ. The first layer has these sums, under either sign. Let \
+                     d be the horizontal step of a contact and C = Σv r·d. From the contacts above a sphere to those \
+                     below it, Σv, Σv² and Σv d stay the same, C grows by ρ²Σv, and Σv r² grows by 2C + ρ²Σv, for any \
+                     two signs. So (in words) C = nρ² and Σv r² = n²ρ². Spheres transmit the sum of the forces of two \
+                     loads, and a weight is a load. So (in words, by summing over the spheres) under gravity, for \
+                     every stacking and base, ΣF_z is the weight, ΣF_z r_b = Σ mg r_s and ΣF_z r_b² = Σ mg (r_s² + \
+                     H_s² tan²θ); by induction",
         hypotheses: "s = 1/2",
         method: ProofKind::Induction,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3, x, y",
@@ -103,7 +106,7 @@ fn distances(i: &P, j: &P, lower: &[P; 3], upper: &[P; 3]) -> [P; 6] {
     ]
 }
 
-/// Returns the indices of the [`distances`] that are the arguments of a line.
+/// Returns the indices of the [`distances`] whose minimum with m is the count of a line (theorem `region-counts`).
 const fn arguments(sign: Sign, direction: Direction) -> [usize; 3] {
     match (sign, direction) {
         (Sign::Plus, Direction::Alpha) => [0, 1, 2],
@@ -167,7 +170,7 @@ fn region_counts(f: &Formulas) -> Vec<Step> {
     for (((direction, bounds), count), more) in lines {
         for (bound, more) in bounds.into_iter().zip(more) {
             let claim =
-                format!("the paper's pile: an argument along {direction} less (9) is {more}");
+                format!("the paper's pile: an argument along {direction} minus (9) is {more}");
             steps.push(Step::equal(claim, bound - &count, more));
         }
     }
@@ -183,13 +186,13 @@ fn run(f: &Formulas) -> Vec<Step> {
         let after = |m: P| transmitted(&force, m);
         let with_extra = (f.transmitted)(force.clone(), &extra);
         steps.extend(equations! {
-            (format!("base case along {direction}: f after no sphere")):
+            (format!("base case along {direction}: f after 0 spheres")):
                 after(P::zero()) => force.clone(),
-            (format!("step along {direction}: an increment more after one sphere more")):
+            (format!("step along {direction}: one sphere more adds one increment")):
                 after(m.clone() + &P::one()) => (f.transmitted)(after(m.clone()), w),
             (format!("along {direction}: f + m w after m spheres")):
                 after(m.clone()) => force.clone() + &(m.clone() * w),
-            (format!("along {direction}: e before m spheres, or after")):
+            (format!("along {direction}: a force e added before or after m spheres")):
                 transmitted(&with_extra, m.clone()) => (f.transmitted)(after(m.clone()), &extra),
         });
     }
@@ -200,7 +203,7 @@ fn tripled(f: &Formulas) -> Vec<Step> {
     let g = ["g_1", "g_2", "g_3"].map(symbol);
     let ways = [
         ("2(g_1+g_2+g_3) − 3g = 3Gg", (f.tripled_half_turn)(&g)),
-        ("each force once: 3Gg", (f.tripled_apart)(&g)),
+        ("(2(g_2+g_3) − g_1, …) = 3Gg", (f.tripled_apart)(&g)),
     ];
     let mut steps = Vec::new();
     for (claim, tripled) in ways {
@@ -218,8 +221,8 @@ fn change_of_sign(f: &Formulas) -> Vec<Step> {
     let (plus, minus) = (setting.directions.clone(), setting.turned_directions(f));
     let mut steps = Vec::new();
     for (claim, above, below) in [
-        ("from + to −, nothing remains", &plus, &minus),
-        ("from − to +, nothing remains", &minus, &plus),
+        ("from + to −, the resultant is 0", &plus, &minus),
+        ("from − to +, the resultant is 0", &minus, &plus),
     ] {
         let left = (f.unbalanced)(&to_below, below, &g, above, &weight);
         steps.extend(nothing_left(claim, left));
@@ -300,7 +303,7 @@ fn horizontal([x, y]: [P; 2]) -> Vector<P> {
     Vector { x, y, z: P::zero() }
 }
 
-/// Returns the steps for the increments of a loaded sphere, in the unit of the load: W = 3.
+/// Returns the steps for the contacts below a loaded sphere. The load is W = 3, so each v is a third of an increment.
 fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<Step> {
     let third = P::one().div_int(THREE);
     let v = increments.clone().map(|w| w.div_int(THREE));
@@ -316,7 +319,7 @@ fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<St
 
 fn point_load(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
-    // The step of a contact: from a sphere to the next one down its line.
+    // The horizontal step of a contact, from a sphere to the next one down its line.
     let steps_under = |directions: &[Vector<P>; 3]| -> [Vector<P>; 3] {
         core::array::from_fn(|line| {
             let mut one = [P::zero(), P::zero(), P::zero()];

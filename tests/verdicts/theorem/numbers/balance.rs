@@ -66,7 +66,7 @@ fn the_product_of_directions_is_their_determinant() {
     assert_eq!(sides, [int(3), ratio(3, 2)]);
 }
 
-/// From the quadratic form, and from the components of a position in the basis (sinθ, 2cosφ·sinθ, cosθ).
+/// The quadratic form gives the same distances as the components of positions in the basis (sinθ, 2cosφ·sinθ, cosθ).
 #[test]
 fn distances_follow_from_positions() {
     let proof = prove("unit-directions");
@@ -120,7 +120,11 @@ fn supports_balance_the_contacts_above() {
         assert_eq!(of_theorem, (-load).into_array());
         let left = forces.unbalanced(site).expect("forces").into_array();
         assert_eq!(
-            ["x", "y", "z"].map(|axis| value(&proof, &format!("{axis}: what is left"), values)),
+            ["x", "y", "z"].map(|axis| value(
+                &proof,
+                &format!("{axis}: the resultant of all"),
+                values
+            )),
             left
         );
     });

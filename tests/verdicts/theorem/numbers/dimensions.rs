@@ -103,7 +103,7 @@ fn squared_forces_have_a_horizontal_resultant() {
     let proof = find("dimensions").expect("a theorem").prove_for(&squares);
     let values = [("g_1", 2), ("g_2", 3), ("g_3", 5)].map(|(name, n)| (name, int(n)));
     for (coordinate, expected) in [(1, -22), (2, -10), (3, 32)] {
-        let claim = format!("d = 3: no push to the side, coordinate {coordinate}");
+        let claim = format!("d = 3: no horizontal force, coordinate {coordinate}");
         let found = proof.steps.iter().find(|step| step.claim == claim);
         let sides = evaluated(found.expect("a step"), &values);
         assert_eq!(sides, [int(expected), int(0)], "{claim}");

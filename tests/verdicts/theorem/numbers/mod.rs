@@ -1,4 +1,4 @@
-//! Theorems at numbers. The polynomials take the values of counts and sums on real piles.
+//! Theorems evaluated at numbers. The polynomials take the values of counts and sums on real piles.
 
 mod balance;
 mod base;
