@@ -7,7 +7,7 @@
 //!
 //! | value | function |
 //! |---|---|
-//! | a small pile, region or stacking; a site, sign or direction | `u.arbitrary()?`, by their [`Arbitrary`] |
+//! | a small pile, region or stacking; a site, sign or direction | `u.arbitrary()?`, by their implementation of [`Arbitrary`] |
 //! | signs of a stacking | [`signs`], [`signs_of`] |
 //! | a region | [`small_region`], [`region`] of any size, [`bounds`] that may be invalid |
 //! | a position near the boundary of a region, inside or outside | [`position_near`] |

@@ -118,7 +118,8 @@ impl Entry {
 }
 
 /// Iterates over the stable stackings of `layers` layers under one sphere, one of each mirror pair: the one that begins
-/// with +. With `failing` it also returns the shortest unstable prefixes. The order is that of the runs.
+/// with +. With `failing` it also returns the shortest unstable prefixes. The entries are in lexicographic order of the
+/// lengths of their runs, without the last run.
 ///
 /// At most eleven stackings are stable (see the module documentation). With unstable prefixes there are 11L − 50
 /// entries for L ≥ 6 layers, and the time for all of them grows as L³.
@@ -179,7 +180,7 @@ pub fn search<E: Judged>(
         return Err(Error::too_many_rows(
             rows.unsigned_abs().into(),
             MAX_ENTRIES,
-            "ask for fewer layers, or only for those that stand",
+            "ask for fewer layers, or only for stable stackings",
         ));
     }
     Ok(Search {
@@ -199,7 +200,7 @@ pub const MAX_ENTRIES: u64 = 100_000_000_000;
 /// The greatest length of a run before a sign change in a stable stacking (see the module documentation, 1).
 const LONGEST_RUN: i128 = 4;
 
-/// The lengths of runs of alternating signs, + first. Another run follows each of them.
+/// The lengths of the first runs of a stacking. The first run has the sign +, and another run follows the last.
 #[derive(Clone, Debug, Default)]
 struct Prefix(Vec<i128>);
 

@@ -28,12 +28,12 @@
 //! | a name and its content | [`Selection`](crate::shape::Selection), [`Anchor`](crate::shape::Anchor): `"base"`, `{"layer":3}` |
 //! | a record of its parts | [`Pile`](crate::Pile): `dimension`, `sin_phi`, `stacking` (from the top), `anchor`, `weightless`, `weights`, `loads` |
 //!
-//! A binary format is one that is not human-readable to serde. There integers are strings and counts are numbers of 64
-//! bits.
+//! A binary format is one that serde does not consider human-readable. In such a format integers are strings, and
+//! counts are numbers of 64 bits.
 //!
 //! # Accepted input
-//! A string is accepted as an integer, and so is a number that the format represents exactly. In JSON this is a number
-//! of 64 bits.
+//! An integer is read from a string, or from a number that the format represents exactly. In JSON this is a number of
+//! 64 bits.
 //!
 //! The parsers of the types read strings, and checked constructors check everything else. Errors are, for example, an
 //! empty region, a pile that overhangs its base, 1/0, an unknown key, and two weights for one sphere. Formats that are
@@ -41,8 +41,8 @@
 //!
 //! A value that is written can be read back, with two exceptions. The first are exact numbers with more than
 //! [`MAX_DIGITS`](crate::scalar::parse::MAX_DIGITS) digits, which occur in sums of loads or in forces below thousands
-//! of sign changes. The second is an `f32` or `f64` in JSON that is not finite, since JSON cannot represent it. Both
-//! give an error when they are read.
+//! of sign changes. The second is an `f32` or `f64` in JSON that is not finite, since JSON cannot represent it. Reading
+//! either of them gives an error.
 //!
 //! Types that borrow a pile ([`Forces`](crate::Forces), [`Packing`](crate::Packing), sweeps), theorems with their
 //! polynomials, and errors cannot be serialised.

@@ -101,7 +101,8 @@ pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
     ]
 }
 
-/// Returns the position of a sphere from the apex, in 2R and the symbolic basis: −(N_α ê_a + N_β ê_b + N_γ ê_c).
+/// Returns the position of a sphere relative to the apex, in units of 2R and in the symbolic basis: −(N_α ê_a + N_β ê_b
+/// + N_γ ê_c).
 ///
 /// `above` contains the numbers of spheres above it on its lines ([`count::above`](crate::lattice::count::above)). So r
 /// = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. The result is exact in exact scalars.

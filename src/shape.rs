@@ -252,7 +252,7 @@ impl Shape {
         self.dimension
     }
 
-    /// Returns how layers follow one another, from the top.
+    /// Returns the stacking, from the top.
     #[must_use]
     pub const fn stacking(&self) -> &Stacking {
         &self.stacking
@@ -481,8 +481,8 @@ impl Shape {
     /// Checks that the pile contains this site, and returns it.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] if the pile does not contain the site. If the layer does not exist either, the error is
-    /// [`Error::LayerOutside`], except for the paper's pile and discs.
+    /// [`Error::SiteOutside`] if the pile does not contain the site. If the pile does not have this layer either, the
+    /// error is [`Error::LayerOutside`], except for the paper's pile and discs.
     ///
     /// # Examples
     /// ```

@@ -48,8 +48,8 @@ use crate::{ContactForce, Error, Packing, Pile};
 pub enum Verdict {
     /// The pile is stable: no contact needs a tensile force.
     Yes,
-    /// The pile is unstable: a contact needs a tensile force, and no other forces balance the pile. Given horizontal
-    /// forces are kept as they are.
+    /// The pile is unstable: a contact needs a tensile force, and no other forces balance the pile. Prescribed
+    /// horizontal forces are not changed.
     No,
     /// A contact needs a tensile force, but further contacts may replace it. For contacts between neighbours in a
     /// layer, a = R, the function `equilibrium` of the crate `cannonpile-horizontal` decides. Contacts across two or
@@ -102,10 +102,10 @@ impl Verdict {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Standing {
-    /// The contact with the smallest force. Of equal forces it is the first in the order of tables.
+    /// The contact with the smallest force. Of several such contacts it is the first in the order of tables.
     ///
-    /// It is `None` for a single layer. It is also `None` for a pile that fails near the top, if a search below would
-    /// need more than 10⁹ numbers.
+    /// It is `None` for a single layer. It is also `None` for a pile that is unstable near the top, if a search of the
+    /// layers below would need more than 10⁹ numbers.
     pub least: Option<ContactForce<BigRational>>,
     /// The first layer, counted from 0 at the top, with a contact that would need a tensile force. The layers above
     /// it are stable on their own.
@@ -272,7 +272,8 @@ impl Pile {
         Ok(standing)
     }
 
-    /// Returns the smallest forces where lines begin at a surface: of ordinary spheres, and of all others.
+    /// Returns the forces where lines begin at a surface: for each direction one below an ordinary sphere, whose forces
+    /// are all equal, and those below all spheres with extra weight.
     fn at_surfaces(&self) -> Vec<ContactForce<BigRational>> {
         let System {
             shape,
@@ -350,7 +351,7 @@ impl Pile {
                 "the verdict on this pile",
                 ends,
                 MAX_NUMBERS,
-                "let the sign change nearer to the top",
+                "move the sign changes closer to the top",
             )?;
             layers.iter().map(|k| least_at_ends(&lines, *k)).collect()
         };

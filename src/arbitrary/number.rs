@@ -188,7 +188,7 @@ pub fn exactly(x: f64) -> BigRational {
     BigRational::from_float(x).unwrap_or_default()
 }
 
-/// Draws `centre` itself, or a number at a distance between 2^−120 and 1/16, which floats may not distinguish from it.
+/// Draws `centre`, or a number that differs from it by 2^−120 to 1/16. Floats may be unable to distinguish the two.
 fn about(u: &mut Unstructured<'_>, centre: &BigRational) -> Result<BigRational> {
     let off = power(2, u.int_in_range(-120..=-4)?);
     Ok(centre + off * BigInt::from(nudge(u)?))

@@ -35,7 +35,7 @@ pub struct Description {
     pub signs: Vec<Sign>,
     /// True if the spheres have zero weight, so that only loads act.
     pub weightless: bool,
-    /// The weights that differ from mg, in mg. The last one of a site counts.
+    /// The weights that differ from mg, in mg. If a site has several, the last one applies.
     pub weights: Vec<(Site, BigRational)>,
     /// The loads, in mg. Several loads on a site add up.
     pub loads: Vec<(Site, BigRational)>,
@@ -218,9 +218,9 @@ fn moderate_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
 /// Draws a pile of up to ten layers. The weight of each sphere and the load on it lie between 0 and 1000 mg, with
 /// denominators of at most 42.
 ///
-/// Three in four have any stacking, on or under a small region. The others are straight piles of up to five layers
-/// under one sphere: equilateral, of discs, or isosceles with a sin φ between 1/12 and 11/12. All contact forces are
-/// below 10⁶ in units of f₀, so even `f32` does not overflow.
+/// Three in four piles have any stacking, on or under a small region. The others are straight piles of up to five
+/// layers under one sphere: equilateral, of discs, or isosceles with a sin φ between 1/12 and 11/12. All contact forces
+/// are below 10⁶ in units of f₀, so even `f32` does not overflow.
 ///
 /// # Errors
 /// Those of [`Unstructured`].
@@ -262,8 +262,8 @@ pub fn regular_pile(u: &mut Unstructured<'_>, layers: i128) -> Result<Pile> {
     })
 }
 
-/// Draws a site of the pile. The layer is the top, second, last but one or bottom layer, or any. The position along i
-/// and j is at an end, at a third of the length, or anywhere. The cost does not depend on the size of the layer.
+/// Draws a site of the pile. The layer is the top, second, last but one or bottom layer, or any layer. Along i and j,
+/// the site lies at an end, at a third of the length, or anywhere. The cost does not depend on the size of the layer.
 ///
 /// # Errors
 /// Those of [`Unstructured`].

@@ -1,4 +1,4 @@
-//! Counters as a record: their fields are atomic.
+//! Serialisation of [`Counters`] as a record of numbers, because its fields are atomic.
 
 use ::serde::{Serialize, Serializer};
 

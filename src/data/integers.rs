@@ -16,7 +16,8 @@ use super::Number;
 use crate::Error;
 use crate::scalar::parse::{big_integer, integer};
 
-/// The greatest number in a text format. Up to this limit, distinct integers remain distinct as `f64`.
+/// The greatest integer that text formats contain as a number. Up to this limit, distinct integers remain distinct as
+/// `f64`.
 const GREATEST: i64 = (1 << 53) - 1;
 
 /// Returns the value as a number if it is within the limit.
@@ -104,7 +105,7 @@ impl<T, P: fmt::Display> Visitor<'_> for Integer<T, P> {
     type Value = T;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an integer, or a string of one beyond 2^53")
+        f.write_str("an integer, as a string if it is beyond 2^53")
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<T, E> {
@@ -155,13 +156,13 @@ mod tests {
         assert!(read::<i128>(u128::MAX).is_err() && read::<i128>("1/2").is_err());
         let float = read::<i128>(1.5).unwrap_err();
         assert!(
-            format!("{float}").ends_with("expected an integer, or a string of one beyond 2^53")
+            format!("{float}").ends_with("expected an integer, as a string if it is beyond 2^53")
         );
         assert!(read::<i128>(true).is_err());
     }
 
     #[test]
-    fn numbers_are_those_that_floats_hold() {
+    fn only_integers_that_floats_represent_are_numbers() {
         for value in [0, 1, -1, GREATEST, -GREATEST] {
             assert_eq!(small(&value), Some(value));
         }

@@ -91,7 +91,8 @@ impl Parts {
             (Dimension::Three, Anchor::Top(top)) => Pile::under(top, self.stacking.clone())?,
             (Dimension::Three, Anchor::Base(base)) => Pile::on(base, self.stacking.clone())?,
         };
-        // Piles of discs have a single shape, and most shapes a single sin φ. Other values are errors.
+        // Piles of discs allow only one stacking and top, and most piles of spheres only sin φ = 1/2. Other values are
+        // errors.
         let given = if pile.sin_phi() != &self.sin_phi {
             "sin-phi"
         } else if pile.shape().stacking() != &self.stacking {

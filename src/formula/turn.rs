@@ -40,8 +40,8 @@ pub fn half_turn<T: Algebra>(g: &[T::Numerator; 3]) -> [T::Numerator; 3] {
     }
 }
 
-/// Returns 3G g = 2(g_α + g_β + g_γ)(1, 1, 1) − 3g, the [half-turn](half_turn) without a division. It serves integers,
-/// whose denominator grows by a factor of 3 at each sign change.
+/// Returns 3G g = 2(g_α + g_β + g_γ)(1, 1, 1) − 3g, the [half-turn](half_turn) without a division. The library uses it
+/// for integers, whose denominator grows by a factor of 3 at each sign change.
 ///
 /// No intermediate term exceeds 2√3·‖g‖, and |3G g| ≤ 5 max|g|. The result is exact if sums are exact.
 ///
@@ -60,8 +60,8 @@ where
     g.each_ref().map(|x| twice_sum.clone() - x - x - x)
 }
 
-/// Returns 3G g as (2(g_β + g_γ) − g_α, …), so that each force occurs once. It serves bounds and limbs. No intermediate
-/// sum exceeds the bound of the result, 5 max|g|.
+/// Returns 3G g as (2(g_β + g_γ) − g_α, …), so that each force occurs once. The library uses it for bounds and limbs.
+/// No intermediate sum exceeds the bound of the result, 5 max|g|.
 ///
 /// Enclosures widen by a factor of 5/3 over a [half-turn](half_turn). With [2Σg − 3g](tripled_half_turn) they would
 /// widen by 3, because interval arithmetic treats the two occurrences of g_α as independent.

@@ -9,8 +9,9 @@
 //! Finitely many n suffice for every L. The neighbours (1,−1,0), (1,0,−1), (0,1,−1) in a layer give the lower bounds.
 //! The differences with 1 ≤ m ≤ 3, |n_a−n_b| ≤ 1 and −1 ≤ n_a+n_b ≤ 4 give the upper bounds. No other pairs can touch.
 //!
-//! Other stackings have one upper bound, from spheres vertically above each other. They are two layers apart at a sign
-//! change, q ≤ 9/4, and otherwise three, q ≤ 8/3. The lemma and its proof are in [`paper`](crate::paper#overlap).
+//! Other stackings have one upper bound, from spheres vertically above each other. At a sign change these spheres are
+//! two layers apart, and q ≤ 9/4. In a straight stacking they are three layers apart, and q ≤ 8/3. The lemma and its
+//! proof are in [`paper`](crate::paper#overlap).
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -241,7 +242,7 @@ impl Clearance {
     }
 }
 
-/// Returns the differences n that decide (see the module documentation), one of each ±n, with the difference of the
+/// Returns the decisive differences n (see the module documentation), one of each ±n, with the difference of the
 /// layers.
 fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
     let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].map(|n| (0, n));

@@ -1,7 +1,7 @@
-//! Counts of spheres above a site on its lines, of spheres, of contacts, and of contacts with a given strength.
+//! Counts of spheres above a site on its lines, of all spheres, of all contacts, and of contacts with a given force.
 //!
-//! Each count is one generic function. With `i128` it counts, with big rationals it counts without a limit, and with
-//! polynomials it proves identities.
+//! Each count is one generic function. With `i128` it returns a number, with big rationals a number of any size, and
+//! with polynomials a formula for proofs.
 
 use core::num::{NonZeroI64, NonZeroU32};
 use core::ops::Sub;

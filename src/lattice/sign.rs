@@ -7,7 +7,7 @@ use core::str::FromStr;
 use super::Direction;
 use crate::Error;
 
-/// The Hägg sign of a step from a layer to the one below. It says at which positions a sphere is supported.
+/// The Hägg sign of a step from a layer to the one below. It determines the positions of the supports of a sphere.
 ///
 /// # Examples
 /// ```

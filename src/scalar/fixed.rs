@@ -1,7 +1,7 @@
 //! Rationals of fixed width with checked arithmetic.
 //!
-//! `Ratio<i64>` wraps silently in release builds. [`FixedRational`] contains one and uses checked operations only. The
-//! first result that does not fit becomes a *fault*, and every operation on a fault gives a fault.
+//! `Ratio<i64>` wraps silently in release builds. [`FixedRational`] contains a `Ratio` and uses checked operations
+//! only. The first result that does not fit becomes a *fault*, and every operation on a fault gives a fault.
 
 use alloc::format;
 use core::cmp::Ordering;
@@ -190,7 +190,7 @@ impl<I: FixedInteger> fmt::Display for FixedRational<I> {
         let Some((n, d)) = self.parts() else {
             return f.pad("overflow");
         };
-        // |n| ≤ MAX has a magnitude.
+        // |n| ≤ MAX, so `abs` cannot overflow.
         let magnitude = if d.is_one() {
             format!("{}", n.abs())
         } else {
@@ -379,7 +379,7 @@ mod tests {
         assert_eq!(b.partial_cmp(&a), Some(Ordering::Greater));
     }
 
-    /// Without `std`, `Ratio` ignores the width.
+    /// This needs `std`, because without it `Ratio` ignores the width.
     #[cfg(feature = "std")]
     #[test]
     fn width_fill_and_sign_match_big_rationals() {

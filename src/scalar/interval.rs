@@ -19,8 +19,7 @@ use exact_surd::layout::padded;
 ///
 /// Operations round outward: the result contains all results for operands in the given intervals. So the true value
 /// always lies inside. Each end is the tightest possible `f64`, except for products and quotients in the subnormal
-/// range, where it may be one float wider. A value that is known exactly stays a single point as long as its results
-/// are floats.
+/// range, where it may be one float wider. A single point stays a single point as long as the exact results are floats.
 ///
 /// # Examples
 /// ```
@@ -159,7 +158,7 @@ impl Interval {
         self.lower.max(f64::MIN).midpoint(self.upper.min(f64::MAX))
     }
 
-    /// Returns the smallest interval that contains `end` of all four corners.
+    /// Returns the smallest interval that contains the bounds `end(x, y)` for all four `corners` (x, y).
     fn hull(corners: [(f64, f64); 4], end: impl Fn(f64, f64) -> (f64, f64)) -> Self {
         let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
         for (x, y) in corners {
@@ -274,8 +273,8 @@ fn in_reach(x: f64, y: f64) -> (f64, f64) {
     }
 }
 
-/// Returns whether the rounding error of a product or quotient has the sign of that of the significands. This fails
-/// where the result was rounded to the coarser grid of subnormals.
+/// Returns whether a product or quotient has a rounding error of the same sign as that of the significands. This is not
+/// certain if the result was rounded to the coarser grid of subnormals.
 fn is_normal(value: f64) -> bool {
     value.is_finite() && value.abs() > f64::MIN_POSITIVE
 }

@@ -292,7 +292,7 @@ fn check_value<T: Algebra + RealEmbeddable>(
     if holds {
         return Ok(());
     }
-    let witness = format!("{got:?} stands for {want}");
+    let witness = format!("{got:?} in place of {want}");
     broken::<T>(law, witness)
 }
 

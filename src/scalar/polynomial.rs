@@ -92,7 +92,7 @@ impl Monomial {
 
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
-        // At the first symbol with different exponents, the greater exponent is greater.
+        // The first symbol with different exponents decides: the monomial with the greater exponent is greater.
         let lexicographic = || {
             let powers = |s: Symbol| self.power(s).cmp(&other.power(s));
             let mut orders = self.symbols(other).into_iter().map(powers);
@@ -194,7 +194,7 @@ impl Polynomial {
         polynomial.is_defined().then_some(polynomial)
     }
 
-    /// Returns the fault, the result of an exponent that does not fit.
+    /// Returns the fault, which is the result of an operation with an exponent that does not fit.
     fn fault() -> Self {
         Self {
             terms: BTreeMap::new(),

@@ -8,7 +8,8 @@ use super::{Shape, Site};
 use crate::Error;
 use crate::error::{bug, refuse_beyond};
 
-/// The greatest number of spheres in a numbering. Numbers fit in a `u64`, and the offsets of all layers fit in memory.
+/// The greatest number of spheres in a numbering. Up to this limit, numbers fit in a `u64`, and the offsets of all
+/// layers fit in memory.
 const MOST: u64 = 100_000_000_000;
 
 /// The numbers 1, 2, 3, … of the spheres of a pile, in row order from the top. Tables and exported files use them.
@@ -61,7 +62,7 @@ impl<'p> Numbering<'p> {
         })
     }
 
-    /// Returns the shape whose spheres these are.
+    /// Returns the shape whose spheres are numbered.
     #[must_use]
     pub fn shape(&self) -> &'p Shape {
         self.shape

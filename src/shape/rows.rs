@@ -85,7 +85,7 @@ pub struct Rows<'p> {
     j: Option<i128>,
     /// The end of the layers, exclusive.
     end: i128,
-    /// A single sphere, instead of layers.
+    /// The sphere, if the selection is a single one. The range of layers is then empty.
     one: Option<Site>,
 }
 
@@ -135,7 +135,7 @@ impl<'p> Rows<'p> {
         self
     }
 
-    /// Returns the pile whose rows they are.
+    /// Returns the shape that the rows belong to.
     #[must_use]
     pub fn shape(&self) -> &'p Shape {
         self.shape

@@ -13,8 +13,8 @@ use crate::lattice::Sign;
 /// The greatest length of a parsed text, in bytes.
 const LONGEST: usize = 4_000_000;
 
-/// The greatest length of an invalid text, in characters, that the error message quotes in full. For a longer text it
-/// gives the position.
+/// The greatest length of an invalid text, in characters, that the error message quotes in full. For a longer text the
+/// message gives the position of the fault.
 const QUOTED: usize = 60;
 
 /// The notations of a stacking.
@@ -143,7 +143,7 @@ impl fmt::Display for Stacking {
 impl FromStr for Stacking {
     type Err = Error;
 
-    /// Parses any of the four notations, which is recognised by its characters.
+    /// Parses any of the four notations. The characters of the text determine the notation.
     ///
     /// A single layer is `A` or `()`. An empty text is an error. A `-` before Zhdanov's notation means that the first
     /// sign is −.

@@ -33,10 +33,10 @@ pub struct BaseExtremes {
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub normal_max: BigRational,
     /// The largest ratio of shear to normal force, in tanθ. The friction coefficient must be at least this large if the
-    /// base must not slide. Against rolling the base needs more ([`paper`](crate::paper#errata), 4).
+    /// base must not slide. A base that may roll needs more ([`paper`](crate::paper#errata), 4).
     ///
-    /// Bottom spheres without a normal force have no ratio. For a tensile normal force, the ratio of the magnitudes
-    /// counts. Both cases occur only in unstable piles, in piles without weight, and in piles with given horizontal
+    /// Bottom spheres without a normal force have no ratio. For a tensile normal force, the ratio is that of the
+    /// magnitudes. Both cases occur only in unstable piles, in piles without weight, and in piles with given horizontal
     /// forces.
     pub max_shear_ratio: Surd,
 }
@@ -45,9 +45,9 @@ impl Pile {
     /// Returns the extremes of the force on the floor.
     ///
     /// Between a few spheres, the normal force is linear in i and j. The ratio is the norm of a linear function divided
-    /// by it. In a straight pile under one sphere, the extremes are at the corners. With few sign changes they are at a
-    /// few spheres of each row. Otherwise every bottom sphere is computed in floats, and the few candidates for an
-    /// extreme are computed exactly.
+    /// by the normal force. In a straight pile under one sphere, the extremes are at the corners. With few sign changes
+    /// they are at a few spheres of each row. Otherwise every bottom sphere is computed in floats, and the few
+    /// candidates for an extreme are computed exactly.
     ///
     /// # Errors
     /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would be computed, or one of them depends on too many

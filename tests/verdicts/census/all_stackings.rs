@@ -21,7 +21,7 @@ struct Found {
     failing: Vec<BTreeSet<String>>,
 }
 
-/// Examines every stacking layer by layer. Stackings with a common beginning share it.
+/// Examines every stacking layer by layer. The forces of a common beginning are computed once.
 fn brute_force() -> Found {
     let none = || vec![BTreeSet::new(); MAX_STEPS + 1];
     let mut found = Found {
@@ -133,7 +133,7 @@ fn entries_have_the_oracles_least_force() {
     }
 }
 
-/// Tells whether a set of sites is a translation of its mirror image.
+/// Returns whether a set of sites is a translation of its mirror image.
 fn is_its_own_mirror_image(sites: &Sites) -> bool {
     let moved = |sites: Vec<(i128, i128)>| -> Sites {
         let first = |pick: fn(&(i128, i128)) -> i128| sites.iter().map(pick).min().expect("a site");
@@ -227,7 +227,7 @@ fn the_error_of_a_large_census_states_its_size() {
         let refusal = Error::too_many_rows(
             rows.into(),
             census::MAX_ENTRIES,
-            "ask for fewer layers, or only for those that stand",
+            "ask for fewer layers, or only for stable stackings",
         );
         assert_eq!(census::under_one_sphere(layers, true).err(), Some(refusal));
     };

@@ -226,7 +226,7 @@ fn refused(n: i128, load: BigRational, loaded: fn(i128) -> Site) {
         "the verdict on this pile",
         BigUint::from(14 * (8 + 9) + 9 * (starts + 2)),
         134_217_728,
-        "let the sign change nearer to the top",
+        "move the sign changes closer to the top",
     );
     assert_eq!(pile.unwrap().standing(), Err(refused));
 }
@@ -271,7 +271,8 @@ fn a_load_on_the_floor_is_found_in_long_rows() {
     assert_eq!(extremes.normal_max, ratio(155, 3));
 }
 
-/// All of the top is special. The search must not look for the start of a line in other layers, because there are no runs.
+/// The load is on the whole top layer. The search must not look for the start of a line in other layers, because every
+/// run has only one step.
 #[test]
 fn a_load_on_the_top_of_a_million_layers() {
     let hcp = Stacking::hcp(1_000_000).unwrap();
