@@ -1,4 +1,5 @@
-//! Claims about the core on random input. The runs are deterministic and use the same generators as fuzzing.
+//! Claims about the crate `cannonpile` on random input. The runs are deterministic and use the same generators as
+//! fuzzing.
 //!
 //! Each claim is a function of bytes in `cannonpile_testkit`, next to the tests that inject faults. A failure prints the
 //! shortest bytes that proptest finds, and the witness of the claim.

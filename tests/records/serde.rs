@@ -118,7 +118,7 @@ fn stackings() {
     assert!(refusal::<Pattern>("\"bcc\"").contains("'bcc'"));
 }
 
-/// A number that uses the module for fields.
+/// A record whose field uses the module `number`.
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(bound = "T: cannonpile::data::Number")]
 struct Field<T> {

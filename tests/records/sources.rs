@@ -21,7 +21,7 @@ struct Source {
 }
 
 impl Source {
-    /// A file of the core.
+    /// Returns a file of the root crate.
     fn new(path: &str, text: &str) -> Self {
         Self::of("core", path, text)
     }

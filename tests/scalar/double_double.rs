@@ -80,7 +80,7 @@ fn is_normal(a: &DoubleDouble) -> bool {
     !a.is_defined() || a.low().abs() * 2.0 <= unit
 }
 
-/// Errors of an operation. The bound is relative within the documented range and absolute below it.
+/// The errors of an operation. Their bound is relative within the documented range and absolute below it.
 struct Errors {
     /// The greatest relative error.
     worst: f64,

@@ -44,7 +44,7 @@ fn broken<C: Claim>(operations: Operations) -> BTreeSet<&'static str> {
         .collect()
 }
 
-/// Declares tests that each fault breaks the named law.
+/// Declares a test for each fault, which checks that the fault breaks the named law.
 macro_rules! breaks_laws {
     (of $claim:ident: $($name:ident breaks $law:literal: { $($fault:tt)* })*) => {$(
         #[test]
@@ -207,7 +207,7 @@ fn the_error_names_the_law_and_the_operands() {
     assert!(broken.to_string().starts_with(says), "{broken}");
 }
 
-/// A special value that represents an undefined one.
+/// A special value that represents a fault.
 fn fault() -> Q {
     ratio(1, 1_000_003)
 }

@@ -12,7 +12,7 @@ use num_traits::{One, Pow, Zero};
 
 use cannonpile_testkit::answers::ratio;
 
-/// IEEE 754 binary16, with each operation in `f32`. `LOST` of its digits are wrong.
+/// IEEE 754 binary16, with each operation in `f32`. The last `LOST` of its 11 binary digits are lost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Half<const LOST: i32>(f32);
 

@@ -72,8 +72,9 @@ impl Path {
 /// The values of t for the small piles. The head has no influence at these heights, except on lines that never leave it.
 const SMALL: [i128; 3] = [7, 8, 9];
 
-/// Forces on such a path are affine in t, because lines add a constant increment per sphere. So two small piles of the
-/// oracle predict a pile of any height, and a third checks the prediction. Returns false if the path leaves the base.
+/// Checks the forces along a path. They are affine in t, because each sphere adds a constant increment to its lines. So
+/// two small piles of the oracle predict a pile of any height, and a third checks the prediction. Returns false if the
+/// path leaves the base.
 fn grows_evenly(high: &High, small: &BTreeMap<i128, Forces>, path: Path) -> bool {
     let of_small = SMALL.map(|t| {
         let (known, at) = (&small[&(path.steps * t)], path.at(high, t));

@@ -86,7 +86,7 @@ fn spheres() -> impl Iterator<Item = Pile> {
 /// Answers the whole query and counts the work.
 fn run(pile: &Pile, question: Question) -> Result<Counters, Error> {
     let counters = Counters::default();
-    // Wide enough for the isosceles pile, and narrow enough for sign changes.
+    // A spacing without overlap both for the isosceles pile and for sign changes.
     let spacing = Spacing::new(ratio(3, 2)).unwrap();
     let (mut forces, packing) = (pile.forces::<BigRational>(), Packing::new(pile, &spacing));
     let mut packing = packing.unwrap();
@@ -135,7 +135,7 @@ fn work_stays_within_the_plan() {
                 let mut question = Question::new(part, quantity);
                 question.method = method;
                 let Ok(plan) = pile.plan(question) else {
-                    // These have no closed form, or the part is not on the floor.
+                    // The pile has no closed form, or the part is not on the floor.
                     assert!(run(&pile, question).is_err(), "{pile:?} {question:?}");
                     continue;
                 };
@@ -246,7 +246,7 @@ fn slices_receive_the_forces() {
     }
 }
 
-/// The worst error of layers that are all read, and its bound.
+/// The greatest error of the forces of all layers, and its bound.
 fn error_and_bound<F: Algebra>(
     pile: &Pile,
     exact: &[[BigRational; 3]],
@@ -274,7 +274,7 @@ fn floats_stay_within_their_bound() {
         let greatest = exact.iter().flatten().max().unwrap();
         let [single, bound] = error_and_bound::<f32>(&pile, &exact, BigRational::from_float);
         assert!(single <= bound, "{single} > {bound}");
-        // The bound is also useful.
+        // The bound is small compared with the greatest force.
         assert!(bound < ratio(1, 20) * greatest, "{bound} of {greatest}");
         let [double, bound] = error_and_bound::<f64>(&pile, &exact, BigRational::from_float);
         assert!(double <= bound, "{double} > {bound}");
@@ -348,7 +348,7 @@ fn one_contact_of_a_million_layers_visits_no_other_sphere() {
     assert_eq!((counters.visited(), counters.turned()), (1, 0));
 }
 
-/// The rows start at a negative index, and at 0.
+/// The rows of the first pile start at a negative index, those of the second at 0.
 #[test]
 fn wide_layers_use_bands_of_rows() {
     check_bands(Region::hexagon(70, 60).unwrap(), -5);
@@ -413,7 +413,7 @@ fn chunks_fill_the_slices_of_large_piles() {
     }
 }
 
-/// A scalar that rounds and can overflow. A value that it cannot represent is an error and never stays in a slice.
+/// The scalar rounds and can overflow. A value that it cannot represent is an error and never stays in a slice.
 #[test]
 fn an_overflow_in_a_sweep_is_an_error() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(50).unwrap()).unwrap();
@@ -451,7 +451,7 @@ fn a_sweep_replaces_a_tree_that_is_too_large_for_one_sphere() {
     assert!(counters.passes() > 400);
 }
 
-/// Loads with long denominators, so that the values have as many limbs as the threads share.
+/// The loads have long denominators, so the values have so many limbs that the threads share the limbs.
 #[test]
 fn wide_values_sweep_limb_by_limb() {
     let long = |power: u32, at: Site, pile: Pile| {

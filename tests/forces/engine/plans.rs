@@ -17,7 +17,7 @@ fn under_one_sphere(signs: &str) -> Pile {
     Pile::under(Region::SITE, stacking(signs)).unwrap()
 }
 
-/// Under one row of `n` spheres.
+/// Returns a pile under one row of `n` spheres.
 fn under_a_row(n: i128, signs: &str) -> Pile {
     let row = Region::new(0..=n - 1, 0..=0, 0..=n - 1).unwrap();
     Pile::under(row, stacking(signs)).unwrap()
@@ -33,7 +33,7 @@ fn a_sweep_to_the_floor_of_six_layers() {
     let pile = under_one_sphere("+-+-+");
     let plan = pile.plan(Selection::Base).unwrap();
     assert_eq!(plan.method, Method::Sweep);
-    // Five runs and one stop, with 3·27 values.
+    // A pass for each of five runs, and one for the layer where the sweep stops, with 3·27 values.
     assert_eq!(plan.runs, 5);
     assert_eq!(plan.passes, 6_u32.into());
     assert_eq!(plan.numbers, 81_u32.into());
@@ -54,7 +54,7 @@ fn a_sweep_to_the_floor_of_six_layers() {
     assert_eq!(counters.to_string(), printed);
 }
 
-/// A layer at a sign change transmits forces after a half-turn. The bit width includes it.
+/// A layer at a sign change transmits forces after a half-turn. The bit width includes this half-turn.
 #[test]
 fn the_bit_width_includes_the_last_sign_change() {
     let (layer, pile) = (Selection::Layer(2), under_one_sphere("+-+"));

@@ -10,7 +10,7 @@ use cannonpile::{Error, Method, Pile};
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
 use cannonpile_testkit::oracles::balance::{Balance, Place, direction, site};
 
-/// Tells whether the sign changes at layer k.
+/// Returns whether the sign changes at layer k.
 fn at_a_change(balance: &Balance, k: i128) -> bool {
     balance
         .sign(k - 1)

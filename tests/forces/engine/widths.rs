@@ -15,7 +15,7 @@ use cannonpile_testkit::compare::agrees;
 use cannonpile_testkit::oracles::balance::{direction, ratio};
 use cannonpile_testkit::oracles::brute::{self, LayerForces};
 
-/// The bits of a limb below the top one.
+/// The bits of each limb except the top one.
 const LIMB: u32 = 55;
 
 fn plan(case: &Case) -> Plan {
@@ -119,7 +119,7 @@ fn light_spheres_do_not_offset_a_load() {
     }
 }
 
-/// Tells whether x = n/d, without reduction to lowest terms, which would dominate the run time.
+/// Returns whether x = n/d, without reduction to lowest terms, which would dominate the run time.
 fn is_quotient(x: &BigRational, n: &BigInt, d: &BigInt) -> bool {
     x.numer() * d == n * x.denom()
 }

@@ -16,7 +16,7 @@ fn runs(signs: &str, k: usize) -> usize {
     1 + steps.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// (⌊√(36 K N)⌋ + 1)/3 for the weights of K layers with N spheres, plus twice the load.
+/// A bound on all forces: (⌊√(36 K N)⌋ + 1)/3 for the weights of K layers with N spheres, plus twice the load.
 fn greatest(layers: usize, spheres: usize, load: &BigRational) -> BigRational {
     let root = BigUint::from(36 * layers * spheres).sqrt() + 1_u32;
     (BigRational::from_integer(BigInt::from(root)) + load * ratio(6, 1)) / ratio(3, 1)
@@ -39,7 +39,7 @@ fn counts_every_step<T: Algebra>(pile: &Pile, signs: &str, bits: u32, loads: &[(
     for (k, (of_layer, bound)) in bounds::<T>(pile).into_iter().enumerate() {
         spheres += of_layer;
         let loaded = loads.iter().filter(|(at, _)| *at <= k).count();
-        // One for each stop, each run and each load, and one for the sphere's own weight.
+        // One step for each layer that was read (a stop), each run and each load, and one for the sphere's own weight.
         let steps = (k + 1) + runs(signs, k) + loaded + 1;
         let units = BigRational::new((13 * steps).into(), BigInt::from(1) << bits);
         // A factor of 65/64 covers underflow.

@@ -237,7 +237,7 @@ fn at_the_top_of_a_line() {
     assert_eq!(normal_max, ratio((120 + 240 + 240) / 3 + 1, 1));
 }
 
-/// A pile that fails near the top may have a smaller force further down. So the verdict names no least contact.
+/// A pile that is unstable near the top may have a smaller force further down. So its least contact is `None`.
 #[test]
 fn an_unstable_pile_has_no_least_contact() {
     let small = Pile::under(Region::SITE, Stacking::hcp(12).unwrap()).unwrap();
@@ -250,8 +250,8 @@ fn an_unstable_pile_has_no_least_contact() {
     assert_eq!((standing.first_failure, standing.least), (Some(4), None));
 }
 
-/// Small piles with another weight on each sphere of the base in turn. The float of a sphere without that weight must not
-/// decide.
+/// Small piles in which each bottom sphere in turn has another weight. The float of an ordinary sphere must not replace
+/// its value.
 #[test]
 fn of_a_base_with_one_special_sphere() {
     let tiny = BigRational::from_integer(BigInt::from(7).pow(200)).recip();
@@ -268,7 +268,7 @@ fn of_a_base_with_one_special_sphere() {
                 .with_load(first, tiny.clone())
                 .unwrap()
                 .weightless(),
-            // First all forces overflow floats, then only those of some spheres.
+            // The forces that depend on this load overflow floats.
             pile.clone().with_load(first, tiny.recip().pow(3)).unwrap(),
         ];
         for site in pile.rows(Selection::Base).unwrap().flatten() {
@@ -297,7 +297,7 @@ fn of_a_base_where_the_extremes_are_loaded() {
     equals_the_search_over_all(&loaded);
 }
 
-/// A load that overflows floats on each sphere in turn. Some spheres of a row then have a float and others not.
+/// A load that overflows floats on each sphere in turn. Some forces of a row then have a float, and others do not.
 #[test]
 fn of_a_base_with_some_overflows() {
     let great = BigRational::from_integer(BigInt::from(7).pow(600));
@@ -308,9 +308,9 @@ fn of_a_base_with_some_overflows() {
     }
 }
 
-/// Four bottom spheres with separate loads, among others with loads that hide their own shear. Two of the four have uniform
-/// loads. The other two differ from that by 7.28 and 7.32 parts of 2^−537. Floats lose the digits of their squared shears
-/// below 2^−1074 and give the first a greater ratio.
+/// Four bottom spheres receive separate loads, and the large loads of all others make their ratios small. Two of the
+/// four receive three equal loads. For the other two, one load is greater by 7.28 or 7.32 times 2^−537. Floats lose the
+/// digits of their squared shears below 2^−1074 and give the first a greater ratio.
 #[test]
 fn of_ratios_with_underflowing_squares() {
     let power =

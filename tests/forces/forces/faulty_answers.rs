@@ -13,7 +13,7 @@ const LAYERS: i128 = 5;
 const INNER: Site = Site { i: 1, j: 1, k: 3 };
 const CORNER: Site = Site { i: 4, j: 0, k: 4 };
 
-/// The theorem holds for the paper's pile and fails for the pile with the fault.
+/// Checks that the theorem holds for the paper's pile and fails for the pile with the fault.
 fn catches(theorem: impl Fn(&Answers) -> Verdict, fault: impl FnOnce(&mut Answers)) {
     let mut pile = Answers::of(&Shape::equilateral(), LAYERS);
     assert_eq!(theorem(&pile), Ok(()));
@@ -74,7 +74,7 @@ fn one_shear_reversed(pile: &mut Answers) {
     force.x = -&force.x;
 }
 
-/// The sum is zero, but not the moment.
+/// The shears still sum to zero, but their moment does not vanish.
 fn shear_turned(pile: &mut Answers) {
     for force in pile.floor.values_mut() {
         let [x, y] = TURNS[1].map(|[x, y]| &force.x * ratio(x, 2) + &force.y * ratio(y, 2));
@@ -82,7 +82,7 @@ fn shear_turned(pile: &mut Answers) {
     }
 }
 
-/// The total weight is right, but one corner has some weight of another.
+/// The total weight is right, but one corner bears a part of the weight on another.
 fn load_shifted(pile: &mut Answers) {
     pile.floor.get_mut(&CORNER).unwrap().z += BigRational::one();
     let other = Site { i: 0, j: 4, k: 4 };

@@ -76,7 +76,7 @@ fn all_methods_agree_exactly_and_rounded() {
     }
 }
 
-/// Symmetric under a third of a turn until a horizontal force breaks the symmetry.
+/// The piles are symmetric under a third of a turn, until a horizontal force breaks the symmetry.
 #[test]
 fn one_horizontal_force_breaks_every_symmetry() {
     let contact = HorizontalContact {
@@ -98,7 +98,7 @@ fn one_horizontal_force_breaks_every_symmetry() {
     }
 }
 
-/// Long values over coprime denominators, after many sign changes, with many limbs.
+/// Horizontal forces with coprime denominators, and many sign changes, give values with many limbs.
 #[test]
 fn long_horizontal_forces_are_exact() {
     let denominators = [10_007_i64, 99_991, 1_000_003];

@@ -301,7 +301,7 @@ fn layers_reject_sites_of_other_layers() {
     assert_eq!(layer.fill_base([&mut a, &mut b, &mut c]), refused);
 }
 
-/// Also if the index of the next layer would overflow.
+/// This includes a layer whose next index would overflow.
 #[test]
 fn nonexistent_layers_are_rejected() {
     let pile = Pile::triangular(3).expect("a pile");

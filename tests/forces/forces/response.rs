@@ -200,7 +200,7 @@ fn hcp_has_a_ring_of_compression_around_tension() {
 
 #[test]
 fn weight_keeps_contacts_compressive_up_to_a_critical_load() {
-    // Below the sign change the contacts under the edge have 1 − (1 + w)/3.
+    // With the load w on the top, the contacts of an edge carry 1 − (1 + w)/3 below the sign change.
     let failure = |load: BigRational| {
         let case = Case::under(&Bounds::SITE, "+-").with_load((0, 0, 0), &load);
         case.pile.standing().unwrap().first_failure

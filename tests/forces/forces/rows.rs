@@ -1,4 +1,4 @@
-//! Rows of correctly rounded floats, in pieces of any length and by any method, and sums equal single queries.
+//! Rows of correctly rounded floats equal single queries, in pieces of any length and by any method. So do sums.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use num_traits::Zero;
 use super::layers::{packing_of, piles};
 use cannonpile_testkit::answers::ratio;
 
-/// Rows in pieces, without some of their spheres.
+/// Rows in pieces of `size` spheres. Every fifth piece is left out.
 fn pieces(pile: &Pile, size: i128) -> impl Iterator<Item = Row> {
     let rows = pile.rows(Selection::All).expect("rows");
     let pieces: Vec<Row> = rows.flat_map(|row| row.pieces(size)).collect();
@@ -397,7 +397,7 @@ fn subnormal_results_are_reported() {
     assert_eq!(layers(-309), (false, false));
 }
 
-/// The unit is 3^−78, a normal float, or 3^−80, which is subnormal.
+/// In `f32` the unit 3^−78 is normal, and the unit 3^−80 is subnormal.
 #[test]
 fn a_normal_unit_keeps_all_digits() {
     let pile = Pile::under(Region::SITE, "+-".repeat(41).parse().unwrap()).unwrap();

@@ -1,5 +1,5 @@
-//! Other scalars than `BigRational`, compared with the oracle. Rounded ones stay within a bound for their precision.
-//! Enclosures contain the exact value. Fixed-width ones are equal or report an overflow.
+//! Scalars other than `BigRational`, compared with the oracle. Rounded scalars stay within a bound for their precision.
+//! Enclosures contain the exact value. Fixed-width scalars are exact or report an overflow.
 
 use cannonpile::Error;
 use cannonpile::scalar::{Algebra, DoubleDouble, FixedRational, Interval, Polynomial};

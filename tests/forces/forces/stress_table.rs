@@ -30,14 +30,14 @@ fn errors_at_the_limits_match_the_table() {
     for (measured, written) in measured.lines().zip(table.lines()) {
         assert_eq!(
             measured, written,
-            "if that is right, renew the table: STRESS_TABLE_RENEW=1 cargo test --test forces stress_table"
+            "if the new errors are right, renew the table: STRESS_TABLE_RENEW=1 cargo test --test forces stress_table"
         );
     }
     assert_eq!(measured.lines().count(), table.lines().count());
 }
 
-/// After a thousand sign changes the other scalars take minutes. The bench `rounding` measures them with `-- --stress`.
-/// Without optimisation even the exact forces are slow.
+/// Of a pile with a thousand sign changes this test measures only floats, because other scalars take minutes. The bench
+/// `rounding` measures them with `-- --stress`. Without optimisation even the exact forces are slow.
 #[cfg(not(debug_assertions))]
 #[test]
 fn errors_after_many_changes_of_sign_are_those_of_the_table() {

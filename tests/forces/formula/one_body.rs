@@ -138,7 +138,7 @@ fn places() -> impl Iterator<Item = [Q; 6]> {
 /// The allowed rounding errors in units of 2^−p times the growth: a few, for any precision p.
 const ROUNDINGS: i64 = 8;
 
-/// Tells whether an answer is as close to the exact one as its scalar permits.
+/// Returns whether an answer is as close to the exact one as its scalar permits.
 fn is_near<T: Algebra + RealEmbeddable>(got: &T, want: &Q, growth: &Q) -> bool {
     let Some(bounds) = got.enclosure() else {
         return false;

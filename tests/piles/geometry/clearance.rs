@@ -67,8 +67,8 @@ fn every_verdict_agrees_with_all_pairs() {
     }
 }
 
-/// An error is true: the named spheres overlap, and the spacing lies outside the named bounds. The error says that no
-/// spacing fits exactly if none of the tested ones does.
+/// An error is true: the named spheres overlap, and the spacing lies outside the named bounds. The error reports that
+/// no spacing fits if and only if none of the tested ones does.
 #[test]
 fn every_error_is_true() {
     for shape in shapes() {

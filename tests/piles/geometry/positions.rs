@@ -216,7 +216,7 @@ fn positions_on_a_base_are_relative_to_its_origin() {
     }
 }
 
-/// The three contact vectors span the lattice of the pile. Their scalar products say which lattice it is.
+/// The three contact vectors span the lattice of the pile. Their scalar products determine the type of the lattice.
 #[test]
 fn three_spacings_make_cubic_lattices() {
     for (lattice, q, scalar_product) in [

@@ -55,7 +55,7 @@ fn walked_up(layers: &[Sites], signs: &[Sign], site: (i128, i128)) -> [i128; 3] 
     core::array::from_fn(|m| {
         let (mut here, mut count) = (site, 0);
         for (layer, sign) in layers.iter().zip(signs).rev() {
-            // This sphere is support m of the one above, so this takes the step down from (0, 0) back.
+            // This sphere is support m of the one above. So the walk reverses the step down from (0, 0).
             let (dj, di) = supports((0, 0), *sign)[m];
             here = (here.0 - dj, here.1 - di);
             if !layer.contains(&here) {

@@ -112,7 +112,7 @@ fn every_stacking_on_random_bases() {
     });
 }
 
-/// The runs are so long that several sides vanish in one. Differences then sum the pieces.
+/// The runs are so long that several sides vanish within one run. Newton's differences then sum each piece.
 #[test]
 fn long_runs_on_random_bases() {
     random_bounds(20, 120, |bounds| {

@@ -1,5 +1,5 @@
-//! In the core, a module uses only modules above it in the map of `lib.rs`. In every crate, the files have no dependency
-//! cycle.
+//! In the root crate (the core), a module uses only modules above it in the map of `lib.rs`. In every crate, the files
+//! have no dependency cycle.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -48,7 +48,7 @@ fn silent_defaults(text: &str) -> Vec<usize> {
     found
 }
 
-/// Tells whether a call with these arguments uses an arbitrary default.
+/// Returns whether a call with these arguments uses an arbitrary default.
 fn is_silent(name: &str, arguments: &str) -> bool {
     match name {
         "unwrap_or_default" | "clamp" => true,
@@ -59,7 +59,7 @@ fn is_silent(name: &str, arguments: &str) -> bool {
     }
 }
 
-/// Tells whether a value is a literal, the end of a range, or a value of every type.
+/// Returns whether a value is a literal, the end of a range, or a value of every type.
 fn is_arbitrary(value: &str) -> bool {
     let words = value
         .split(|c| !is_of_word(c))

@@ -37,7 +37,7 @@ fn proved(formulas: &str) -> BTreeSet<(String, String)> {
         .collect()
 }
 
-/// Tells whether a file calls a function: as `module::name`, as a method, after an import, or in the module itself.
+/// Returns whether a file calls a function: as `module::name`, as a method, after an import, or in the module itself.
 fn calls(file: &str, code: &str, (module, is_home): (&str, bool), name: &str) -> bool {
     let home = format!("/{module}.rs");
     let own = format!("/{file}").ends_with(&home) || file.starts_with(&format!("{module}/"));
