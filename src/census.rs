@@ -78,7 +78,7 @@ pub trait Judged: Sized {
     /// Examines a pile.
     ///
     /// # Errors
-    /// Those of the criterion.
+    /// The errors of the criterion.
     fn judge(pile: Pile) -> Result<Self, Self::Error>;
 
     /// Returns whether the pile is stable.

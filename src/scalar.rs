@@ -88,7 +88,7 @@ pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 
 /// The relation between the result of an operation and the true result.
 ///
-/// It is part of the scalar type ([`Algebra::EXACTNESS`]). The functions in [`laws`] test what it promises.
+/// The exactness is part of the scalar type ([`Algebra::EXACTNESS`]). The functions in [`laws`] test it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Exactness {
@@ -213,7 +213,7 @@ impl Ring for BigInt {
     note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring`, `Algebra` and `OwnNumerators`"
 )]
 pub trait Algebra: Ring + Numerators {
-    /// The relation of results to the true values.
+    /// The relation between results and true values.
     const EXACTNESS: Exactness;
 
     /// The name of the scalar type in messages, such as `f64`.
@@ -408,8 +408,8 @@ impl fmt::Display for Enclosure {
 
 /// A scalar type that can be compared with rationals: it has a sign and rational bounds.
 ///
-/// For a rounded scalar, sign and bounds describe the *stored* value. They say nothing certain about the quantity that
-/// it approximates, so a verdict needs an exact scalar.
+/// For a rounded scalar, sign and bounds describe the *stored* value. They do not bound the quantity that this value
+/// approximates, so a verdict needs an exact scalar.
 ///
 /// # Laws
 /// The sign is that of every value in the enclosure, or [`RealSign::Unknown`].

@@ -5,8 +5,8 @@
 //! A force of zero is allowed.
 //!
 //! At some spacings further spheres touch: at q = (a/R)² = 1, at q = 9/4 with a sign change, and at q = 8/3 without
-//! one. There, nonnegative forces still prove stability, but a negative force proves nothing. At q = 1 the function
-//! `equilibrium` of the crate `cannonpile-horizontal` decides.
+//! one. At these spacings, nonnegative forces still prove stability, but a negative force proves nothing. At q = 1 the
+//! function `equilibrium` of the crate `cannonpile-horizontal` decides.
 //!
 //! Within a run the force along a line never decreases, because no weight is negative. So the smallest force is where a
 //! line begins: at a surface or at a sign change. Only the layers at sign changes need a search.
@@ -82,7 +82,7 @@ impl Verdict {
     }
 }
 
-/// The smallest contact force of a pile and its consequence for stability, exactly.
+/// The exact smallest contact force of a pile, and the first unstable layer.
 ///
 /// # Examples
 /// ```
@@ -163,8 +163,8 @@ impl Standing {
 impl Pile {
     /// Returns the smallest contact force of the pile, its contact, and the first unstable layer.
     ///
-    /// The cost is an exact sweep from the top to the last sign change. It is lower after long runs, because the forces
-    /// are linear between a few spheres of each row. Then only these spheres are computed.
+    /// The cost is that of an exact sweep from the top to the last sign change. After long runs it is lower: the forces
+    /// are linear between a few spheres of each row, and only these spheres are computed.
     ///
     /// # Errors
     /// [`Error::TooLarge`] if the layers above a sign change do not fit in memory, and the forces there depend on too

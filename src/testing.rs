@@ -38,7 +38,7 @@ use crate::stacking::Stacking;
 /// The greatest length of the byte string, enough for a small pile. A generator reads missing bytes as zeros.
 const BYTES: usize = 256;
 
-/// Generates small piles of any kind, most of them with weights and loads: those of the
+/// Generates small piles of any kind, most of them with weights and loads, by the
 /// [`Arbitrary`](crate::arbitrary::Arbitrary) implementation of `Pile`.
 ///
 /// # Examples
@@ -52,7 +52,7 @@ pub fn piles() -> impl Strategy<Value = Pile> + Clone {
     drawn(|u: &mut Unstructured<'_>| u.arbitrary())
 }
 
-/// Generates small piles with weights and loads between 0 and 1000 mg, with denominators of at most 42: those of
+/// Generates small piles with weights and loads between 0 and 1000 mg and denominators of at most 42, by
 /// [`moderate_pile`].
 ///
 /// [`piles`] also draws loads of up to about 10³²⁰ mg, which overflow `f64`. Use this strategy for properties of floats.

@@ -27,7 +27,7 @@
 //!   data to these functions. Tests compare the engines with each other and with an oracle.
 //!
 //! # Faults
-//! A proof that cannot fail proves nothing. So every theorem takes the [`Formulas`] of its subject as an argument.
+//! A proof that cannot fail proves nothing. So every theorem takes the formulas as an argument ([`Formulas`]).
 //! [`Formulas::LIBRARY`] has the formulas of the crate, and the tests replace each of them by a wrong one.
 //!
 //! # Examples
@@ -181,7 +181,7 @@ impl Proof {
     ///
     /// let mut proof = theorem::find("counts").unwrap().prove();
     /// assert!(proof.holds());
-    /// // It fails with one wrong step, and without steps.
+    /// // A proof fails with one wrong step, and without steps.
     /// proof.steps[0].relation = Relation::Different;
     /// assert!(!proof.holds());
     /// assert!(!Proof { steps: vec![] }.holds());

@@ -5,7 +5,7 @@ use arbitrary::{Error, Result, Unstructured};
 /// Returns true once in `of` draws on average, and false if the bytes are exhausted.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 pub fn rarely(u: &mut Unstructured<'_>, of: u8) -> Result<bool> {
     let of = of.max(1);
     Ok(u.int_in_range(1..=of)? == of)

@@ -19,7 +19,7 @@ pub(super) fn power(base: u32, exponent: i32) -> BigRational {
 /// or any integer of 128 bits.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -42,7 +42,7 @@ pub fn integer(u: &mut Unstructured<'_>) -> Result<BigInt> {
 /// Draws an `i128`: close to a power of two, at an end of the range, small, or any.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -65,7 +65,7 @@ pub fn machine_integer(u: &mut Unstructured<'_>) -> Result<i128> {
 /// ten, possibly outside the range of floats.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -97,7 +97,7 @@ pub fn rational(u: &mut Unstructured<'_>) -> Result<BigRational> {
 /// Draws a finite float: any bit pattern, next to a power of two, a subnormal, or ±[`f64::MAX`].
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -131,7 +131,7 @@ fn power_of_two(u: &mut Unstructured<'_>) -> Result<f64> {
 /// three layers overlap at every spacing; close to 0 or 1; a simple fraction; or a float.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -159,7 +159,7 @@ pub fn sin_phi(u: &mut Unstructured<'_>) -> Result<BigRational> {
 /// Draws sin φ as a float with 0 < s < 1: any such float, subnormals included, or one from a uniform distribution.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```

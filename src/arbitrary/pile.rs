@@ -45,7 +45,7 @@ impl Description {
     /// Builds the pile.
     ///
     /// # Errors
-    /// Those of [`Pile::on`], [`Pile::under`], [`Pile::with_weight`] and [`Pile::with_load`], if fields were changed.
+    /// The errors of [`Pile::on`], [`Pile::under`], [`Pile::with_weight`] and [`Pile::with_load`], if fields were changed.
     pub fn pile(&self) -> core::result::Result<Pile, crate::Error> {
         let stacking = Stacking::from_signs(self.signs.iter().copied())?;
         let mut pile = if self.from_base {
@@ -71,7 +71,7 @@ impl Description {
 /// [`weight`].
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 pub fn description(u: &mut Unstructured<'_>) -> Result<Description> {
     described(u, weight)
 }
@@ -94,7 +94,7 @@ fn described(
 /// Draws a pile of up to six layers, with weights and loads from [`light_weight`].
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 pub fn light_description(u: &mut Unstructured<'_>) -> Result<Description> {
     let from_base = u.arbitrary()?;
     let region = small_region(u)?;
@@ -106,7 +106,7 @@ pub fn light_description(u: &mut Unstructured<'_>) -> Result<Description> {
 /// loads from [`light_weight`].
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 pub fn tiny_description(u: &mut Unstructured<'_>) -> Result<Description> {
     let from_base = u.arbitrary()?;
     let (region, most): (_, usize) = if rarely(u, 4)? {
@@ -186,7 +186,7 @@ fn base(u: &mut Unstructured<'_>, top: Region, signs: &[Sign]) -> Result<Region>
 /// Draws a weight or load, in mg: zero, an integer, a fraction, a power of two up to 2^130, or any rational ≥ 0.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 pub fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(match u.int_in_range(0..=4)? {
         0 => ratio(0, 1),
@@ -200,7 +200,7 @@ pub fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
 /// Draws a weight or load of at most 9 mg, with the denominator 1, 2, 3 or 7.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 pub fn light_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(ratio(u.int_in_range(0..=9)?, *u.choose(&[1, 1, 2, 3, 7])?))
 }
@@ -223,7 +223,7 @@ fn moderate_weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
 /// are below 10⁶ in units of f₀, so even `f32` does not overflow.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -253,7 +253,7 @@ pub fn moderate_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
 /// Draws a straight pile of `layers` layers under one sphere: equilateral, isosceles or of discs.
 ///
 /// # Errors
-/// Those of [`Unstructured`], and [`arbitrary::Error::IncorrectFormat`] unless 1 ≤ `layers` ≤ 10³⁶.
+/// The errors of [`Unstructured`], and [`arbitrary::Error::IncorrectFormat`] unless 1 ≤ `layers` ≤ 10³⁶.
 pub fn regular_pile(u: &mut Unstructured<'_>, layers: i128) -> Result<Pile> {
     valid(match u.int_in_range(0..=3)? {
         0 => Pile::triangular(layers),
@@ -266,7 +266,7 @@ pub fn regular_pile(u: &mut Unstructured<'_>, layers: i128) -> Result<Pile> {
 /// the site lies at an end, at a third of the length, or anywhere. The cost does not depend on the size of the layer.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```

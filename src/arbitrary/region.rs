@@ -13,7 +13,7 @@ use crate::lattice::{MAX_LAYERS, Region, Site};
 /// its bounds in arbitrary order, so that they may cross.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -58,7 +58,7 @@ fn coordinate(u: &mut Unstructured<'_>, reach: u8) -> Result<i128> {
 /// Draws a region of any size, with up to about 10³⁶ rows.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -79,7 +79,7 @@ pub fn region(u: &mut Unstructured<'_>) -> Result<Region> {
 /// Draws a region of up to five sites a side, close to the origin.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -105,10 +105,10 @@ pub fn small_region(u: &mut Unstructured<'_>) -> Result<Region> {
 }
 
 /// Draws a position (i, j) close to a corner of the region, or close to the middle between two corners: at most two
-/// steps away in i and in j. It may lie outside the region.
+/// steps away in i and in j. The position may lie outside the region.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```

@@ -12,7 +12,7 @@ use crate::stacking::Stacking;
 /// Draws up to `most` Hägg signs.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```
@@ -30,7 +30,7 @@ pub fn signs(u: &mut Unstructured<'_>, most: usize) -> Result<Vec<Sign>> {
 /// Draws exactly `steps` Hägg signs: all equal, of period 2 or 4, with at most one sign change, or independent.
 ///
 /// # Errors
-/// Those of [`Unstructured`].
+/// The errors of [`Unstructured`].
 ///
 /// # Examples
 /// ```

@@ -93,7 +93,7 @@ impl Key for Site {
 /// Writes a map as a list of records.
 ///
 /// # Errors
-/// Those of the serializer.
+/// The errors of the serializer.
 pub fn serialize<K: Key, S: Serializer>(
     map: &BTreeMap<K, K::Held>,
     serializer: S,
@@ -104,7 +104,7 @@ pub fn serialize<K: Key, S: Serializer>(
 /// Reads a map from a list of records.
 ///
 /// # Errors
-/// Those of the deserializer; a duplicate key.
+/// The errors of the deserializer; a duplicate key.
 pub fn deserialize<'de, K: Key, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<K, K::Held>, D::Error> {

@@ -51,13 +51,13 @@ pub trait Number: Sized {
     /// Writes the number.
     ///
     /// # Errors
-    /// Those of the serializer; a number without a value, such as a fault.
+    /// The errors of the serializer; a number without a value, such as a fault.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
 
     /// Reads the number.
     ///
     /// # Errors
-    /// Those of the deserializer; a text that does not represent such a number.
+    /// The errors of the deserializer; a text that does not represent such a number.
     fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
 }
 

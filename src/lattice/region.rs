@@ -500,7 +500,7 @@ impl FromStr for Region {
     /// prefix `region:` is optional.
     ///
     /// # Errors
-    /// [`Error::Syntax`]; those of [`Region::new`] and [`Region::hexagon`].
+    /// [`Error::Syntax`]; the errors of [`Region::new`] and [`Region::hexagon`].
     ///
     /// # Examples
     /// ```

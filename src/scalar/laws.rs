@@ -1,7 +1,7 @@
 //! Tests of the algebraic laws, for any scalar type.
 //!
-//! Each function takes operands and returns the first law that they break. It demands as much as [`Algebra::EXACTNESS`]
-//! promises:
+//! Each function takes operands and returns the first law that they break. The function demands as much as
+//! [`Algebra::EXACTNESS`] promises:
 //!
 //! * An exact scalar must satisfy each law with equality.
 //! * A fixed-width scalar must satisfy it with equality or return a fault.
@@ -125,9 +125,9 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), BrokenLaw> {
 /// Checks that operations agree with those on rationals. It converts x and y to the scalar type and compares the result
 /// of each operation with the exact one on the stored values.
 ///
-/// A rounded scalar is tested where 2^−e ≤ |result| ≤ 2^e, away from overflow and underflow. The exponent e is 64, or
-/// less for a format with a shorter range, but at least 8. It is the greatest e for which 2^e and 2^−e are
-/// representable with all digits and one more. For half precision it is 13.
+/// A rounded scalar is tested where 2^−e ≤ |result| ≤ 2^e, away from overflow and underflow. The exponent e is the
+/// greatest one up to 64 for which 2^e and 2^−(e+p) are representable, where p is the precision in bits, but at least
+/// 8. For half precision e is 13.
 ///
 /// # Errors
 /// The first law that x and y break.

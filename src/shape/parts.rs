@@ -21,7 +21,7 @@ impl<'p> Part<'p> {
     /// Returns the remaining rows as a part: whole layers, or a single site.
     ///
     /// # Errors
-    /// Those of [`Region::new`], which do not occur for a site of a pile.
+    /// The errors of [`Region::new`], which do not occur for a site of a pile.
     pub(crate) fn of(rows: &Rows<'p>) -> Result<Self, Error> {
         Ok(match rows.one() {
             None => Self::Layers(rows.shape(), rows.layers()),

@@ -149,7 +149,7 @@ impl FromStr for Stacking {
     /// sign is −.
     ///
     /// # Errors
-    /// [`Error::Syntax`], or [`Error::Misspelled`] for a long text; those of [`from_runs`](Self::from_runs).
+    /// [`Error::Syntax`], or [`Error::Misspelled`] for a long text; the errors of [`from_runs`](Self::from_runs).
     ///
     /// # Examples
     /// ```

@@ -94,7 +94,8 @@ fn over_all(pile: &Pile) -> [BigRational; 3] {
     [normals().min(), normals().max(), ratio].map(Option::unwrap_or_default)
 }
 
-/// Piles with loads whose base is swept: loads in the bottom layer, loads that overflow floats, and weightless piles.
+/// Piles whose base is swept: without loads, with a load in the bottom layer, with a very large load, and weightless
+/// piles with a load.
 fn swept() -> Vec<Pile> {
     let skewed = Region::new(-3..=2, 0..=5, -2..=4).unwrap();
     let mut piles = Vec::new();
@@ -138,8 +139,8 @@ fn equals_the_search_over_all(pile: &Pile) {
     assert_eq!(found, over_all(pile), "{}", pile.shape().stacking());
 }
 
-/// Lines only grow within a run. So the least contact force is at the start of a line, and tension occurs only at a sign
-/// change.
+/// Forces along a line only grow within a run. So the least contact force is at the start of a line, and tension occurs
+/// only at a sign change.
 #[test]
 fn of_contacts() {
     let mut failures = 0;
@@ -150,7 +151,7 @@ fn of_contacts() {
             *layer += run.steps;
             Some(*layer)
         });
-        // Also the first layers, where surfaces begin.
+        // The first two layers are included, because surfaces begin there.
         let layers = changes
             .take(pile.shape().stacking().changes())
             .chain([0, 1]);

@@ -19,8 +19,8 @@ fn shapes() -> impl Iterator<Item = Shape> {
     Shape::isosceles().chain([Shape::Discs])
 }
 
-/// Every q at which two spheres a few steps apart touch, and q slightly smaller and larger. Also some values between, and
-/// those at which contacts would be horizontal.
+/// Returns every q at which two spheres a few steps apart touch, slightly smaller and larger q, some values between,
+/// and those at which contacts would be horizontal.
 fn test_values(shape: &Shape, tall: &BTreeSet<Difference>) -> Vec<BigRational> {
     let few = tall
         .iter()

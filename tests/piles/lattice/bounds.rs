@@ -78,7 +78,7 @@ fn corners_are_attained(region: &Region, sites: &Sites) {
     }
 }
 
-/// The image under (i, j) → (−i, −j). Also compares whether a translation maps it to the region.
+/// Checks the image under (i, j) → (−i, −j), and whether a translation maps it to the region.
 fn mirror_images(region: &Region, sites: &Sites) {
     let image: Sites = sites.iter().map(|(j, i)| (-j, -i)).collect();
     let mirrored = region.mirrored();

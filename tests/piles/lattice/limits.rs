@@ -1,4 +1,5 @@
-//! Regions near the greatest coordinates, ±10³⁶. They are rejected beyond, and nothing overflows up to them.
+//! Regions near the greatest coordinates, ±10³⁶. Regions beyond this limit are rejected, and nothing overflows within
+//! it.
 
 use cannonpile::Error;
 use cannonpile::lattice::{Axis, HorizontalContact, MAX_LAYERS, Region, Row, Sign, Site};

@@ -118,7 +118,8 @@ fn the_least_value_of_two_limbs_equals_brute_force() {
     assert_eq!((found.force, found.site, found.direction), least);
 }
 
-/// A weightless bottom sphere with the same load as its neighbours does not represent them.
+/// The force of a weightless bottom sphere must not be taken for that of its neighbours, which receive the same load
+/// from above.
 #[test]
 fn a_light_bottom_sphere_does_not_hide_others() {
     let row = Bounds {
@@ -253,8 +254,8 @@ fn the_limbs_of_the_last_layer_count_towards_the_limit() {
     });
 }
 
-/// Two rows: n + 1 spheres that support two each, or one at the ends, and n that support one. The search examines few
-/// spheres, among them the loaded one.
+/// The base has two rows: n + 1 spheres that support two each, or one at the ends, and n that support one. The search
+/// examines few spheres, among them the loaded one.
 #[test]
 fn a_load_on_the_floor_is_found_in_long_rows() {
     let n = 100_000;
