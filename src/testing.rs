@@ -55,7 +55,7 @@ pub fn piles() -> impl Strategy<Value = Pile> + Clone {
 /// Generates small piles with weights and loads between 0 and 1000 mg and denominators of at most 42, by
 /// [`moderate_pile`].
 ///
-/// [`piles`] also draws loads of up to about 10³²⁰ mg, which overflow `f64`. Use this strategy for properties of floats.
+/// [`piles`] also draws loads of up to about 10⁴⁰⁰ mg, which overflow `f64`. Use this strategy for properties of floats.
 ///
 /// # Examples
 /// In `f64`, the normal forces on the floor sum to the weight up to rounding:

@@ -61,8 +61,8 @@ pub fn machine_integer(u: &mut Unstructured<'_>) -> Result<i128> {
     Ok(if u.arbitrary()? { n.wrapping_neg() } else { n })
 }
 
-/// Draws a rational of either sign, zero included: simple, an integer, a float, close to ⅓, ½, 5/6 or 1, or a power of
-/// ten, possibly outside the range of floats.
+/// Draws a rational of either sign, zero included: a simple fraction, an integer, a quotient of integers, a float,
+/// close to ⅓, ½, 5/6 or 1, or a power of ten, possibly outside the range of floats.
 ///
 /// # Errors
 /// The errors of [`Unstructured`].

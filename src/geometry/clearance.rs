@@ -10,8 +10,8 @@
 //! The differences with 1 ≤ m ≤ 3, |n_a−n_b| ≤ 1 and −1 ≤ n_a+n_b ≤ 4 give the upper bounds. No other pairs can touch.
 //!
 //! Other stackings have one upper bound, from spheres vertically above each other. At a sign change these spheres are
-//! two layers apart, and q ≤ 9/4. In a straight stacking they are three layers apart, and q ≤ 8/3. The lemma and its
-//! proof are in [`paper`](crate::paper#overlap).
+//! two layers apart, and q ≤ 9/4. In a straight stacking of at least four layers they are three layers apart, and q ≤
+//! 8/3. The lemma and its proof are in [`paper`](crate::paper#overlap).
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -187,8 +187,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// Checks exactly that no spheres overlap at this spacing. Returns the pairs that touch in addition to the contacts
-    /// α, β, γ. They exist only at the bounds.
+    /// Checks exactly that no spheres overlap at this spacing. Returns the layer differences of the spheres that touch
+    /// in addition to the contacts α, β, γ. Such spheres exist only at the bounds.
     ///
     /// # Errors
     /// [`Error::NoSpacing`] if no spacing is possible for this sin φ; [`Error::Overlap`], with the allowed spacings;

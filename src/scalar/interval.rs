@@ -18,8 +18,10 @@ use exact_surd::layout::padded;
 /// A closed interval [lower, upper] of real numbers. Its ends are `f64` values and may be infinite.
 ///
 /// Operations round outward: the result contains all results for operands in the given intervals. So the true value
-/// always lies inside. Each end is the tightest possible `f64`, except for products and quotients in the subnormal
-/// range, where it may be one float wider. A single point stays a single point as long as the exact results are floats.
+/// always lies inside. Each end is the tightest possible `f64`, with two exceptions: it may be one float wider for
+/// products and quotients in the subnormal range, and two floats wider after division by an integer of more than 53
+/// bits. Away from the limits of the range, a single point stays a single point as long as the exact results are
+/// floats.
 ///
 /// # Examples
 /// ```

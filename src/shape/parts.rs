@@ -14,7 +14,7 @@ pub(crate) enum Part<'p> {
     Layer(i128, Region),
 }
 
-/// A region of at most this many sites is not split.
+/// A region is not split if the parallelogram of its ranges of i and j has at most this many sites.
 const FEW: i128 = 256;
 
 impl<'p> Part<'p> {

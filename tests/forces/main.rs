@@ -1,6 +1,7 @@
 //! Fixed and exhaustive tests of forces: the formulas, the engines, the answers in pile units and in SI.
 //!
-//! Without the feature `std` only the roots use another algorithm. So that build contains only the tests of rounding.
+//! Without the feature `std` only the roots use another algorithm. So a build without `std` contains only the tests of
+//! rounding.
 
 #[cfg(feature = "std")]
 mod formula {

@@ -1,5 +1,5 @@
-//! Rules for the sources of all crates that Cargo does not check: the dependencies between modules, and an error instead of
-//! a default for impossible cases.
+//! Rules for the sources of all crates that Cargo does not check: the dependencies between modules, an error instead of
+//! a default for impossible cases, and a proof of every formula.
 //!
 //! The checks are textual. They recognise enough of Rust to skip comments, strings and unit tests. A test shows that each
 //! check rejects invalid text.

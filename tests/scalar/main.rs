@@ -1,6 +1,7 @@
 //! Fixed and exhaustive tests of the scalars.
 //!
-//! Without the feature `std` only the roots use another algorithm. So that build contains only the tests of rounding.
+//! Without the feature `std` only the roots use another algorithm. So a build without `std` contains only the tests of
+//! rounding.
 
 mod double_double;
 #[cfg(feature = "std")]
