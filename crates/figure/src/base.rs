@@ -10,11 +10,11 @@ use crate::Error;
 
 /// Draws the base normal forces, as a map of the base seen from above.
 ///
-/// In the pile of the paper all of them are equal: paper, (13).
+/// In the pile of the paper all these forces are equal, by (13) of the paper.
 ///
 /// # Errors
-/// [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
-/// [`Packing::base`](cannonpile::Packing::base).
+/// [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces
+/// outside the range of `f64`; the errors of [`Packing::base`](cannonpile::Packing::base).
 ///
 /// # Examples
 /// ```

@@ -18,7 +18,7 @@ use crate::Error;
 /// force, the lower half the smallest.
 ///
 /// # Errors
-/// Those of [`cannonpile_horizontal::base_bounds`]; [`Error::TooManyGlyphs`].
+/// The errors of [`cannonpile_horizontal::base_bounds`]; [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres.
 ///
 /// # Examples
 /// ```
@@ -30,7 +30,7 @@ use crate::Error;
 /// let pile = Pile::triangular(4)?;
 /// let touching = Spacing::new(BigRational::from_integer(1.into()))?;
 /// let svg = cannonpile_figure::bounds(&Subject::of_pile(&pile, &touching)?)?.to_string();
-/// // At most L − 2/3 at each corner.
+/// // The normal force of a corner sphere is at most L − 2/3, in mg.
 /// assert_eq!(svg.matches("data-exact=\"10/3\"").count(), 3);
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
@@ -41,7 +41,7 @@ pub fn bounds(subject: &Subject<'_>) -> Result<Figure, Error> {
     let (mut exact, mut attained) = (Vec::new(), Vec::new());
     for found in cannonpile_horizontal::base_bounds(pile, Selection::Base)? {
         let (_, bounds) = found?;
-        // In the order of the halves of a cell: the largest force is above the smallest.
+        // The upper half of a cell comes first, and shows the largest force.
         for bound in [bounds.greatest, bounds.least] {
             exact.push(subject.normal(bound.normal));
             attained.push(bound.attained);

@@ -40,7 +40,7 @@ pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
     Ok(parts.join(", "))
 }
 
-/// Returns `1 layer`, `10 layers`.
+/// Returns a number with its noun: `1 layer`, `10 layers`.
 pub(super) fn counted(count: &BigInt, noun: &str) -> String {
     let plural = if count.is_one() { "" } else { "s" };
     format!("{count} {noun}{plural}")

@@ -12,7 +12,7 @@ const SIZE: Point = [8.0, 5.0];
 #[derive(Clone, Debug)]
 pub(super) struct Chart {
     pub(super) panel: Panel,
-    /// The ends of each axis.
+    /// The values at both ends of each axis.
     ends: [[f64; 2]; 2],
 }
 

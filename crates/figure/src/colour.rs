@@ -38,7 +38,7 @@ enum Map {
     Rising,
     /// From near-white to dark on both sides of zero: blue below, red above.
     Diverging,
-    /// As [`Diverging`](Self::Diverging) without the palest colours, so that thin lines on white show their sign.
+    /// As [`Diverging`](Self::Diverging), but without the palest colours, so that thin lines on white show their sign.
     Signed,
 }
 
@@ -57,7 +57,7 @@ impl Scale {
         Self { least, most, map }
     }
 
-    /// Returns a scale that has zero on it, with one side only if no number is on the other.
+    /// Returns a diverging scale that contains zero. It has a single side if no value lies on the other.
     pub(super) fn around_zero(values: impl IntoIterator<Item = f64>) -> Self {
         let (least, most) = ends(values);
         let (least, most, map) = (least.min(0.0), most.max(0.0), Map::Diverging);

@@ -14,8 +14,9 @@ use crate::Error;
 
 /// Draws the probability density P(f) of the contact forces, or of the base normal forces, over random stackings.
 ///
-/// One curve is for all stackings, the other for the stable ones. The vertical axis is log₁₀ P; empty bins are left out.
-/// Enumerated stackings have the fault probability `q`. For samples `q` has no effect. A part of an ensemble gives `None`.
+/// One curve is for all stackings, the other for the stable ones. The vertical axis is log₁₀ P; empty bins are left
+/// out. Enumerated stackings are weighted by their probability at the fault probability `q`. For samples `q` has no
+/// effect. The result is `None` if the tally covers only a part of an ensemble.
 ///
 /// # Errors
 /// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Error::TooManyGlyphs`] for more than 20 000 bins.

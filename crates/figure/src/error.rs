@@ -32,13 +32,13 @@ pub enum Error {
         /// A change that gives fewer glyphs.
         remedy: &'static str,
     },
-    /// An error of the core.
+    /// An error of the crate `cannonpile`.
     Core(cannonpile::Error),
-    /// An error of bounds and elastic states.
+    /// An error of the crate `cannonpile_horizontal`, about bounds or elastic states.
     Horizontal(cannonpile_horizontal::Error),
-    /// An error of random stackings.
+    /// An error of the crate `cannonpile_disorder`, about random stackings.
     Disorder(cannonpile_disorder::Error),
-    /// An error of the numbered pile in the viewer.
+    /// An error of the crate `cannonpile_dem`, about the numbered pile in the viewer.
     Dem(cannonpile_dem::Error),
 }
 

@@ -152,7 +152,8 @@ pub(super) fn polygon(corners: &[Point]) -> Glyph {
     Glyph::new("polygon").set("points", points.join(" "))
 }
 
-/// Returns an arrow as one polygon. Its first and last corners are on both sides of the tail, and its fourth is the tip.
+/// Returns an arrow as one polygon. The fourth of its seven corners is the tip, and the tail lies between the first
+/// corner and the last.
 ///
 /// The tip is exactly the end of the vector. A short arrow has a short head.
 pub(super) fn arrow(tail: Point, tip: Point, width: f64, colour: &str) -> Glyph {

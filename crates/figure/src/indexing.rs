@@ -1,4 +1,4 @@
-//! The indices of the spheres of a layer: paper, fig. 2.
+//! The indices of the spheres of a layer, as in fig. 2 of the paper.
 
 use cannonpile::lattice::{Sign, Site};
 
@@ -16,11 +16,12 @@ const LIMIT: u32 = 150;
 
 /// Draws layer `k` seen from above, with the indices of its spheres; x points to the right and y upwards.
 ///
-/// The indices i and j run along rows of spheres. α, β and γ are the directions of the three spheres below. For k = 3 this
-/// is the mirror image of fig. 2 of the paper, where z points down.
+/// The indices i and j run along rows of spheres. α, β and γ are the directions to the three spheres below. For k = 3
+/// this is the mirror image of fig. 2 of the paper, where z points down.
 ///
 /// # Errors
-/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyGlyphs`] for more than 150 spheres.
+/// [`LayerOutside`](cannonpile::Error::LayerOutside) if there is no layer `k`; [`Error::TooManyGlyphs`] for more than
+/// 150 spheres.
 ///
 /// # Examples
 /// ```

@@ -13,7 +13,7 @@ use crate::Error;
 /// The positions of the spheres of a layer, in R, relative to the first one.
 #[derive(Clone, Debug)]
 pub(super) struct Layer {
-    /// In row order.
+    /// The sites and positions, in row order.
     pub(super) spheres: Vec<(Site, Point)>,
     /// The steps i → i+1 and j → j+1.
     pub(super) steps: [Point; 2],
@@ -60,7 +60,7 @@ impl Layer {
         u.hypot(v)
     }
 
-    /// Returns a panel around the spheres with a margin in R, and with a smallest size.
+    /// Returns a panel of a minimum size around the spheres, with a margin in R.
     pub(super) fn panel(&self, margin: f64, margins: Margins) -> Panel {
         let centres = self.spheres.iter().map(|(_, at)| *at);
         let height = if self.discs { 4.0 } else { 8.0 };
@@ -129,7 +129,7 @@ impl Layer {
             lower.extend([right, left]);
             return [upper, lower];
         }
-        // A line along x connects two opposite corners.
+        // The halves meet in a line along x between two opposite corners.
         [of(&[4, 5, 0, 1]), of(&[1, 2, 3, 4])]
     }
 }

@@ -30,15 +30,15 @@
 //! | [`bounds()`] | the smallest and largest normal force of each bottom sphere at a = R |
 //! | [`response()`] | the forces in a layer under a load on the top |
 //! | [`mean_response()`], [`mean_profile()`] | the mean response of the base over random stackings: as maps, and by distance |
-//! | [`distribution()`] | the force distribution over random stackings |
+//! | [`distribution()`] | the distribution of contact forces or base normal forces over random stackings |
 //! | [`refinement()`] | the errors of a code at several stiffnesses or time steps, and their order of accuracy |
 //! | [`viewer`] | an HTML viewer of the pile and its forces |
 //! | [`Error`] | the errors of this crate |
 //!
 //! # Axes
-//! The axes are those of the exported files: x and y as in the paper, z **up**. A view from above has x to the right and y
-//! upwards. In the paper z points down, so its figures 2 and 4 show a layer from below. They are mirror images of the
-//! figures here.
+//! The axes are those of the files that `cannonpile-dem` exports: x and y as in the paper, z **up**. A view from above
+//! has x to the right and y upwards. In the paper z points down, so its figures 2 and 4 show a layer from below. They
+//! are mirror images of the figures here.
 //!
 //! # Features
 //! `rayon` uses all cores.

@@ -27,7 +27,7 @@ pub(super) struct Map<'a> {
     pub(super) cross_label: &'a str,
 }
 
-/// The largest length of an exact number that becomes an attribute of its cell.
+/// The largest number of characters of the attribute `data-exact`. Longer exact numbers are left out.
 const LONGEST: usize = 60;
 
 impl Map<'_> {
@@ -141,11 +141,11 @@ pub(super) fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<Str
                 }
             })
         });
-    let long = |value: &f64| value.abs() >= 1e-3;
-    // A very small number has a power of ten, which may be set in a smaller font.
+    let is_plain = |value: &f64| value.abs() >= 1e-3;
+    // A number below 1e-3 has a power of ten. It may exceed `room`, because it is then set in a smaller font.
     let all_fit = |texts: &Vec<String>| {
         let mut texts = texts.iter().zip(values);
-        texts.all(|(text, value)| fits(text) || !long(value))
+        texts.all(|(text, value)| fits(text) || !is_plain(value))
     };
     decimals.into_iter().find(all_fit)
 }

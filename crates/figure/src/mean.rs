@@ -25,8 +25,8 @@ use crate::Error;
 /// and have a sphere there. Red is compression, blue is tension. Each map has its own scale, whose largest magnitude is
 /// printed above it.
 ///
-/// The dashed circle has the radius nρ/√2, n steps below the load, where ρ is the horizontal part of a contact. It is the
-/// wave front for every fault probability above 0 ([`Wave`](cannonpile_disorder::Wave)).
+/// The base is n steps below the load. The dashed circle has the radius nρ/√2, where ρ is the horizontal length of a
+/// contact. This is the wave front for every fault probability above 0 ([`Wave`](cannonpile_disorder::Wave)).
 ///
 /// # Errors
 /// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Layers`](cannonpile::Error::Layers); [`Error::TooManyGlyphs`] for more than 20 000 cells.
@@ -135,7 +135,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
 /// without a sphere counts as 0. Stackings begin with +. The dashed line is at r = nρ/√2.
 ///
 /// # Errors
-/// As for [`mean_response`].
+/// As for [`mean_response`], but [`Error::TooManyGlyphs`] is for more than 20 000 points of a curve.
 ///
 /// # Examples
 /// ```
@@ -209,7 +209,7 @@ fn caption(layers: i128) -> String {
     format!("{layers}, wide top, spheres without weight, 1 mg on one of them, first step +")
 }
 
-/// Returns the steps α, β and γ below a + step, in ρ.
+/// Returns the horizontal parts of the directions α, β and γ at a + step, in ρ.
 fn steps() -> [Point; 3] {
     let down = directions(&0.5);
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|line| {
@@ -224,7 +224,7 @@ fn at_distance(row: &MeanForce<f64>) -> Option<(f64, f64)> {
     Some((square.to_f64()?.sqrt(), row.normal))
 }
 
-/// Returns the error of a number of layers that is too large for a float.
+/// Returns the error for a number of layers outside the range of `f64`, which the limit on glyphs excludes.
 fn finite() -> Error {
     bug("the number of layers of a figure is small").into()
 }

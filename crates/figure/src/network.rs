@@ -42,16 +42,17 @@ struct Network {
 
 /// Draws the contact forces in a vertical section through the middle of the pile, with y to the right.
 ///
-/// The section contains one row of spheres of each layer: the row nearest to the plane across x through the middle row of
-/// the top. In the layer below, α and β lead to the row in the same position, and γ leads to the next row. A pile of discs is
-/// drawn as a whole.
+/// The section contains one row of spheres of each layer: the row nearest to the plane perpendicular to x through the
+/// middle row of the top. The directions α and β lead to the same row of the layer below, and γ leads to the next row.
+/// A pile of discs is drawn as a whole.
 ///
 /// Contacts are `<line class="contact" data-direction="…" data-force="…">` with the indices of the upper sphere. Blue is
 /// tension, red is compression.
 ///
 /// # Errors
-/// [`Error::TooManyGlyphs`] for a pile of more than 200 000 spheres or a section of more than 20 000; [`Overflow`](cannonpile::Error::Overflow) for
-/// forces beyond floats; those of the forces of the pile.
+/// [`Error::TooManyGlyphs`] for a pile of more than 200 000 spheres or a section of more than 20 000;
+/// [`Overflow`](cannonpile::Error::Overflow) for forces outside the range of `f64`; the errors of the force
+/// computation.
 ///
 /// # Examples
 /// ```
@@ -118,11 +119,13 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     network.figure(subject, title.into(), sight, true)
 }
 
-/// Draws the contact forces between layer `k` and the layer below, seen from above. Discs are seen from the side.
+/// Draws the contact forces between layer `k` and the layer below, seen from above. Discs lie on a line along x.
 ///
 /// # Errors
-/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`OnFloor`](cannonpile::Error::OnFloor) for the bottom layer; [`Error::TooManyGlyphs`] for more than 20 000 spheres;
-/// [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of the forces of the pile.
+/// [`LayerOutside`](cannonpile::Error::LayerOutside) if there is no layer `k`; [`OnFloor`](cannonpile::Error::OnFloor)
+/// for the bottom layer; [`Error::TooManyGlyphs`] for more than 20 000 spheres;
+/// [`Overflow`](cannonpile::Error::Overflow) for forces outside the range of `f64`; the errors of the force
+/// computation.
 ///
 /// # Examples
 /// ```
@@ -249,7 +252,7 @@ impl Network {
         })
     }
 
-    /// Returns the number of tensile contacts, and of those in the figure.
+    /// Returns the lines below the colour bar: the number of tensile contacts, and how many of them the figure shows.
     fn remarks(&self) -> Vec<String> {
         let contacts = counted(&self.tensile.into(), "contact");
         let shown = self.links.iter().filter(|link| link.force < 0.0).count();

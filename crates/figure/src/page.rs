@@ -144,7 +144,7 @@ impl Figure {
     /// Writes the document.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// The errors of `out`.
     ///
     /// # Examples
     /// ```
@@ -295,7 +295,7 @@ impl Bar {
         };
         let bar = rectangle([left, top], [width, bottom - top]).class("bar");
         let bar = bar.set("data-least", least).set("data-most", most);
-        // The bar is drawn below its ticks.
+        // The bar is drawn before its ticks, so that it does not cover them.
         glyphs.insert(2, bar.fill(fill).stroke(GREY, 1.0));
         let mut y = bottom + 24.0;
         for remark in &self.remarks {

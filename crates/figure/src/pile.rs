@@ -1,4 +1,4 @@
-//! The pile in perspective: paper, fig. 1.
+//! The pile in perspective, as in fig. 1 of the paper.
 
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
@@ -16,7 +16,7 @@ use crate::Error;
 const AZIMUTH: f64 = 195.0;
 const ELEVATION: f64 = 17.0;
 
-/// The distance of the camera from the middle, in units of that of the farthest sphere.
+/// The distance of the camera from the middle, relative to the distance of the farthest sphere from it.
 const DISTANCE: f64 = 7.0;
 
 /// The colours of even and odd layers: in the light, in between, and at the rim.
@@ -31,7 +31,8 @@ const SHADES: [(&str, [&str; 3]); 2] = [
 /// a = 1.2 R.
 ///
 /// # Errors
-/// [`Error::TooManyGlyphs`] for more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for positions beyond floats.
+/// [`Error::TooManyGlyphs`] for more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for positions
+/// outside the range of `f64`.
 ///
 /// # Examples
 /// ```

@@ -10,10 +10,10 @@ use super::ticks::digits;
 
 /// Draws the errors of a refinement study over its parameter, on logarithmic axes.
 ///
-/// A disc shows the largest error of a level, and a square shows its rms error. A line shows the fitted order, over the
-/// levels above the round-off floor. Glyphs are hollow for levels on the floor, and for levels with missing or extra
-/// contacts. A dashed line shows the largest errors that spring theory predicts. The triangle has slope 1. Errors that
-/// are 0 or infinite are left out.
+/// A disc shows the largest error of a level, and a square shows its rms error. A line shows the fitted power law, over
+/// the levels above the round-off floor. Glyphs are hollow for levels on the floor, and for levels with missing or
+/// extra contacts. A dashed line shows the largest errors that spring theory predicts. The triangle has slope 1. Errors
+/// that are 0 or infinite are left out.
 ///
 /// # Examples
 /// ```
@@ -106,7 +106,7 @@ pub fn refinement(study: &RefinementStudy) -> Figure {
     }
 }
 
-/// Returns log₁₀ h. The logarithm of the parameter never overflows, although 1/k may.
+/// Returns log₁₀ h, where h is 1/k or Δt. The logarithm of k never overflows, although 1/k may.
 fn log_h(refinement: Refinement, parameter: f64) -> f64 {
     match refinement {
         Refinement::Stiffness => -parameter.log10(),
@@ -131,7 +131,7 @@ fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// The colours of the largest errors and of the rms errors.
 const COLOURS: [&str; 2] = [BLUE, DIM];
 
-/// The relative height that makes room for the legend above the data.
+/// The height added above the data to make room for the legend, relative to the height of the chart.
 const HEADROOM: f64 = 0.3;
 
 /// Returns whether a point lies under the legend.
@@ -216,7 +216,7 @@ enum Sample {
     Hollow,
 }
 
-/// Returns the legend, in the upper left corner. Decreasing errors leave it free.
+/// Returns the legend, in the upper left corner. Errors that decrease with h leave this corner free.
 fn legend_of(chart: &Chart, names: Vec<(String, &'static str, Sample)>) -> Vec<Glyph> {
     let left = chart.panel.left + 14.0;
     let mut y = 20.0;

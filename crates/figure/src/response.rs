@@ -15,10 +15,11 @@ use super::page::Figure;
 use super::subject::Subject;
 use crate::Error;
 
-/// Removes the weight of the spheres, and puts a load of 1 mg on the middle of the top unless the pile has loads.
+/// Removes the weight of the spheres and the horizontal forces. A pile without loads receives a load of 1 mg on the
+/// middle of the top.
 ///
 /// # Errors
-/// Those of [`Pile::with_load`].
+/// The errors of [`Pile::with_load`].
 ///
 /// # Examples
 /// ```
@@ -48,8 +49,9 @@ pub fn with_unit_load(pile: Pile) -> Result<Pile, Error> {
 /// needs a prestressed pile.
 ///
 /// # Errors
-/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyGlyphs`] for a layer of more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for
-/// forces beyond floats; those of the forces of the pile.
+/// [`LayerOutside`](cannonpile::Error::LayerOutside) if there is no layer `k`; [`Error::TooManyGlyphs`] for a layer of
+/// more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for forces outside the range of `f64`; the
+/// errors of the force computation.
 ///
 /// # Examples
 /// ```
@@ -101,7 +103,7 @@ pub fn response(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
 pub(super) fn middle(pile: &Pile, k: i128) -> Result<Site, Error> {
     let region = pile.shape().layer(k)?;
     let corners = region.corners();
-    // Rounded to the nearest integer.
+    // The mean of six corners, rounded to the nearest integer.
     let mean = |n: usize| (corners.iter().map(|corner| corner[n]).sum::<i128>() + 3).div_euclid(6);
     let j = mean(1).clamp(*region.y().start(), *region.y().end());
     let ([x, s], i) = ([region.x(), region.s()], mean(0));

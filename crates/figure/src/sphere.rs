@@ -1,4 +1,4 @@
-//! The forces on one sphere: paper, fig. 3.
+//! The forces on one sphere, as in fig. 3 of the paper.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
@@ -18,7 +18,7 @@ use super::ticks::{exact_or_short, short};
 use super::view::{Vector, View, add_scaled, norm};
 use crate::Error;
 
-/// The direction of the camera, in degrees. From there no force hides another.
+/// The direction of the camera, in degrees. From this direction no force hides another.
 const AZIMUTH: f64 = 190.0;
 const ELEVATION: f64 = 24.0;
 
@@ -29,7 +29,7 @@ const WEIGHT: f64 = 0.85;
 /// The length below which an arrow gets a ring, in pixels.
 const SMALL: f64 = 9.0;
 
-/// The position of the table on the page.
+/// The upper and the left edge of the table on the page, in pixels.
 const TABLE: f64 = 40.0;
 const LEFT: f64 = 532.0;
 
@@ -47,7 +47,7 @@ struct Force {
     along: Vector,
     /// The point of application relative to the centre, in R.
     at: Vector,
-    /// A contact force in f₀.
+    /// The force in f₀, for a contact.
     multiple: Option<BigRational>,
     /// The length of the arrow, in R.
     length: f64,
@@ -101,7 +101,8 @@ pub fn example_site(pile: &Pile) -> Result<Site, Error> {
 /// components of the force.
 ///
 /// # Errors
-/// [`SiteOutside`](cannonpile::Error::SiteOutside); [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats.
+/// [`SiteOutside`](cannonpile::Error::SiteOutside) if there is no such sphere;
+/// [`Overflow`](cannonpile::Error::Overflow) for forces outside the range of `f64`.
 ///
 /// # Examples
 /// ```
@@ -214,7 +215,7 @@ fn from_floor([x, y, normal]: Vector) -> Force {
     Force::new(["n", "from the floor"], magnitude, along, DOWN, None)
 }
 
-/// Sets the lengths of the arrows, on one scale, with the arrow of the weight inside the sphere.
+/// Sets the lengths of the arrows, on a common scale. The arrow of the weight stays inside the sphere.
 fn to_scale(forces: &mut [Force]) {
     let scale = Scale::around_zero(forces.iter().map(|force| force.magnitude));
     let weight = forces.iter().find(|force| force.name == "w");
@@ -258,7 +259,8 @@ impl Force {
         glyphs
     }
 
-    /// Returns the name, at the end of the arrow that is farther from the sphere. That of the weight is at its side.
+    /// Returns the name of the force as a label, at the end of the arrow that is farther from the sphere. The label of
+    /// the weight is beside its arrow.
     fn letter(&self, place: impl Fn(Vector) -> Point) -> [Glyph; 2] {
         const BEYOND: f64 = 16.0;
         let [tail, tip] = self.ends();

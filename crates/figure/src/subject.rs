@@ -41,10 +41,10 @@ pub struct Subject<'p> {
 }
 
 impl<'p> Subject<'p> {
-    /// Returns the pile with lengths in R, forces in mg and shear forces in mg·tanθ.
+    /// Returns a subject with lengths in R, forces in mg and shear forces in mg·tanθ.
     ///
     /// # Errors
-    /// Those of [`Packing::new`].
+    /// The errors of [`Packing::new`].
     ///
     /// # Examples
     /// ```
@@ -68,7 +68,7 @@ impl<'p> Subject<'p> {
         })
     }
 
-    /// Returns the pile with lengths in metres and forces in newtons.
+    /// Returns a subject with lengths in metres and forces in newtons.
     ///
     /// # Examples
     /// ```
@@ -160,7 +160,7 @@ impl<'p> Subject<'p> {
         if self.si { "N" } else { "mg" }
     }
 
-    /// Returns the unit of shears.
+    /// Returns the unit of shear forces.
     pub(super) fn shear_unit(&self) -> &'static str {
         if self.si { "N" } else { "mg·tanθ" }
     }
@@ -185,7 +185,7 @@ impl<'p> Subject<'p> {
 
     /// Returns a/R.
     pub(super) fn spacing(&self) -> Result<Spacing, Error> {
-        // (a/R)² = 2d/(d−1)·sin²θ.
+        // (a/R)² = 2d/(d−1)·sin²θ in d dimensions.
         let factor = if self.is_of_discs() { 4 } else { 3 };
         let factor = BigRational::from_integer(factor.into());
         Ok(Spacing::from_square(
@@ -198,12 +198,13 @@ impl<'p> Subject<'p> {
         nearest(&self.packing.radius().clone().into(), "the radius")
     }
 
-    /// Returns where a sphere is, in the unit of lengths.
+    /// Returns the position of a sphere, in the unit of lengths.
     pub(super) fn position(&self, site: Site) -> Result<Vector, Error> {
         rounded(&self.packing.position(site)?)
     }
 
-    /// Returns where a sphere is from another, in R; as exact for sites 10³⁰ from the apex.
+    /// Returns the position of a sphere relative to another, in R. The exact difference is rounded, so the result is
+    /// accurate even at a distance of 10³⁰ R from the apex.
     pub(super) fn from(&self, origin: Site, site: Site) -> Result<Vector, Error> {
         let radii = self.packing.radius().recip();
         let [origin, site] = [self.packing.position(origin)?, self.packing.position(site)?];
@@ -338,7 +339,7 @@ pub(super) fn below(pile: &Pile, site: Site, direction: Direction) -> Result<Sit
     below.ok_or_else(|| cannonpile::Error::on_floor(site).into())
 }
 
-/// Returns a number, correctly rounded.
+/// Returns a number, correctly rounded to `f64`.
 pub(super) fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
     let float = number.nearest::<f64>();
     float.ok_or_else(|| cannonpile::Error::overflow(quantity, "f64").into())

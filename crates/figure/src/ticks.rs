@@ -59,10 +59,10 @@ pub(super) fn digits(value: f64, count: i32) -> String {
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
         return format!("{}·10{}", trimmed(digits), raised(power)).replace('-', "−");
     }
-    // The decimals that complete the number of digits.
+    // Whether this number of decimals gives `count` significant digits.
     let enough =
         |places: &u8| value.abs() * 10_f64.powi((*places).into()) >= 10_f64.powi(count - 1);
-    // No text has more decimals than this.
+    // No text has more than `MOST` decimals.
     let places = (0..MOST).find(enough).unwrap_or(MOST);
     trimmed(&format!("{value:.*}", usize::from(places))).replace('-', "−")
 }

@@ -24,8 +24,8 @@ use crate::Error;
 /// If the pile has horizontal forces, or the title names the elastic state, the viewer also shows the isostatic state. The
 /// drawing needs WebGL2. Without it the viewer still shows the table.
 ///
-/// The file loads nothing from elsewhere, and its content security policy forbids it. All texts are data, so none of them
-/// can become markup.
+/// The file loads no other resource, and its content security policy forbids loading any. All texts are data, so none
+/// of them can become markup.
 ///
 /// # Examples
 /// ```
@@ -74,7 +74,7 @@ impl<'p> Page<'p> {
         })
     }
 
-    /// Sets the title, the purpose and the state that a benchmark card shows.
+    /// Sets the title, the purpose and the state of the pile, as on a benchmark card.
     ///
     /// # Examples
     /// ```
@@ -162,7 +162,7 @@ impl<'p> Page<'p> {
     }
 }
 
-/// Checks that the viewer can show the number of spheres.
+/// Checks that the pile has at most [`Page::MAX_SPHERES`] spheres.
 fn check(packing: &Packing<'_>) -> Result<(), Error> {
     let glyphs = packing.pile().sphere_count();
     let limit = Page::MAX_SPHERES;

@@ -56,7 +56,8 @@ impl DoubleDouble {
         }
     }
 
-    /// Returns high + low, or `None` if |low| exceeds half a unit in the last place of high.
+    /// Returns high + low, or `None` if `high` is not this sum rounded to `f64`. If `high` is not finite, `low` must be
+    /// zero.
     ///
     /// # Examples
     /// ```
@@ -75,8 +76,8 @@ impl DoubleDouble {
         apart.then_some(Self { high, low })
     }
 
-    /// Returns `r` rounded to a double-double, with a relative error of at most 2^−106, or not-a-number if
-    /// `r` overflows an `f64`.
+    /// Returns `r` rounded to a double-double, or not-a-number if `r` overflows an `f64`. The relative error is at most
+    /// 2^−106 for |r| ≥ 2^−900.
     ///
     /// # Examples
     /// ```
@@ -190,7 +191,8 @@ impl DoubleDouble {
             return self;
         }
         let float = scale(self.high, e);
-        // In the subnormal range the low part can be rounded up to exactly half a unit of the high part.
+        // In the subnormal range scaling can round the low part up to half a unit of the high part, so the sum is
+        // formed again.
         Self::finite(fast_two_sum(float, scale(self.low, e)), float)
     }
 
@@ -238,7 +240,7 @@ impl DoubleDouble {
         Self::finite((high, low), x.high / y.high).scaled(e - f)
     }
 
-    /// Returns the product with a float.
+    /// Returns the product with a float, as (high, low).
     fn times_float(self, y: f64) -> (f64, f64) {
         let (c, c1) = two_product(self.high, y);
         let c2 = self.low * y;

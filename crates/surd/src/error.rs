@@ -25,7 +25,7 @@ pub enum Error {
         /// The radicand that was given.
         given: BigRational,
     },
-    /// A text that is not such a number.
+    /// A text does not have the expected form.
     #[non_exhaustive]
     Syntax {
         /// The text, shortened if it is long.
@@ -36,7 +36,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Returns the error of a text that is not what was `expected`.
+    /// Returns the error for a text that does not have the form `expected`.
     #[doc(hidden)]
     #[must_use]
     pub fn syntax(text: &str, expected: &'static str) -> Self {
@@ -47,7 +47,7 @@ impl Error {
     }
 }
 
-/// An error with its numbers at full length.
+/// Prints the message of an error with all digits of its numbers.
 struct Whole<'a>(&'a Error);
 
 impl fmt::Display for Whole<'_> {

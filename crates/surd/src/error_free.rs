@@ -63,7 +63,7 @@ pub fn significand(a: f64) -> (f64, i32) {
 /// Returns 2^e for −1022 ≤ e ≤ 1023. An exponent outside this range is clamped to it.
 #[must_use]
 pub fn power_of_two(e: i32) -> f64 {
-    // Not a default: clamping is the documented behaviour, not a fallback for an impossible case.
+    // The documentation promises the clamping.
     let field = e.clamp(-1022, 1023) + 1023;
     f64::from_bits(u64::from(field.unsigned_abs()) << 52)
 }

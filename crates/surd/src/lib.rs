@@ -25,8 +25,8 @@
 //!
 //! # Guarantees
 //! * Every operation on a surd is exact. [`Surd::nearest`] is correctly rounded, also among the subnormals.
-//! * No operation panics, with one exception: a `Ratio` whose denominator is zero, which only
-//!   `Ratio::new_raw` can make.
+//! * No operation panics, unless an operand is a `Ratio` with the denominator zero. Only `Ratio::new_raw` can create
+//!   one.
 //! * The crate contains no `unsafe`. Without the default feature `std` it is `no_std` with `alloc`. The
 //!   feature `serde` writes numbers as strings.
 

@@ -179,7 +179,7 @@ fn ends_in_f32([down, up]: [f64; 2], exponent: i32) -> [f32; 2] {
     [down.next_down(), up.next_up()].map(|end| (end * power_of_two(exponent)) as f32)
 }
 
-/// Returns the number of bits of a value that are computed: those of the significand and three guard bits.
+/// Returns the number of bits to compute: those of the significand and three guard bits.
 fn guard_bits<F: CorrectlyRounded>() -> i64 {
     i64::from(F::PRECISION) + 3
 }
@@ -244,13 +244,13 @@ mod tests {
         assert_eq!(zero.map(f64::to_bits), Some(0));
     }
 
-    /// One bit for the half, and two more.
+    /// The significands have 53 and 24 bits.
     #[test]
     fn significand_has_three_guard_bits() {
         assert_eq!((guard_bits::<f64>(), guard_bits::<f32>()), (56, 27));
     }
 
-    /// Exponents near the ends of the range give `None`, because floats are not normal there.
+    /// Exponents near the ends of the range give `None`, because the floats there are not normal.
     #[test]
     fn equal_roundings_of_ends_decide() {
         let between = |ends, exponent| float_between::<f64>(false, ends, exponent);

@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn sums_have_least_common_denominator() {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-        // Compared with those before, the denominators are new, equal, a multiple, a divisor, and coprime in part.
+        // Relative to the common denominator so far, the next one is equal, a multiple, a divisor, and neither.
         let numbers = [
             ratio(1, 2),
             ratio(-3, 2),

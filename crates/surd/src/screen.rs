@@ -11,7 +11,7 @@ use crate::error_free::power_of_two;
 #[cfg(feature = "std")]
 use crate::error_free::two_product;
 
-/// A double-double between 1/2 and 4, and the exponent of a power of two: the number is their product.
+/// A double-double between 1/2 and 4, and the exponent of a power of two by which it is multiplied.
 type Scaled = (DoubleDouble, i64);
 
 /// Returns two floats and an exponent e: (n/d)·√r lies between the floats times 2^e. n, d and r must not be
@@ -20,7 +20,8 @@ type Scaled = (DoubleDouble, i64);
 /// The result is `None` if an `f64` near the value is not normal, and for every root without the feature
 /// `std`.
 pub(crate) fn enclose(n: &BigUint, d: &BigUint, r: Option<&BigUint>) -> Option<([f64; 2], i32)> {
-    /// The slack is 2^−90 of the value. The rounding errors of all steps together are below 2^−98 of it.
+    /// The enclosure extends to 2^−90 of the value on each side. The rounding errors of all steps together are below
+    /// 2^−98 of it.
     const SLACK: i32 = -90;
     let ((n, of_n), (d, of_d)) = (leading(n)?, leading(d)?);
     let (quotient, of_quotient) = (n.ordinary_quotient(&d), of_n - of_d);
@@ -43,7 +44,7 @@ fn leading(n: &BigUint) -> Option<Scaled> {
     const PART: u128 = (1 << 53) - 1;
     let mut top_down = n.iter_u64_digits().rev();
     let first = top_down.next()?;
-    // Not a default: missing digits of a short number are zeros, so 0 is their exact value.
+    // The missing digits of a short number are zeros, so 0 is exact.
     let mut digit = || u128::from(top_down.next().unwrap_or(0));
     let (second, third) = (digit(), digit());
     let zeros = first.leading_zeros();

@@ -45,7 +45,7 @@ use crate::{CorrectlyRounded, Error};
 #[derive(Clone, Debug)]
 pub struct Surd {
     coefficient: BigRational,
-    /// Positive. It is 1 if the value is rational; any other stored root is irrational.
+    /// A positive integer. It is 1 if the value is rational, and not a perfect square otherwise.
     radicand: BigUint,
 }
 
@@ -194,7 +194,8 @@ impl Surd {
     pub fn square(&self) -> BigRational {
         let (p, q) = (self.coefficient.numer(), self.coefficient.denom());
         let (n, denom) = (BigInt::from(self.radicand.clone()), q * q);
-        // p and q are coprime, and n is short in most cases.
+        // p and q are coprime, so only n and q² can have a common factor. The remainder modulo n is short in most
+        // cases.
         let common = (&denom % &n).gcd(&n);
         BigRational::new_raw(p * p * (n / &common), denom / common)
     }
@@ -315,7 +316,7 @@ impl Surd {
     /// ```
     #[must_use]
     pub fn to_f64(&self) -> f64 {
-        // Not a default: a number beyond the range of the float has overflowed, so the result is an infinity of its sign.
+        // `None` means overflow, so the result is an infinity with the sign of the number.
         self.nearest().unwrap_or(if self.coefficient.is_negative() {
             f64::NEG_INFINITY
         } else {
@@ -344,7 +345,7 @@ impl Surd {
         let (negative, [n, d], root) = self.parts();
         self.screened().or_else(|| match root {
             None => nearest_ratio(negative, n, d),
-            // The fraction is not reduced: finding the common factor costs more than carrying it.
+            // The fraction is not reduced, because a common factor costs less here than its search.
             Some(radicand) => nearest_root(negative, &(n * n * radicand), &(d * d)),
         })
     }

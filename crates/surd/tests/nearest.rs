@@ -13,8 +13,7 @@ fn power(exponent: i32) -> BigRational {
     BigRational::from_integer(2.into()).pow(exponent)
 }
 
-/// Returns the float that the library gives, after a check that it passes as the nearest and its neighbours
-/// do not.
+/// Returns the rounded value of c·√r, after asserting that the checker accepts it and rejects both of its neighbours.
 fn rounds_correctly<F: Float>(c: &BigRational, r: &BigRational) -> Option<F> {
     let float = Surd::new(c.clone(), r.clone()).unwrap().nearest::<F>();
     let value = Value::root(c, r);
@@ -31,7 +30,7 @@ fn rounds_correctly<F: Float>(c: &BigRational, r: &BigRational) -> Option<F> {
     float
 }
 
-/// Knuth's linear congruential generator. The upper half of each value is random enough.
+/// Knuth's linear congruential generator. Only the upper half of each state is random enough.
 fn random(state: &mut u64) -> u64 {
     *state = state
         .wrapping_mul(6_364_136_223_846_793_005)
@@ -51,7 +50,7 @@ fn random_numbers<F: Float>(exponents: core::ops::Range<i32>, step: usize) -> us
             let c = BigRational::new(odd() * odd() * sign, odd() * odd()) * power(exponent);
             let r = BigRational::new(odd(), odd());
             finite += usize::from(rounds_correctly::<F>(&c, &r).is_some());
-            // A rational takes another path of the code.
+            // Rational numbers are rounded by another function.
             finite += usize::from(rounds_correctly::<F>(&c, &BigRational::one()).is_some());
         }
     }

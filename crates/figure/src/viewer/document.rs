@@ -1,4 +1,4 @@
-//! The document: markup, style and program, the same for all piles, and the data.
+//! The HTML document: markup, style and program, which are the same for all piles, and the data of one pile.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;

@@ -16,7 +16,8 @@ pub(super) fn floats(
     Ok(BASE64.encode(bytes))
 }
 
-/// Encodes indices as base64 of their little-endian bytes: 1, 2 or 4 each, as few as the largest needs.
+/// Encodes indices as base64 of their little-endian bytes. Each index has 1, 2 or 4 bytes, as few as the largest one
+/// needs.
 pub(super) fn indices(indices: &[u32]) -> Value {
     let greatest = indices.iter().max();
     let width = match greatest {

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::places::rows;
 use super::states::{Quantities, states};
 
-/// The number of colours of a map. The program interpolates between them.
+/// The number of intervals between the colours of a map. The program interpolates within them.
 const COLOURS: u32 = 64;
 
 /// Returns the data of a pile as JSON.
@@ -66,7 +66,7 @@ fn spacing(pile: &NumberedPile<'_>) -> Result<String, Error> {
     Ok(spacing.ratio().to_string())
 }
 
-/// Returns whether all neighbours in a layer touch. Their contacts without a force are then open.
+/// Returns whether all neighbours in a layer touch. If they do, a horizontal contact without a force is open.
 fn neighbours_touch(pile: &NumberedPile<'_>, title: &CardTitle) -> bool {
     let touches = pile
         .packing()
@@ -78,7 +78,7 @@ fn neighbours_touch(pile: &NumberedPile<'_>, title: &CardTitle) -> bool {
     title.state == State::Elastic || of_pile.horizontal_forces().len() > 0 || touches && all
 }
 
-/// Returns the spheres with an own weight or a load, as `[id, weight, load]` in mg.
+/// Returns the spheres with a weight of their own or a load, as `[id, weight, load]` in mg.
 fn special(pile: &NumberedPile<'_>) -> Result<Vec<Value>, Error> {
     let of_pile = pile.pile();
     let loads = of_pile.loads().map(|(site, _)| site);

@@ -1,4 +1,4 @@
-//! The exact values of a quantity, each once: multiples of a unit, and their correctly rounded floats.
+//! The distinct exact values of a quantity, as multiples of a unit and as correctly rounded floats.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::encoding::floats;
 
-/// The largest total number of digits of a quantity.
+/// The largest total number of decimal digits of the numerators of a quantity.
 const MAX_DIGITS: u64 = 30_000_000;
 
 /// The distinct values of a quantity.
@@ -52,7 +52,7 @@ impl Quantity {
         Ok(new)
     }
 
-    /// Returns the error of too many digits.
+    /// Returns the error for too many digits.
     fn too_large(&self, needed: u64) -> Error {
         let remedy = "use fewer layers, or loads with one small denominator";
         cannonpile::Error::too_large(self.name, needed.into(), MAX_DIGITS, remedy).into()

@@ -54,7 +54,8 @@ impl Quantities {
     }
 }
 
-/// Returns the states of a viewer.
+/// Returns the isostatic state. A second state follows if the pile has horizontal forces or the title names the elastic
+/// state.
 pub(super) fn states(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
@@ -88,14 +89,14 @@ fn state(
 ) -> Result<Value, Error> {
     let forces = pile.forces::<BigRational>();
     let (below, unit) = (pile.dimension().directions().len(), forces.increment_sum()?);
-    let (mut contacts, mut loads, mut passed) = (Vec::new(), Vec::new(), BigRational::default());
+    let (mut contacts, mut loads, mut transmitted) = (Vec::new(), Vec::new(), BigRational::default());
     for contact in forces.contacts(Selection::All)? {
         let force = contact?.force;
-        passed += &force;
+        transmitted += &force;
         contacts.push(quantities.contact.place(force)?);
         if contacts.len() % below == 0 {
-            let passed = std::mem::take(&mut passed) / &unit;
-            loads.push(quantities.load.place(passed)?);
+            let transmitted = std::mem::take(&mut transmitted) / &unit;
+            loads.push(quantities.load.place(transmitted)?);
         }
     }
     let mut shears = [Vec::new(), Vec::new()];

@@ -106,7 +106,7 @@ fn distribution_has_curves_of_all_and_of_stable_stackings() {
         let figure = figure::distribution(&tally, binned, q).unwrap();
         figure.unwrap().to_string()
     };
-    // FCC has all of its 21 bottom normals in one bin: one stroke of a bin.
+    // The 21 bottom normal forces of FCC lie in one bin, so the curve is a single stroke.
     let svg = of(ForceKind::Normal, &ratio(0, 1));
     let document = Document::parse(&svg).unwrap();
     let curves = of_class(&document, "curve");

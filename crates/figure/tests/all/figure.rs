@@ -204,7 +204,7 @@ fn sections_have_neighbours_and_mirror_images() {
             let exact = packing.contact(*site, *direction).unwrap();
             assert_eq!(Some(*force), exact.nearest());
         }
-        // Each sphere of a section has a support in it, unless it is on the floor or its row is a surface.
+        // A section of several layers contains contacts.
         if pile.layers() > 1 {
             assert!(!links.is_empty());
         }
@@ -460,7 +460,7 @@ fn tensile_contacts_are_visible_and_noted() {
     let document = Document::parse(&svg).unwrap();
     assert_eq!(of_class(&document, "small").len(), 1);
     assert!(svg.contains("− is tension") && svg.contains("○ is too small for an arrow"));
-    // The figures note that the pile is unstable, and the section has the number of tensile contacts.
+    // The figures note that the pile is unstable, and the section states the number of tensile contacts.
     for figure in [
         sphere,
         figure::shear(&subject(&pile)).unwrap(),
@@ -491,8 +491,8 @@ fn tensile_contacts_are_visible_and_noted() {
         format!("{shown} of them here")
     }));
     // A stable pile and spheres without weight have no note.
-    let stands = Pile::triangular(7).unwrap();
-    assert_eq!(figure::section(&subject(&stands)).unwrap().note(), None);
+    let stable = Pile::triangular(7).unwrap();
+    assert_eq!(figure::section(&subject(&stable)).unwrap().note(), None);
     let response = figure::with_unit_load(pile).unwrap();
     assert_eq!(
         figure::response(&subject(&response), 6).unwrap().note(),

@@ -15,7 +15,7 @@ class Camera {
     Object.assign(this, { size, around: 0, above: 0, target: [0, 0, 0], distance: 2 * size });
   }
 
-  /** Looks at spheres of radius 1, from the smallest distance that shows all of them in a picture of this shape. */
+  /** Looks at spheres of radius 1, from the smallest distance that shows all of them in a picture of this aspect ratio. */
   look(around, above, centres, width, height) {
     this.around = around;
     this.above = above;
@@ -71,7 +71,7 @@ class Camera {
     return plus(this.target, this.axes()[2], -this.distance);
   }
 
-  /** Returns the scales of x/z and y/z that map a picture of this shape to −1 … 1. */
+  /** Returns the scales of x/z and y/z that map a picture of this aspect ratio to −1 … 1. */
   lens(width, height) {
     const unit = 1 / Math.tan(HALF_VIEW);
     const shorter = Math.min(width, height);

@@ -1,5 +1,6 @@
 #version 300 es
-// Shades the ribbon of a contact as a rod, with its depth. Tensile rods are banded, open ones dashed.
+// Shades the ribbon of a contact so that it looks like a rod, and writes its depth. Tensile rods are banded, open ones
+// dashed.
 precision highp float;
 precision highp sampler2D;
 

@@ -1,5 +1,5 @@
 #version 300 es
-// Shades the square of a sphere as the sphere, with its depth.
+// Shades the square of a sphere so that it looks like the sphere, and writes the depth of the sphere.
 precision highp float;
 precision highp sampler2D;
 

@@ -1,6 +1,7 @@
 #version 300 es
-// Draws a square for each sphere, perpendicular to the ray from the eye to its centre, with the apparent size of the sphere.
-// Six vertices in a row make two triangles, which is much faster than one instance for each square.
+// Draws a square for each sphere, perpendicular to the ray from the eye to its centre, with the apparent size of the
+// sphere. Six consecutive vertices form the two triangles of a square. This is much faster than one instance for each
+// square.
 precision highp float;
 precision highp sampler2D;
 precision highp usampler2D;
