@@ -1,9 +1,9 @@
 //! The mean sum of squared loads of one layer.
 //!
 //! Let C_σ(δ) = E Σ_x f(x) f(x+δ)ᵀ be the autocorrelation of the contact forces f of a layer. The mean is over all
-//! stackings whose next sign is σ, and δ is the difference of two sites of the layer. One step moves the first force along
-//! its contact l and the second along its contact m. So δ changes by the difference of both. Both forces then cross the
-//! layer in the same way:
+//! stackings whose next sign is σ, and δ is the difference of two sites of the layer. One step moves the first force
+//! along its contact l and the second along its contact m, so δ changes by σ(d_m − d_l). Then the next sign is chosen.
+//! It is the same for both forces:
 //!
 //! C_σ ← (1 − q) C'_σ + q G C'_(−σ) G, with C'_σ(δ)_lm = C_σ(δ + σd_l − σd_m)_lm,
 //!
@@ -41,13 +41,13 @@ impl RandomPiles {
     /// floor of one layer.
     ///
     /// The ratio of the sum of squares of the [mean](Self::mean) to this value shows how close one stacking is to the
-    /// mean. It is small, so no single stacking is close to the mean, sphere by sphere. The cost is about 100 n³
+    /// mean. The ratio is small, so no single stacking is close to the mean, sphere by sphere. The cost is about 100 n³
     /// operations for a single load, with n the number of steps.
     ///
     /// # Errors
     /// * [`Error::NotAResponse`] unless the spheres are weightless and there is a load.
     /// * [`TooLarge`](cannonpile::Error::TooLarge) if the correlations do not fit in memory.
-    /// * [`Overflow`](cannonpile::Error::Overflow) of the scalar.
+    /// * [`Overflow`](cannonpile::Error::Overflow) if the scalar overflows.
     ///
     /// # Examples
     /// ```
@@ -120,7 +120,7 @@ impl<T: Algebra> Correlation<T> {
         let mut cells = self.zeros();
         for ([i, j], first) in piles.loads() {
             for ([x, y], second) in piles.loads() {
-                // Loads that are further apart never reach the same sphere.
+                // Loads whose difference is outside of the grid never reach the same sphere.
                 let cell = self.grid.cell([x - i, j - y]);
                 let matrix = cell.and_then(|cell| cells.get_mut(cell));
                 let product = T::from_rational(&(first * second));

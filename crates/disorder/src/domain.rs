@@ -18,7 +18,8 @@ use crate::error::bug;
 /// The domain of the recursion for given piles.
 ///
 /// Cells stand for places, or for sites of one layer if the piles are on a base. The position of a site above a base
-/// depends on the stacking, so the recursion also stores the net number of steps that are left.
+/// depends on the stacking, so the recursion also stores the net number of the steps that are left: + steps minus −
+/// steps.
 #[derive(Clone, Debug)]
 pub(super) struct Domain<'p> {
     pub(super) piles: &'p RandomPiles,
@@ -32,8 +33,8 @@ type RowOfSpheres = (Range<usize>, Vec<Nets>);
 const QUANTITY: &str = "the mean over random stackings";
 
 impl<'p> Domain<'p> {
-    /// Returns the domain, if it fits in memory. Each cell stores forces for `classes` numbers of faults, and each number
-    /// has `words` 64-bit words.
+    /// Returns the domain, if it fits in memory. Each cell stores forces for `classes` numbers of faults, and each
+    /// force has `words` 64-bit words.
     ///
     /// # Errors
     /// * [`TooLarge`](cannonpile::Error::TooLarge) beyond the memory limit.
@@ -121,7 +122,7 @@ impl<'p> Domain<'p> {
 
     /// Returns the net numbers at the top layer: 0, or on a base all numbers for which the top layer has a sphere.
     pub(super) fn starts(&self) -> impl Iterator<Item = isize> + Clone + '_ {
-        // No more than there are cells in memory.
+        // The number of steps is at most the number of cells in memory, so the conversion is exact.
         let steps = self.steps.cast_signed();
         let range = if self.base().is_some() {
             -steps..=steps
@@ -258,7 +259,7 @@ fn row_of(top: &Region, b: i128) -> Range<i128> {
         .div_euclid(2)
         .min(2 * b - 3 * top.y().start())
         .min(3 * top.s().end() - b);
-    // A sphere has a ≡ −b (mod 3).
+    // A site of the top layer has a ≡ −b (mod 3).
     let first = least + (-b - least).rem_euclid(3);
     let last = greatest - (greatest + b).rem_euclid(3);
     if first > last { 0..0 } else { first..last + 1 }

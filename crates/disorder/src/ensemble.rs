@@ -1,14 +1,15 @@
 //! Enumeration and sampling of stackings, for quantities that are not linear in the stackings.
 //!
 //! Mean forces obey one recursion over all stackings. Stability, the least force and the distribution of forces do not,
-//! so each stacking is computed. An [`Ensemble`] is a top layer with every stacking below it. A [`Choice`] selects all
-//! stackings or random samples, and a [`Shard`] selects a part of them. The result is a [`Tally`] of exact integers and
-//! rationals, sorted by the number of faults. So the fault probability can be chosen afterwards. The tallies of all
-//! shards [merge](Tally::merge) into the tally of the whole, bit for bit, in any order.
+//! so the forces of each stacking are computed. An [`Ensemble`] is a top layer with every stacking below it. A
+//! [`Choice`] selects all stackings or random samples, and a [`Shard`] selects a part of them. The result is a
+//! [`Tally`] of exact integers and rationals, sorted by the number of faults. So the fault probability can be chosen
+//! afterwards. The tallies of all shards [merge](Tally::merge) into the tally of the whole, bit for bit, in any order.
 //!
-//! # What is counted of which piles
-//! *All* includes unstable stackings: some contact of them is in tension. Their forces are those of a prestressed
-//! pile. *Standing* are the stackings without tension, which a pile of loose spheres can have.
+//! # Stackings in the counts
+//! The distribution `all` includes unstable stackings, in which some contact is in tension. Their forces are those of a
+//! prestressed pile. The distribution `standing` covers the stackings without tension. Loose spheres can form these
+//! piles.
 //!
 //! # Why it is exact
 //! A force below a layer is an integer over 3^d times the common denominator of the loads, with d sign changes above
@@ -17,9 +18,9 @@
 //! sum. The bound is computed beforehand, and decides between 64-bit, 128-bit and big integers.
 //!
 //! # Why it is fast
-//! Stackings with a common beginning have the same forces there. So all stackings of n steps are computed as a tree,
-//! which has at most 2ⁿ⁺¹ layers instead of n 2ⁿ. If the top layer with its loads is its own mirror image, one stacking
-//! of each mirror pair is computed.
+//! Stackings that begin with the same signs have the same forces in the layers of this beginning. So all stackings of n
+//! steps are computed as a tree, which has at most 2ⁿ⁺¹ layers instead of n 2ⁿ. If the top layer with its loads is its
+//! own mirror image, one stacking of each mirror pair is computed.
 //!
 //! # With horizontal contacts
 //! At a = R a stacking with contacts in tension can be stable too. All beginnings of a stable stacking are stable, and

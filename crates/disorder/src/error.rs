@@ -8,7 +8,7 @@ use cannonpile::lattice::{Region, Site};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 
-/// An error of this crate, or an error of the core that it wraps.
+/// An error of this crate, or a wrapped error of the crate `cannonpile`.
 ///
 /// The message is one line. It names the value and states what would be accepted.
 ///
@@ -29,7 +29,7 @@ pub enum Error {
     TooManyStackings {
         /// The number of stackings.
         stackings: BigUint,
-        /// The most that are allowed.
+        /// The largest allowed number.
         limit: u64,
     },
     /// The fault probability is not between 0 and 1.
@@ -59,7 +59,7 @@ pub enum Error {
     NoStacking {
         /// The number of layers requested.
         layers: i128,
-        /// The most layers that a stacking has on this base.
+        /// The largest number of layers that this base supports.
         greatest: i128,
         /// The base.
         base: Box<Region>,

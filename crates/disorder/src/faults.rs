@@ -38,14 +38,14 @@ pub struct FaultForce {
     pub place: Place,
     /// The number d of faults.
     pub faults: u32,
-    /// The number of these stackings that have a sphere at the place.
+    /// The number of stackings with d faults that have a sphere at the place.
     pub stackings: BigUint,
     /// The sum of the normal forces on the floor, in mg. It is an integer over 3^(d+1) times the common denominator of
     /// the loads.
     pub normal: BigRational,
-    /// The sum of the shears along x, in mg·tanθ. Its denominator is at most twice that of `normal`.
+    /// The sum of the shear forces along x, in mg·tanθ. Its denominator is at most twice that of `normal`.
     pub shear_x: BigRational,
-    /// The sum of the shears along y, in √3·mg·tanθ. Its denominator is at most twice that of `normal`.
+    /// The sum of the shear forces along y, in √3·mg·tanθ. Its denominator is at most twice that of `normal`.
     pub shear_y: BigRational,
 }
 

@@ -69,7 +69,7 @@ impl<T: Number> FloorFactors<T> {
     }
 }
 
-/// Converts a small integer to the scalar, which may lack such a conversion.
+/// Converts a small integer to the scalar by additions, because [`Number`] has no such conversion.
 fn small<T: Number>(n: &BigInt) -> Result<T, Error> {
     let n = n
         .to_i8()

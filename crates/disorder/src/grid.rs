@@ -11,7 +11,7 @@ use super::place::Place;
 use crate::Error;
 use crate::error::bug;
 
-/// The most 64-bit words that the recursion stores.
+/// The largest number of 64-bit words that the recursion stores.
 const MAX_WORDS: u64 = 100_000_000;
 
 /// The shifts of a cell by a contact of each direction, for a sign.
@@ -96,7 +96,7 @@ impl Size {
         // The last term estimates the ranges.
         let needed = cells * per_cell + BigUint::from(self.steps.unsigned_abs());
         let words = words.max(1);
-        // Not a default: saturation is correct, because no machine has so many words.
+        // Saturation is correct, because no machine has so many words.
         let bytes = usize::try_from(words).map_or(usize::MAX, |words| words.saturating_mul(8));
         refuse_beyond_memory(
             quantity,
@@ -180,7 +180,7 @@ impl Grid {
     /// Returns the coordinates of a cell.
     pub(super) fn coordinates(&self, cell: usize) -> [i128; 2] {
         let [a, b] = [cell % self.stride, cell / self.stride];
-        // Indices of cells fit in memory, so both conversions are exact.
+        // Both numbers are below the number of cells in memory, so both conversions are exact.
         [self.origin[0] + a as i128, self.origin[1] + b as i128]
     }
 
@@ -226,7 +226,7 @@ fn dilated(window: &[Range<usize>]) -> Vec<Range<usize>> {
         let hull = |hull: Range<usize>, part: Range<usize>| {
             hull.start.min(part.start)..hull.end.max(part.end)
         };
-        // Not a default: no force reaches such a row, so its range is empty.
+        // No force reaches a row without parts, so its range is empty.
         parts.into_iter().flatten().reduce(hull).unwrap_or(0..0)
     });
     hulls.collect()

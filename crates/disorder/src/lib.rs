@@ -2,9 +2,9 @@
 //! ensembles.
 //!
 //! A stacking is a sequence of close-packed layers. In a random stacking each sign of the sequence differs from the
-//! previous sign with the fault probability q, independently. This crate computes averages over all stackings without
-//! drawing any of them, in exact numbers or in floats. Quantities without such a recursion are computed by enumeration
-//! or sampling.
+//! previous sign with the fault probability q, independently. A recursion over the layers yields averages over all
+//! stackings, in exact numbers or in floats. Quantities without such a recursion are computed by enumeration or
+//! sampling.
 //!
 //! ```
 //! use cannonpile_disorder::{ContactSet, Choice, Ensemble, FirstSign, RandomPiles, RandomStackings, Shard};
@@ -33,7 +33,7 @@
 //! | mean forces, at one q or for all | [`RandomPiles`], [`Mean`], [`MeanForce`]; [`ByFaults`], [`FaultForce`]; [`Place`] |
 //! | moments of the response to a load, and its waves | [`Moments`], [`Wave`] |
 //! | enumeration and samples | [`Ensemble`], [`Choice`], [`Samples`], [`Shard`] |
-//! | their result, and its file | [`Tally`], [`WithFaults`], [`Distribution`], [`Histogram`], [`ForceKind`], [`Extreme`]; [`TallyRecord`], [`Unmergeable`] |
+//! | the result of a run, and its file | [`Tally`], [`WithFaults`], [`Distribution`], [`Histogram`], [`ForceKind`], [`Extreme`]; [`TallyRecord`], [`Unmergeable`] |
 //! | the formulas, and their proofs | [`formula`], [`theorem`] |
 //! | errors | [`Error`] |
 //!

@@ -219,15 +219,15 @@ impl RandomPiles {
     /// scalar.
     ///
     /// The cost is about 40 n³ operations for a single load or a single sphere on top, with n = L − 1. For piles on a
-    /// base it is about n times the square of the number of base sites. A step is orthogonal, so rounding errors are
-    /// not amplified, and `f64` is accurate to its last digits. The scalar may have no order, so 0 ≤ `q` ≤ 1 is not
+    /// base it is about n times the square of the number of base sites. A step is an orthogonal map, so rounding errors
+    /// are not amplified, and `f64` is accurate to its last digits. The scalar may have no order, so 0 ≤ `q` ≤ 1 is not
     /// checked.
     ///
     /// # Errors
     /// * [`TooLarge`](cannonpile::Error::TooLarge) if the forces do not fit in memory.
     /// * [`Error::NotAResponse`] for a plane with weight or without loads.
     /// * [`Error::NoStacking`] for a base that supports no stacking of this height.
-    /// * [`Overflow`](cannonpile::Error::Overflow) of the scalar.
+    /// * [`Overflow`](cannonpile::Error::Overflow) if the scalar overflows.
     ///
     /// # Examples
     /// ```
@@ -293,7 +293,7 @@ impl RandomPiles {
         let tripled: BigInt = q.denom() * 3;
         // Each step except the first and the last multiplies the denominator by 3b.
         let choices = self.stackings.most_faults();
-        // Not a default: a larger number of steps exceeds the memory limit anyway.
+        // A number of steps that does not fit in a `u64` exceeds the memory limit anyway.
         let steps = u64::try_from(choices.max(1)).unwrap_or(u64::MAX);
         let growth = tripled.bits().saturating_mul(steps);
         let domain = Domain::new(self, 1, Width::of(growth).words(growth))?;

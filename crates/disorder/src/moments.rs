@@ -158,7 +158,8 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// Returns damping and dispersion at the fault probability `q`. `None` for q = 0, where the response is no wave.
+    /// Returns damping and dispersion at the fault probability `q`. The result is `None` for q = 0, where the response
+    /// is not a wave.
     ///
     /// # Errors
     /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.

@@ -53,8 +53,8 @@ impl<T: Number> NetCounts<T> {
     pub(super) fn step(&mut self) {
         for class in &mut self.counts {
             for (sign, counts) in SIGNS.iter().zip(class) {
-                // On a base a number may leave the range and return at its other end. There |s| exceeds the number of steps
-                // that are left, so no count is read.
+                // On a base a count may leave the range at one end and return at the other. There |s| exceeds the
+                // number of steps that are left, so the count is never read.
                 match (counts, (*sign == Sign::Plus) == (self.plus > 0)) {
                     (Some(counts), true) => counts.rotate_right(1),
                     (Some(counts), false) => counts.rotate_left(1),
@@ -64,7 +64,8 @@ impl<T: Number> NetCounts<T> {
         }
     }
 
-    /// Chooses the sign of the next step: the same, or with a fault the other. The latter counts are tripled, as forces are.
+    /// Chooses the sign of the next step: the same sign, or the other sign after a fault. Counts after a fault are
+    /// tripled, as forces are.
     pub(super) fn choose(
         &mut self,
         same: &impl Factor<T>,
@@ -100,7 +101,7 @@ impl<T: Number> NetCounts<T> {
         self.counts.get(class)?.get(sign)?.as_deref()
     }
 
-    /// Returns the counts of a class after the last step, by s from −n on.
+    /// Returns the counts of a class after the last step, by s from −n on. They are sums over both signs of that step.
     pub(super) fn of_both(&self, class: usize) -> Vec<T> {
         let mut sum = vec![T::zero(); 2 * self.steps + 1];
         for counts in (0..2).filter_map(|sign| self.of(class, sign)) {

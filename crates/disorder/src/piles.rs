@@ -72,8 +72,8 @@ impl RandomPiles {
 
     /// Returns the piles on a base. Each layer consists of all sites whose three supports exist.
     ///
-    /// As everywhere, signs are listed from the top. A stacking that does not reach this height on the base counts as a
-    /// pile without spheres.
+    /// As everywhere, signs are listed from the top. A stacking that the base does not support counts as a pile without
+    /// spheres.
     ///
     /// # Examples
     /// ```
@@ -167,7 +167,7 @@ impl RandomPiles {
             return Err(Error::PlaceOfLoad { site, on_base });
         }
         let at = [site.i, site.j];
-        // In the plane, coordinates beyond those of regions would overflow.
+        // In the plane, coordinates outside the range of regions would overflow.
         let in_plane = at.iter().all(|n| (-MAX_LAYERS..=MAX_LAYERS).contains(n));
         let (is_inside, region) = match self.setting {
             Setting::Under(top) => (top.contains(site.i, site.j), Some(top)),

@@ -124,7 +124,8 @@ pub struct RandomStackings {
     first: FirstSign,
 }
 
-/// The most layers for probabilities of registries and for moments. The cost is proportional to the number of layers.
+/// The largest number of layers for probabilities of registries and for moments. The cost is proportional to the number
+/// of layers.
 pub(super) const MAX_RANDOM_LAYERS: u64 = 10_000;
 
 /// The limit of the smaller of two numbers, faults and unchanged signs, in a count of stackings. The cost of a count is
@@ -145,7 +146,7 @@ impl RandomStackings {
     /// assert!(RandomStackings::new(0, FirstSign::Random).is_err());
     /// ```
     pub fn new(layers: i128, first: FirstSign) -> Result<Self, Error> {
-        // The core rejects an impossible number of layers.
+        // `Stacking::fcc` rejects an invalid number of layers.
         Stacking::fcc(layers)?;
         Ok(Self { layers, first })
     }

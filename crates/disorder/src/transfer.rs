@@ -1,12 +1,12 @@
 //! The recursion for sums over all stackings, layer by layer.
 //!
-//! Let f_σ be the sum of the contact forces below a layer, by place and direction, over all beginnings of stackings whose
-//! next sign is σ. Each beginning counts with its probability, or, by number of faults, once. A step moves the forces along
-//! their contacts:
+//! Let f_σ be the sum of the contact forces below a layer, by place and direction, over all beginnings of stackings
+//! whose next sign is σ. The weight of a beginning is its probability, or 1 for sums by the number of faults. A step
+//! moves the forces along their contacts:
 //!
 //! g_σ(x + σu_l, l) = f_σ(x, l).
 //!
-//! This holds for every beginning, because a place is a position that no stacking changes. Then the next sign is chosen. With
+//! This holds for every beginning, because places do not depend on the stacking. Then the next sign is chosen. With
 //! probability 1 − q it is the same, and the forces continue. With probability q it changes, and the forces make a
 //! [half-turn](cannonpile::formula::half_turn) G. Finally the weights of the spheres of the layer are added:
 //!
@@ -42,8 +42,8 @@ use crate::error::bug;
 /// The forces of one class and next sign: a plane of cells for each direction.
 type Planes<T> = [Vec<T>; 3];
 
-/// The forces of a layer, by the net number of steps that are left, class, and next sign. Only on a base there is more than
-/// one net number. `None` stands for zero everywhere.
+/// The forces of a layer, by the net number of steps that are left, class, and next sign. There is more than one net
+/// number on a base only. `None` stands for zero everywhere.
 type Layer<T> = Vec<Vec<[Option<Planes<T>>; 2]>>;
 
 /// The recursion over a domain.
@@ -70,8 +70,8 @@ pub(super) struct Spot<T> {
     pub(super) classes: Vec<[T; 4]>,
 }
 
-/// Runs the recursion in integers of this width. `shares` are the numerators of the factors of both terms, and `None` counts
-/// stackings by their faults. The loads are multiplied by `denominator`.
+/// Runs the recursion in integers of this width. `shares` are the numerators of the factors of both terms. With `None`
+/// the sums are by the number of faults. The loads are multiplied by `denominator`.
 pub(super) fn run_in_integers(
     width: Width,
     domain: &Domain<'_>,
@@ -181,7 +181,7 @@ impl<'f, T: Number, S: Factor<T>> Transfer<'f, T, S> {
 
     /// Returns the net numbers of steps that are left, in the order of a [`Layer`]: −n to n on a base, else only one.
     fn nets(&self) -> core::ops::RangeInclusive<isize> {
-        // No more than there are cells in memory.
+        // The number of steps is at most the number of cells in memory, so the conversion is exact.
         let steps = self.domain.steps.cast_signed();
         if self.domain.base().is_some() {
             -steps..=steps
@@ -235,7 +235,7 @@ impl<'f, T: Number, S: Factor<T>> Transfer<'f, T, S> {
         Ok(())
     }
 
-    /// Adds both terms of the recursion.
+    /// Sets the forces of layer `k` to the sum of both terms of the recursion.
     fn combine(
         &self,
         planes: &mut Planes<T>,

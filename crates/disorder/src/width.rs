@@ -49,16 +49,16 @@ impl Width {
     }
 }
 
-/// Returns the bit length of the greatest 3^d C(n−1, d), which is at most that of 4^(n−1).
+/// Returns the bit length of the greatest 3^d C(n−1, d), or an upper bound of it for n > 1001.
 pub(super) fn bits_of_counts(steps: i128) -> u64 {
     let Ok(of) = u32::try_from((steps - 1).max(0)) else {
         return u64::MAX / 4;
     };
     if of > 1000 {
-        // The bit length of 4^(n−1), minus one.
+        // The numbers 3^d C(n−1, d) sum to 4^(n−1). So each is below it, and has at most 2(n−1) bits.
         return 2 * u64::from(of);
     }
-    // The terms grow as long as 3(n−1−d) > d+1. So the greatest is at d = ⌊3n/4⌋.
+    // The terms grow as long as 3(n−1−d) > d+1. So the greatest is at d = ⌊3n/4⌋, which is one of the two values below.
     let greatest =
         |d: u32| binomial(BigUint::from(of), BigUint::from(d)) * BigUint::from(3_u32).pow(d);
     let around = (3 * of) / 4;
@@ -106,7 +106,7 @@ mod tests {
             assert_eq!(Some(bits_of_counts(steps.into())), greatest, "{steps}");
         }
         assert_eq!(bits_of_counts(1001), 1995);
-        // Further terms have the bit length of 4^(n−1) minus one, two bits per step.
+        // For more steps the result is the upper bound of 2(n−1) bits.
         for steps in [1002, 5000, 1 << 32] {
             assert_eq!(i128::from(bits_of_counts(steps)), 2 * (steps - 1));
         }

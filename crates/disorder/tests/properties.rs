@@ -1,8 +1,8 @@
 //! Claims about random stackings on random input. The input is deterministic, from the generators that the fuzz targets
 //! share.
 //!
-//! Each claim is a function of bytes. Its planted faults are in `cannonpile_testkit`. A failure prints the shortest
-//! bytes that proptest found, and the description of the case.
+//! Each claim is a function of bytes. `cannonpile_testkit` defines it next to its mutants, which it must reject. A
+//! failure prints the shortest bytes that proptest found, and the description of the case.
 
 use cannonpile_testkit::{claims, properties};
 

@@ -1,4 +1,4 @@
-//! The stackings of a sorted list that continue a beginning.
+//! The stackings of a sorted list that continue a beginning, which is a list of signs from the top.
 
 use core::ops::Range;
 

@@ -99,11 +99,11 @@ fn update<T: Numerator>(ends: &mut Ends<T>, values: [T; 2], signs: &[Sign]) {
 pub(super) struct Level {
     /// The number of layers: 1 for a single layer.
     pub(super) layers: u128,
-    /// The spheres of layer k.
+    /// The number of spheres of layer k.
     pub(super) spheres: u128,
-    /// k.
+    /// The layer index k.
     pub(super) depth: u128,
-    /// The spheres of layers 1 to k.
+    /// The number of spheres of layers 1 to k.
     pub(super) under_top: u128,
     /// Σ 3n_j + 6 (spheres of layers 1 to j−1) over layers j from 1 to k.
     pub(super) squares: u128,

@@ -122,7 +122,7 @@ impl Histogram {
         let place = bin.into().checked_sub(self.first.into());
         let place = place.and_then(|place| usize::try_from(place).ok());
         let count = place.and_then(|place| self.counts.get(place));
-        // Not a default: bins outside of the stored range have the count 0.
+        // Bins outside of the stored range have the count 0.
         count.cloned().unwrap_or_default()
     }
 

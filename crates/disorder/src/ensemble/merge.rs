@@ -89,7 +89,7 @@ impl fmt::Display for Unmergeable {
                 )
             }
             Self::Impossible { .. } => {
-                f.write_str("the counts do not match the stackings; run it again")
+                f.write_str("the counts do not match the stackings; run this part again")
             }
         }
     }
@@ -97,7 +97,7 @@ impl fmt::Display for Unmergeable {
 
 impl core::error::Error for Unmergeable {}
 
-/// The most missing shards that an error names.
+/// The largest number of missing shards that an error names.
 const NAMED: usize = 20;
 
 impl Tally {

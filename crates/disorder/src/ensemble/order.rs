@@ -14,7 +14,7 @@ pub(super) struct Order {
     first: Option<Sign>,
     /// The number of signs that vary.
     pub(super) free: u32,
-    /// The number of stackings with the same forces that each enumerated one stands for.
+    /// The number of stackings with the same forces that each enumerated stacking represents.
     pub(super) factor: u32,
 }
 

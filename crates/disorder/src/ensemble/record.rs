@@ -243,7 +243,7 @@ impl TallyRecord {
         let record = record.map_err(|error| refused(error.to_string()))?;
         if record.fault_probability != fault_probability {
             return Err(refused(format!(
-                "the samples were drawn with the fault probability {}, not {fault_probability}; run it again",
+                "the samples were drawn with the fault probability {}, not {fault_probability}; run this part again",
                 record.fault_probability
             )));
         }

@@ -27,7 +27,7 @@ pub(super) struct Run<'r, E> {
 /// The number of samples that are sorted and walked together.
 const DRAWN: u64 = 1 << 13;
 
-/// The most pieces of a large enumeration.
+/// The largest number of pieces of a large enumeration.
 const PIECES: u64 = 1 << 7;
 
 /// The number of pieces that are counted before their tallies are added.

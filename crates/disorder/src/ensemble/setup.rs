@@ -18,16 +18,16 @@ use super::{Choice, Ensemble, Shard};
 use crate::Error;
 use crate::error::bug;
 
-/// The most 64-bit words that a walk stores, for all layers of one stacking.
+/// The largest number of 64-bit words that a walk stores, for all layers of one stacking.
 const MAX_WORDS: u64 = 50_000_000;
 
-/// The most bins that a histogram of contact forces can have.
+/// The largest number of bins of a histogram of contact forces.
 pub(super) const MAX_BINS: u64 = 100_000;
 
-/// The most stackings that one run enumerates.
+/// The largest number of stackings that one run enumerates.
 const MAX_STACKINGS: u64 = 1 << 24;
 
-/// A checked request.
+/// A run that is within the limits, with its bounds and common denominator.
 pub(super) struct Task {
     steps: usize,
     pub(super) order: Order,
@@ -61,7 +61,8 @@ impl Task {
             return Err(too_many(count.into()));
         }
         let total = spheres.iter().sum::<u128>();
-        // At the limit of 2⁶² counters of 64 bits would overflow. But a multiple of three never equals the limit.
+        // At exactly 2⁶² forces 64-bit counters would overflow. But the number of forces is a multiple of three, so it
+        // never equals the limit.
         refuse_beyond(
             "the contact forces of all samples",
             BigUint::from(u128::from(count) * u128::from(order.factor)) * (total * 3),
@@ -93,7 +94,8 @@ impl Task {
         let scale = common_denominator(top_own.iter().chain([&own, ensemble.bin_width()]));
         let times = |number: &BigRational| (number * &scale).to_integer();
         let width = times(ensemble.bin_width());
-        // The factor 16 covers sums of three forces and the tripled half-turn. Normal forces have bins of three widths.
+        // The factor 16 covers sums of three forces and the tripled half-turn. The numerators of normal forces are
+        // tripled, and so is the width of their bins.
         let bound = (greatest * &scale * 16_u32).max(width.clone() * 3_u32);
         let bound = bound * power_of_three(steps.saturating_sub(1));
         // A big integer stores its words in a list, which costs about five words more.
@@ -156,7 +158,7 @@ pub(super) struct Setup<T> {
     /// The forces below the top layer.
     pub(super) top_own: Planes<T>,
     pub(super) by_faults: Vec<Units<T>>,
-    /// The number of stackings that each listed one stands for.
+    /// The number of stackings that each listed stacking represents.
     pub(super) factor: u32,
     pub(super) scale: BigInt,
     pub(super) sums: Sums,

@@ -185,8 +185,8 @@ impl Tally {
         Ok(Some((0..self.faults.len()).map(weight).collect()))
     }
 
-    /// Returns the probability that a random stacking stands, at the fault probability `q`. `None` for samples, unless
-    /// the shard is the whole, and with horizontal contacts if the run did not count them.
+    /// Returns the probability that a random stacking stands, at the fault probability `q`. The result is `None` for
+    /// samples, for a shard that is not the whole, and with horizontal contacts if the run did not count them.
     ///
     /// The value is exact: Σ_d c_d q^d (1−q)^(n−1−d), and half of it for a random first sign. Here c_d is the number of
     /// standing stackings with d faults, and n is the number of steps.

@@ -39,9 +39,9 @@ struct Frame<T> {
 #[derive(Clone, Copy)]
 struct State {
     faults: usize,
-    /// No contact is in tension.
+    /// Whether no contact is in tension.
     stands: bool,
-    /// It is stable with horizontal contacts.
+    /// Whether the beginning is stable with horizontal contacts.
     held: bool,
 }
 
@@ -186,8 +186,8 @@ impl<T: Numerator, E: From<Error>> Walker<'_, T, E> {
     fn base(&mut self, k: usize, listed: Range<usize>, state: State) -> Result<(), Error> {
         let units = self.setup.units(state.faults)?;
         let frame = frame(&mut self.frames, k)?;
-        // Paper, (13): three times the normal force in mg is the sum of the forces from above plus three times the weight. The
-        // forces of a single layer contain its weight already.
+        // By (13) of the paper, three times the normal force in mg is the sum of the forces from above plus three times
+        // the weight. The forces of a single layer contain its weight already.
         let (planes, own) = if k == 0 {
             (&self.setup.top_own, T::zero())
         } else {

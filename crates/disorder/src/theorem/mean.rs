@@ -113,7 +113,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     let q_of = cubic(&q, [&t1, &t2, &s], &(square(&lambda) + &mu), &lambda);
     let left = determinant(&rows) - &q_of;
     let relation = product - &P::one();
-    // Not a default: if the division leaves a remainder, the equation below fails.
+    // If the division leaves a remainder, the equation below fails.
     let multiple = left.divide_exactly(&relation).unwrap_or_else(P::zero);
     let mut steps = equations! {
         "det(λ−M) − λ³Q(λ+μ/λ) is a multiple of abc − 1": left => multiple * &relation,
@@ -131,7 +131,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
         let [t1, t2, s] = [1, 4, 3].map(|n| of_angle(&(int(n) * square_of)));
         let y = lambda + &(mu.clone() * &inverse);
         let q_of = cubic(&q, [&t1, &t2, &s], &y, &P::one());
-        let claim = format!("{what}: nothing is left of Q");
+        let claim = format!("{what}: Q vanishes");
         steps.push(Step::equal(claim, lowest(&q_of, order), P::zero()));
     };
     // With iκ = √2qt the speed is ρ/√2, and κ² = −2q²t².

@@ -128,7 +128,7 @@ pub(super) fn third_moment(f: &Formulas) -> Vec<Step> {
     steps.extend(equations! {
         "the mean of no step": at_first(&mean) => P::zero(),
         "and of one": at_first(&next(&mean)) => gap.clone(),
-        "its growth grows by 3(2n+1)μⁿ and that of (3n+1)μⁿ":
+        "its second difference is 3(2n+1)μⁿ plus the difference of (3n+1)μⁿ":
             growth(&growth(&mean)) => grown * &x * &gap,
     });
     steps
@@ -180,7 +180,7 @@ pub(super) fn fourth_moment(f: &Formulas) -> Vec<Step> {
         "the mean of pairs, of no step": at_first(&mean) => P::zero(),
         "of one": at_first(&next(&mean)) => P::zero(),
         "of two": at_first(&next(&next(&mean))) => int(2) * &mu * &gap,
-        "what its growth grows by is, a step more, μ times that and 8(n+1)":
+        "its second difference at n + 1 is μ times that at n, plus 8(n+1)μ":
             further => int(8) * &after * &mu * &gap,
     });
     steps

@@ -116,7 +116,7 @@ fn mean_squares_of_distant_loads_add_up() {
     }
 }
 
-/// Five and six steps down, forces of beginnings with a large distance meet.
+/// Checks floats at q = 1/4, for the largest numbers of steps that are enumerated.
 #[test]
 fn mean_squares_of_more_steps() {
     for steps in [5, 6] {

@@ -67,7 +67,7 @@ fn normals(sums: &Sums, of: usize) -> BTreeMap<Place, BigRational> {
         .collect()
 }
 
-/// The library's response by faults has these moments.
+/// Checks the moments of the response for each number of faults.
 fn has_the_moments(steps: usize, sums: &Sums) -> Result<(), String> {
     let n = i64::try_from(steps).unwrap();
     let stackings = Piles::response(steps, FirstSign::Plus).stackings();
@@ -120,7 +120,7 @@ fn planted_faults_change_the_moments() {
     assert!(has_the_moments(5, &wrong).is_err());
 }
 
-/// The closed forms in μ = 1 − 2q.
+/// The moments of the mean equal closed forms in μ = 1 − 2q.
 #[test]
 fn moments_of_the_mean() {
     for steps in 1..=14 {

@@ -31,7 +31,7 @@ fn tallies_under_gravity_agree() -> Result<(), Error> {
             }
         }
     }
-    // The bounds are those of another corner, without symmetry.
+    // This region does not contain the origin.
     for first in FIRST {
         agrees_with_enumeration(&Scene::of("region:-2..1,3..5,2..5", first), 4)?;
     }

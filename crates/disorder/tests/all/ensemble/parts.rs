@@ -1,4 +1,4 @@
-//! Shards: any division merges into the whole, and errors name the tally that does not belong to it.
+//! Shards: any division merges into the whole, and errors name the tally that does not belong to the run.
 
 use cannonpile_disorder::{
     Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard, Tally, TallyRecord,
@@ -153,8 +153,8 @@ fn foreign_tallies_are_rejected() -> Result<(), Error> {
     Ok(())
 }
 
-/// A shard starts at ⌊128 I/3⌋. If mirror images have the same forces, one of each pair is computed. All samples are
-/// computed.
+/// Of T stackings the shard I of N ends before the index ⌊TI/N⌋. T is 128 if mirror images have the same forces,
+/// because one of each pair is computed. All samples are computed.
 #[test]
 fn sizes_of_shards() -> Result<(), Error> {
     let sizes = |top: &str, choice: &Choice, of: u64| -> Result<Vec<u64>, Error> {
@@ -247,7 +247,7 @@ fn size_of_shards_is_limited() {
     refused(31, 31, (1 << 29) / 31);
 }
 
-/// The message names the first twenty.
+/// The message names the first twenty missing shards.
 #[test]
 fn errors_name_twenty_missing_parts() -> Result<(), Error> {
     for (of, names) in [(2, 1), (3, 2), (21, 20), (22, 20), (40, 20)] {
