@@ -4,7 +4,7 @@
 Prints `accepted` (exit status 0), or `refused: ` and the first condition that is violated (1). If the input is not a
 certificate, it prints one line on stderr (2). It needs Python 3.9 or later and the standard library only.
 
-The trusted base is this file, Python's integers and fractions, and two pages of mathematics: `src/paper.md` of the core
+The trusted base is this file, Python's integers and fractions, and two pages of mathematics: `src/paper.md` of the crate cannonpile
 ("Stackings", "Regions", "Horizontal contacts") and `src/certificate.rs` in this crate. No code is shared with the
 library, and the methods differ: this script builds layers as sets of sites and transfers forces to the layer below,
 where the library uses counting formulas and visits the spheres one by one.
@@ -314,7 +314,7 @@ class Certificate:
             need(side * compression <= 0, f"c = {compression} {relation} 0 at (k,i,j) = {site}, {axis}")
 
     def cannot_stand(self):
-        """Check a Farkas certificate: 0 >= sum f D + sum X c = sum w phi > 0 would hold for compressive f and X."""
+        """Check a Farkas certificate: compressive f and X would contradict 0 >= sum f D + sum X c = sum w phi > 0."""
         self.one_sided(1, lambda support: 0)
         need(self.work() > 0, f"sum of w phi = {self.work()} > 0")
 

@@ -42,9 +42,9 @@ pub struct BaseBounds<'p> {
 /// Returns an iterator over bottom spheres with their [bounds](crate::bounds()), in mg. The part is the base or one
 /// sphere.
 ///
-/// In a pile under one sphere with equal spheres, up to six bottom spheres are images of each other. The first
-/// sphere of an orbit gets its bounds with certificates, its images get the same bounds without certificates. With
-/// the feature `rayon` each thread computes one sphere at a time.
+/// In a pile under one sphere with equal spheres, up to six bottom spheres are images of each other. The first sphere
+/// of an orbit has certificates with its bounds. Its images have the same bounds without certificates. With the feature
+/// `rayon` each thread computes one sphere at a time.
 ///
 /// # Errors
 /// Returns [`NotOnFloor`](cannonpile::Error::NotOnFloor), [`SiteOutside`](cannonpile::Error::SiteOutside) or

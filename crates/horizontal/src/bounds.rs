@@ -67,7 +67,7 @@ pub struct NormalBound {
     /// The proof of the bound.
     ///
     /// `None` if it would list more than 10⁵ spheres and a formula proves the bound for every L
-    /// ([`paper`](cannonpile::paper#arching)). `None` also for images of a sphere in
+    /// ([`paper`](cannonpile::paper#arching)). It is also `None` for images of a sphere in
     /// [`base_bounds`](crate::base_bounds).
     pub certificate: Option<Certificate>,
 }
@@ -88,10 +88,10 @@ pub struct NormalBound {
 /// # Errors
 /// * [`NotOnFloor`](cannonpile::Error::NotOnFloor) or [`SiteOutside`](cannonpile::Error::SiteOutside) if the site
 ///   is not a bottom sphere.
-/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if the neighbours of a layer do not touch.
+/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if neighbours in a layer do not touch.
 /// * [`TooLarge`](cannonpile::Error::TooLarge) if the linear program has too many equations.
 /// * [`Error::CannotStand`] if no forces are admissible.
-/// * [`Error::Weightless`] if the spheres weigh nothing.
+/// * [`Error::Weightless`] if the spheres are weightless.
 ///
 /// # Examples
 /// ```
@@ -179,7 +179,8 @@ impl<'p> Solver<'p> {
         })
     }
 
-    /// Returns the balance equations, or `None` if they are too many and a formula gives an outer bound instead.
+    /// Returns the balance equations, or `None` if there are too many of them and a formula gives an outer bound
+    /// instead.
     fn network(&self) -> Result<Option<Network<'p>>, Error> {
         match Network::above(self.pile, self.pile.layers() - 1, MAX_EQUATIONS) {
             Err(cannonpile::Error::TooLarge { .. }) if self.straight.is_some() => Ok(None),
@@ -318,7 +319,7 @@ impl<'p> Solver<'p> {
         Certificate {
             pile: self.pile.clone(),
             claim,
-            // Not a default: without forces the claim does not say that the bound is attained.
+            // Without forces the claim does not state that the bound is attained, so the list can be empty.
             horizontal: horizontal.unwrap_or_default(),
             field,
         }

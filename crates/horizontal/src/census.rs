@@ -29,8 +29,8 @@
 //!    certificate. No stacking with five sign changes remains.
 //!
 //! # On a base
-//! As without horizontal contacts, every stacking is extended upwards as far as it goes ([`on_base`]), and then
-//! tested.
+//! As without horizontal contacts, every stacking is extended upwards as far as the base permits ([`on_base`]), and
+//! then tested.
 
 use cannonpile::Pile;
 use cannonpile::census::{Judged, carried_up, search};
@@ -112,8 +112,8 @@ impl Judged for Entry {
 /// * [`TooManyRows`](cannonpile::Error::TooManyRows) if `failing` would give more than
 ///   [`MAX_ENTRIES`](cannonpile::census::MAX_ENTRIES) entries.
 ///
-/// The items contain no errors: a lemma or a small linear program decides every entry, and all of them were
-/// computed.
+/// The items contain no errors: a lemma or a small linear program decides every entry, and each of these programs has
+/// been solved.
 ///
 /// # Examples
 /// ```
@@ -137,8 +137,8 @@ pub fn under_one_sphere(
 /// the proof that it is stable or unstable at a = R.
 ///
 /// # Errors
-/// Returns [`TooManyRows`](cannonpile::Error::TooManyRows) under the same condition. Items contain the errors of
-/// [`equilibrium`](crate::equilibrium).
+/// Returns [`TooManyRows`](cannonpile::Error::TooManyRows) if `cannonpile::census::on_base` does so. Items contain the
+/// errors of [`equilibrium`](crate::equilibrium).
 ///
 /// # Examples
 /// ```

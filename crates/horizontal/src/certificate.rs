@@ -1,10 +1,10 @@
 //! Certificates: claims about a pile with horizontal contacts, with data that anybody can check.
 //!
 //! At a = R the spheres of a layer touch, and the contact forces are not unique
-//! ([`paper`](cannonpile::paper#horizontal-contacts)). Solvers that round find the results. So each result comes
-//! with a certificate: horizontal forces X (a primal solution), a field φ on the spheres (a dual solution), or
-//! both. [`Certificate::check`] uses only these numbers and the balance of a sphere. It shares only the formulas
-//! with the solvers ([`formula`](crate::formula) here and in the [core](cannonpile::formula)); the theorems
+//! ([`paper`](cannonpile::paper#horizontal-contacts)). The results come from solvers with rounding errors. So each
+//! result comes with a certificate: horizontal forces X (a primal solution), a field φ on the spheres (a dual
+//! solution), or both. [`Certificate::check`] uses only these numbers and the balance of a sphere. It shares only the
+//! formulas with the solvers ([`formula`](crate::formula) here and in the [core](cannonpile::formula)); the theorems
 //! `horizontal-balance` and `virtual-work` are about these formulas. `check_certificate.py`, in the folder of this
 //! crate, is an independent checker in Python, written from this page. The command `check` reads the same files.
 //!

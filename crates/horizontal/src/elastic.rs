@@ -55,7 +55,7 @@ pub struct ElasticState {
 ///
 /// # Errors
 /// * [`NotPositive`](cannonpile::Error::NotPositive) if the stiffness ratio is zero or negative.
-/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if the neighbours of a layer do not touch.
+/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if neighbours in a layer do not touch.
 /// * [`Error::CannotStand`] if the pile is unstable.
 /// * [`TooLarge`](cannonpile::Error::TooLarge) if the program has too many equations.
 /// * The errors of [`standing`](Pile::standing).
@@ -86,7 +86,7 @@ pub fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<ElasticStat
         {
             None
         }
-        // A failure in the first layers is cheap to find, for piles of any size.
+        // It is cheap to detect that the first layers are unstable, for piles of any size.
         Err(Error::Core(cannonpile::Error::TooLarge { .. })) if cannot_stand(&pile) => {
             return Err(Error::CannotStand);
         }
@@ -131,7 +131,7 @@ impl ElasticState {
     }
 }
 
-/// Returns the maximum number of equations of a pile that gets a certificate.
+/// Returns the maximum number of equations for which a certificate is computed without a program.
 fn most_certified(dimension: Dimension) -> u64 {
     u64::from(MAX_CERTIFIED * dimension.number())
 }
@@ -202,11 +202,10 @@ fn of_straight(pile: &Pile, stiffness_ratio: &BigRational) -> Certificate {
 fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
     let network = &springs.network;
     let sloping = network.weights.len();
-    // Horizontal forces are scaled by √(κ′/κ), so that the objective of the program is a plain sum of squares.
-    // Not a default: an infinite ratio is clamped below.
+    // Horizontal forces are scaled by √(κ′/κ), so that the objective of the program is a plain sum of squares. A ratio
+    // outside the range of `f64` becomes infinite, and is clamped below.
     let ratio = springs.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
-    // Not a default: beyond these ratios the set of active contacts hardly changes. The result is only a guess for the exact
-    // method.
+    // Beyond these ratios the set of active contacts hardly changes. The result is only a guess for the exact method.
     let unit = ratio.clamp(1e-6, 1e6).sqrt();
     let unit = BigRational::from_float(unit).ok_or_else(|| bug("a stiffness ratio is finite"))?;
     let mut columns = network.columns.clone();

@@ -100,8 +100,8 @@ fn in_words((coefficients, sum): &Equation) -> Equation<FixedRational<i64>> {
 }
 
 impl<T: Field> Triangular<T> {
-    /// Eliminates with the Markowitz rule: it takes the shortest equation, and as its pivot the unknown in the
-    /// fewest others.
+    /// Eliminates with the Markowitz rule: it takes the shortest equation, and as its pivot the unknown that occurs in
+    /// the fewest other equations.
     fn of(mut equations: Vec<Equation<T>>) -> Result<Self, Failure> {
         let mut with: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         for (number, (coefficients, sum)) in equations.iter().enumerate() {

@@ -11,7 +11,7 @@
 //! | question | call |
 //! |---|---|
 //! | Is there a set of compressive contact forces that balances the pile? | [`equilibrium(&pile)`](equilibrium) |
-//! | Which stackings have one? | [`census`] |
+//! | Which stackings are stable? | [`census`] |
 //! | What are the smallest and the largest normal force of a bottom sphere? | [`bounds(&pile, site)`](bounds()), [`base_bounds(&pile, part)`](base_bounds) |
 //! | What are the forces of elastic unilateral contacts? | [`elastic(&pile, &stiffness_ratio)`](elastic()) |
 //!

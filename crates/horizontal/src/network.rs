@@ -43,8 +43,8 @@ pub(crate) struct Network<'p> {
 }
 
 impl<'p> Network<'p> {
-    /// Returns the equations of the spheres above layer `floor`, whose spheres are fixed. It is the floor of the
-    /// pile or a layer above it.
+    /// Returns the equations of the spheres above layer `floor`. The spheres of layer `floor` are fixed. This layer is
+    /// the floor of the pile, or a layer above it.
     ///
     /// # Errors
     /// [`Error::NoHorizontalContacts`], and [`Error::TooLarge`] for more than `most` equations.
@@ -155,7 +155,7 @@ impl<'p> Network<'p> {
         }
     }
 
-    /// Returns the unknowns that are forces on a bottom sphere.
+    /// Returns the numbers of the unknown forces on a bottom sphere.
     pub(crate) fn onto(&self, site: Site) -> Result<Vec<usize>, Error> {
         let directions = self.pile.dimension().directions();
         let above = directions.iter().filter_map(|direction| {
@@ -220,7 +220,7 @@ impl<'p> Network<'p> {
         let directions = self.pile.dimension().directions().len();
         let spheres = self.spheres.iter().zip(numbers.chunks(directions));
         spheres.map(|(site, numbers)| {
-            // Not a default: discs have no third direction; its value is zero.
+            // Discs have no third direction, so its value is zero.
             let number = |l: usize| numbers.get(l).cloned().unwrap_or_else(BigRational::zero);
             (*site, [number(0), number(1), number(2)])
         })

@@ -30,7 +30,7 @@ pub(crate) fn run_starts(shape: &Shape) -> impl Iterator<Item = i128> {
 
 /// Returns a certificate that some run before a sign change is too long, for the first such run.
 ///
-/// The field lives on the spheres of one edge (lemma 1 of [`census`](crate::census)).
+/// The field is nonzero on spheres of one edge only (lemma 1 of [`census`](crate::census)).
 pub(crate) fn too_long_run(pile: &Pile) -> Result<Option<Certificate>, Error> {
     let shape = pile.shape();
     for (from, k) in run_starts(shape).zip(run_starts(shape).skip(1)) {

@@ -156,7 +156,7 @@ impl Springs<'_> {
         let unknowns: Vec<usize> = system.rows.keys().copied().collect();
         let mut null_vectors = null_space(system.equations()).ok_or_else(unsolvable)?;
         while let Some(change) = null_vectors.pop() {
-            // Not a default: a value that overflows a float is also beyond the accuracy of a guess.
+            // A value outside the range of `f64` is beyond the accuracy of a guess, so an infinity suffices.
             let float = |exact: &BigRational| exact.to_f64().unwrap_or(f64::INFINITY);
             let changing = (0..unknowns.len()).filter(|number| !change[*number].is_zero());
             let step = |number: usize| -gaps[unknowns[number]] / float(&change[number]);
@@ -506,8 +506,8 @@ mod tests {
         assert_eq!(state.forces, otherwise.forces);
     }
 
-    /// Once the overlapping contact is closed, the horizontal contact becomes tensile half of the way and is opened
-    /// there.
+    /// While the overlapping contact is closed, the horizontal contact becomes tensile half-way, and is opened at that
+    /// point.
     #[test]
     fn closing_a_contact_opens_another() {
         let loads = [(0, 0, 5), (0, 1, 2), (1, 1, 2)];

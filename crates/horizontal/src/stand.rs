@@ -43,8 +43,8 @@ pub enum DecidedBy {
     Sloping,
     /// Stable with the horizontal forces of the certificate.
     Horizontal,
-    /// Unstable: a run before a sign change is too long, by the spheres of an edge (lemma 1 of the module
-    /// documentation).
+    /// Unstable: a run before a sign change is too long, as the balance of the spheres of an edge shows (lemma 1 of
+    /// [`census`](crate::census)).
     Run,
     /// Unstable: the field of the certificate is a Farkas certificate, found by a linear program.
     Work,
@@ -80,16 +80,16 @@ impl fmt::Display for DecidedBy {
 /// Returns a certificate that the pile is stable or unstable at a = R, with horizontal contacts.
 ///
 /// * A run that is too long before a sign change is detected first ([`census`](crate::census)).
-/// * If the sloping contacts alone are stable, the cost is that of [`standing`](Pile::standing).
+/// * If the pile is stable with sloping contacts alone, the cost is that of [`standing`](Pile::standing).
 /// * Below the last sign change all forces increase, so those layers need no test.
-/// * Of the layers above it, the first layers are tested first. A pile is stable only if all its first layers are.
+/// * The layers above it are tested as truncated piles, from the shortest on. A pile is stable only if all of its truncated piles are.
 /// * For a pile of more than 10⁵ spheres the certificate is about its first layers, for the same reasons. Its
 ///   [`pile`](Certificate::pile) has only these layers.
 ///
 /// Horizontal forces that were assigned to the pile are ignored.
 ///
 /// # Errors
-/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if the neighbours of a layer do not touch.
+/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if neighbours in a layer do not touch.
 /// * [`TooLarge`](cannonpile::Error::TooLarge) if the program has more than 15,000 equations.
 /// * [`Error::NotSolved`] if the float solution does not lead to an exact proof.
 /// * The errors of [`standing`](Pile::standing).

@@ -31,9 +31,9 @@ pub(crate) struct Straight {
 
 impl Straight {
     pub(crate) fn of(pile: &Pile, Site { i, j, k }: Site) -> Option<Self> {
-        let is_it = pile.is_paper_pile() && pile.dimension() == Dimension::Three;
+        let is_special = pile.is_paper_pile() && pile.dimension() == Dimension::Three;
         let sigma = factor_of(pile);
-        is_it.then_some(Self {
+        is_special.then_some(Self {
             sigma,
             n: count::above(&(sigma * i), &(sigma * j), &k),
             k,
@@ -172,11 +172,11 @@ impl Straight {
 /// those of + steps.
 pub(crate) fn factor_of(pile: &Pile) -> i128 {
     let sign = pile.shape().sign_below(0);
-    // Not a default: a single sphere has no step; either sign is correct.
+    // A single sphere has no step, so either sign is correct.
     sign.map_or(1, |sign| sign.factor().into())
 }
 
-/// Returns the normal force 1 + G/3 in mg, from the load G above a bottom sphere in f₀.
+/// Returns the normal force 1 + G/3 in mg, from the load G on a bottom sphere in f₀.
 fn normal_below(onto: BigRational) -> BigRational {
     BigRational::one() + onto / BigRational::from_integer(3.into())
 }
@@ -189,7 +189,8 @@ fn unit(l: usize) -> [i128; 3] {
 mod tests {
     use super::*;
 
-    /// Loads are in f₀ = mg/3. A corner of one layer is the sphere itself, without a load.
+    /// `onto` converts a load in f₀ to the normal force in mg. The corner of a single layer is its only sphere, without
+    /// a load.
     #[test]
     fn bounds_at_corners_on_edges_and_inside() {
         let bound = |n: [i128; 3], end| {

@@ -250,7 +250,8 @@ impl Certificate {
         Ok(())
     }
 
-    /// Returns the spheres at which D or c can differ from zero, and those on the bottom sphere, in row order.
+    /// Returns the spheres at which D or c can differ from zero, and the spheres that touch the bottom sphere, in row
+    /// order.
     ///
     /// These are the spheres of the field, the spheres supported by them, and their neighbours.
     fn around_the_field(&self, bottom: Option<Site>) -> BTreeSet<Site> {

@@ -42,7 +42,7 @@ pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
 /// * The errors of `input`.
 /// * [`InvalidData`](io::ErrorKind::InvalidData) or [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line,
 ///   if the input is not a certificate.
-/// * [`FileTooLarge`](io::ErrorKind::FileTooLarge) if it is too long.
+/// * [`FileTooLarge`](io::ErrorKind::FileTooLarge) if the input is too long.
 ///
 /// # Examples
 /// ```

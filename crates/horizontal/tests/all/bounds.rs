@@ -43,7 +43,7 @@ fn is_proved(bound: &NormalBound) {
     }
 }
 
-/// Returns the upper bound of the paper page, from the sorted coordinates n*.
+/// Returns the upper bound that the page `cannonpile::paper` states, from the sorted coordinates n*.
 fn formula(k: i128, site: Site) -> BigRational {
     let mut n = [k - site.i - site.j, site.i, site.j];
     n.sort_unstable();

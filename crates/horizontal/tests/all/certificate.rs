@@ -171,7 +171,7 @@ fn all() -> Vec<Certificate> {
 /// Returns elastic states with horizontal forces: discs under two loads, and a hexagon under a load with a sign
 /// change.
 ///
-/// Another program computed them. Only the check makes them valid.
+/// Another program computed them, and only the check shows that they are valid.
 fn pressed() -> [Certificate; 2] {
     let texts = [
         include_str!("certificate/discs.json"),
