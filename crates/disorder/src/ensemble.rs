@@ -25,7 +25,7 @@
 //! # With horizontal contacts
 //! At a = R a stacking with contacts in tension can be stable too. All beginnings of a stable stacking are stable, and
 //! it stays stable if its last step is repeated. So a proof is needed only for a sign change below a stable beginning.
-//! The judge of the caller decides these cases ([`Ensemble::run_judged`]). `equilibrium` of the crate
+//! A function of the caller, the judge, decides these cases ([`Ensemble::run_judged`]). `equilibrium` of the crate
 //! `cannonpile-horizontal` decides them with a proof.
 
 mod choice;

@@ -1,8 +1,8 @@
 //! The recursion for sums over all stackings, layer by layer.
 //!
 //! Let f_σ be the sum of the contact forces below a layer, by place and direction, over all beginnings of stackings
-//! whose next sign is σ. The weight of a beginning is its probability, or 1 for sums by the number of faults. A step
-//! moves the forces along their contacts:
+//! that continue with the sign σ. The weight of a beginning is its probability, or 1 for sums by the number of faults.
+//! A step moves the forces along their contacts:
 //!
 //! g_σ(x + σu_l, l) = f_σ(x, l).
 //!

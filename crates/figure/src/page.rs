@@ -47,9 +47,10 @@ pub struct Figure {
 /// The layout of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// The width of the page, in pixels (800). Height, lines and fonts scale with it.
+    /// The width of the page, in pixels (default 800). Height, lines and fonts scale with it.
     pub width: f64,
-    /// Shows the title and the caption (`true`). The elements `title` and `desc` of the document always contain them.
+    /// Whether the title and the caption are shown (default `true`). The elements `title` and `desc` of the document
+    /// always contain them.
     pub title: bool,
 }
 
@@ -62,7 +63,8 @@ impl Default for Layout {
     }
 }
 
-/// A frame with ticks. The point (0, 0) of the panel has the values `origin`, and its unit lengths are `unit`.
+/// A frame with ticks. The point (0, 0) of the panel has the values `origin`. A unit of length of the panel is `unit`
+/// on the axes.
 #[derive(Clone, Debug)]
 pub(super) struct Axes {
     /// The names of the horizontal and the vertical axis, with units. An axis with an empty name has no ticks.

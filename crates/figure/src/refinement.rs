@@ -11,9 +11,9 @@ use super::ticks::digits;
 /// Draws the errors of a refinement study over its parameter, on logarithmic axes.
 ///
 /// A disc shows the largest error of a level, and a square shows its rms error. A line shows the fitted power law, over
-/// the levels above the round-off floor. Glyphs are hollow for levels on the floor, and for levels with missing or
-/// extra contacts. A dashed line shows the largest errors that spring theory predicts. The triangle has slope 1. Errors
-/// that are 0 or infinite are left out.
+/// the levels above the round-off floor. Glyphs are hollow for levels on the round-off floor, and for levels with
+/// missing or extra contacts. A dashed line shows the largest errors that spring theory predicts. The triangle has
+/// slope 1. Errors that are 0 or infinite are left out.
 ///
 /// # Examples
 /// ```

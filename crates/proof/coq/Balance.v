@@ -1,4 +1,4 @@
-(** Newton's law for one sphere: it is in balance if and only if it transmits the forces received plus its own
+(** Newton's law for one sphere: a sphere is in balance if and only if it transmits the forces received plus its own
     increments. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa.
@@ -19,7 +19,7 @@ Ltac formulas :=
 
 Ltac by_components := cbv zeta; repeat split; formulas; ring.
 
-(** The same for both sides of a hypothesis. *)
+(** Unfolds and destructs in a hypothesis, like [formulas] in the goal. *)
 Ltac formulas_in H :=
   cbv beta iota zeta delta
     [above directions turned_about_z position increments force transmitted resultant support_load unbalanced weight
@@ -74,7 +74,7 @@ Definition triple_product (v : three vector) : Q :=
 Theorem determinant : forall s, triple_product (directions s) == 1 + s.
 Proof. intros. unfold triple_product. formulas. ring. Qed.
 
-(** A product is zero only if a factor is zero. *)
+(** If a product is zero and a is not zero, then b is zero. *)
 Lemma factor : forall a b, ~ a == 0 -> a * b == 0 -> b == 0.
 Proof.
   intros a b Ha H. destruct (Qmult_integral _ _ H); [contradiction | assumption].
@@ -115,7 +115,7 @@ Proof.
     apply unbalanced_of_same; [exact H | reflexivity | reflexivity].
 Qed.
 
-(** The same under - steps. *)
+(** This also holds under - steps. *)
 Theorem every_sphere_is_in_balance_under : forall s sigma g n,
   let e := directions_under s sigma in
   unbalanced (to_below s g n) e g e (force n (weight (increments s))) =v= nothing.
@@ -189,8 +189,8 @@ Definition transferred (from to : sign) (g : three Q) : three Q :=
   | _, _ => half_turn g
   end.
 
-(** On an equilateral base: a sphere of weight n mg receives any g under a step of one sign and stands on a step of
-    the same or the other sign. It is in balance if and only if it transmits T g + n. *)
+(** On an equilateral base: a sphere of weight n mg lies below a step of one sign and above a step of the same or the
+    other sign, and receives any g. It is in balance if and only if it transmits T g + n. *)
 Theorem newton_in_any_stacking : forall from to g n up,
   (unbalanced up (directions_under (1 # 2) to) g (directions_under (1 # 2) from)
      (force n (weight (increments (1 # 2)))) =v= nothing

@@ -19,7 +19,8 @@ Definition corner (edge : direction) (k : nat) : site :=
 Definition along_the_edge (edge : direction) (phi : nat -> three Q) (k : nat) (i j : Z) : three Q :=
   if is_at (corner edge k) (i, j) then phi k else each 0.
 
-(** 1 along the edge; and 1 along all lines, except at the apex. *)
+(** The field of the lower bound is 1 along the edge. The field of the upper bound is 1 along all lines, except at the
+    apex. *)
 Definition least_field (edge : direction) : nat -> Z -> Z -> three Q :=
   along_the_edge edge (fun _ => corner_field edge false).
 Definition greatest_field (edge : direction) : nat -> Z -> Z -> three Q :=
@@ -96,7 +97,7 @@ Proof.
   destruct edge; cbn [corner fst snd]; fold (n_of K); change (q 0) with 0; formulas; ring.
 Qed.
 
-(** The load is at most 3K - 2 f0. *)
+(** The load on a corner below K layers is at most 3K - 2 f0, for all horizontal forces. *)
 Theorem greatest_on_a_corner : forall edge f X K, (1 <= K)%nat -> balanced_beside f X K ->
   load_on f K (corner edge K) <= greatest_on_corner (n_of K).
 Proof.
@@ -113,7 +114,7 @@ Qed.
 Definition same_line (a b : direction) : bool :=
   match a, b with Alpha, Alpha | Beta, Beta | Gamma, Gamma => true | _, _ => false end.
 
-(** This bound is attained as well: the spheres of an edge press on their neighbours with force 1. In integers, a
+(** The upper bound is attained too: the spheres of an edge press on their neighbours with force 1. In integers, a
     sphere transmits 3n + 1 along the edge. Its neighbours transmit nothing along the edge, and no sphere of the edge
     below the apex transmits along other lines. *)
 Definition edge_push (edge : direction) (k : nat) (x : axis) (i j : Z) : Q :=
@@ -249,7 +250,7 @@ Proof.
       (apply P; apply truth_grows; rewrite !with_at_least_iff; lia).
 Qed.
 
-(** A layer, row by row. *)
+(** Sums over a layer are computed row by row. *)
 Lemma total_of_one : forall n (z : Z) x, (0 <= z < Z.of_nat n)%Z ->
   total n (fun m => if (Z.of_nat m =? z)%Z then x else 0) == x.
 Proof.
@@ -370,7 +371,7 @@ Definition placed (a b : direction) (x y : Z) : site :=
   let on_line d := if same_line a d then x else if same_line b d then y else 0%Z in
   (on_line Beta, on_line Gamma).
 
-(** The spheres where the field is 1: along a, along b, along the third line. *)
+(** The spheres on which the field is 1 along the lines a and b and along the third line. *)
 Definition along_first (k j c x y : Z) : bool := ((y =? j) && (x <? k) || (j <? y) && (x + y <? j + c))%Z.
 Definition along_second (j c x y : Z) : bool := ((c <=? x) && (y <=? j))%Z.
 Definition along_third (k j c x y : Z) : bool :=
@@ -401,7 +402,8 @@ Ltac parts :=
   unfold along_third, along_first, along_second;
   rewrite ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?Z.eqb_eq, ?Z.ltb_lt, ?Z.leb_le.
 
-(** D and c by lines, for any choice of the first two lines. x and y are the counts along these. *)
+(** The signs of D and c by lines, for any choice of the first two lines. x and y are the counts along these two lines.
+    *)
 Section Signs.
 Variables k j c m below x y x' y' : Z.
 Hypothesis Hc : (1 <= c <= k)%Z.
@@ -440,7 +442,7 @@ Proof using Hc Hx Hy Hm. intros. apply truth_grows_together; parts; lia. Qed.
 
 End Signs.
 
-(** The same contact from its other end. *)
+(** The condition on c is the same from both ends of a contact. *)
 Lemma from_the_other_end : forall a b c d, 0 <= a - b + (c - d) -> 0 <= c - d + (a - b).
 Proof. intros. lra. Qed.
 
@@ -482,7 +484,7 @@ Proof.
       pressing; lia.
 Qed.
 
-(** The row of a layer on the edge, as a sum. *)
+(** A sum along the edge of a layer. *)
 Lemma over_edge : forall a b m (F : Z -> Z -> bool), a <> b ->
   over (spheres apex straight m) (fun p =>
     let n := Integers.above (fst p) (snd p) (Z.of_nat m) in
@@ -518,7 +520,7 @@ Proof.
     destruct a, b; try congruence; cbn [same_line]; lia.
 Qed.
 
-(** All rows of an edge, by rows along a. *)
+(** A sum over the layers in rows along a. *)
 Lemma rows_along : forall K (F : Z -> Z -> Q),
   total K (fun m => total (S m) (fun y => F (Z.of_nat m - Z.of_nat y)%Z (Z.of_nat y)))
   == total K (fun y => total (K - y) (fun x => F (Z.of_nat x) (Z.of_nat y))).
@@ -655,7 +657,7 @@ Proof.
       match goal with |- ?s == _ => ring_simplify s end; rewrite A, B, C; formulas; ring.
 Qed.
 
-(** For every c. *)
+(** The upper bound on an edge, for every c. *)
 Theorem greatest_on_an_edge_for : forall a b k j c f X, a <> b -> (1 <= j)%nat -> (1 <= c <= k)%nat ->
   balanced_beside f X (k + j) ->
   load_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) <= greatest_on_edge (n_of k) (n_of j) (n_of c).
@@ -665,7 +667,7 @@ Proof.
   apply occupied_iff. unfold placed. destruct a, b; try congruence; cbn [same_line fst snd]; lia.
 Qed.
 
-(** The bound is that for c = min(j+1, k): the load is at most 2(j+1)(k-1) + 1, and 2k^2 for k = j. *)
+(** The bound for c = min(j+1, k): the load is at most 2(j+1)(k-1) + 1, and 2k^2 for k = j. *)
 Theorem greatest_on_an_edge : forall a b k j f X, a <> b -> (1 <= j <= k)%nat -> balanced_beside f X (k + j) ->
   let load := load_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) in
   load <= greatest_on_edge (n_of k) (n_of j) (n_of (Nat.min (j + 1) k)) /\

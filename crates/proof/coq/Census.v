@@ -266,7 +266,7 @@ Proof. decide equality. Defined.
 
 Definition same_signs : forall s t : list sign, {s = t} + {s <> t} := list_eq_dec same_sign.
 
-(** One of the eleven prefixes with a straight continuation: the sign of step k. *)
+(** The sign of step k of one of the eleven prefixes with a straight continuation. *)
 Definition continued (s : list sign) (k : nat) : sign := nth k (rev s) (hd Plus s).
 
 (** By computation: every tension-free prefix of at most ten steps is a prefix of one of the eleven. *)
@@ -290,8 +290,8 @@ Qed.
 
 #[local] Opaque survivors tables.
 
-(** Under one sphere eleven stackings that begin with + are stable, at any height of 11 layers or more: these ten
-    steps from the top (the last one first), with a straight continuation. *)
+(** Under one sphere eleven stackings that begin with + are stable, at any height of 11 layers or more. They begin with
+    these ten steps (the last one first), and continue straight. *)
 Theorem census : forall step L, step O = Plus -> (11 <= L)%nat ->
   (stands [(0, 0)%Z] step L <->
    In (prefix step 10) eleven /\ forall k, (10 <= k)%nat -> (S k < L)%nat -> step k = step 9%nat).
@@ -326,7 +326,7 @@ Qed.
 
 (** ** At any height
 
-    A stacking is stable if and only if its mirror image is, with each sign reversed. *)
+    A stacking is stable if and only if its mirror image is stable. The mirror image has each sign reversed. *)
 Section Mirror.
 Variable step : nat -> sign.
 Notation image := (fun k => opposite (step k)).
@@ -383,7 +383,7 @@ Proof.
   - intros H. f_equal; [apply H; lia | apply IH; intros; apply H; lia].
 Qed.
 
-(** For a stacking that begins with +. *)
+(** The census of stackings that begin with +. *)
 Lemma census_of_plus : forall step L, step O = Plus ->
   (stands [(0, 0)%Z] step L <-> exists s, In s eleven /\ forall k, (S k < L)%nat -> step k = continued s k).
 Proof.
@@ -441,7 +441,7 @@ Proof.
       * exists s. split; [exact I|]. intros k Hk. rewrite (H k Hk), O2. reflexivity.
 Qed.
 
-(** Their number: the sign lists of the stable stackings that begin with +, the last sign first, without repetition. *)
+(** The sign lists of the stable stackings that begin with +, the last sign first, without repetition. *)
 Definition standing (L : nat) : list (list sign) := nodup same_signs (beginnings (L - 1)).
 
 Lemma different : forall A B C (f : A -> B) (g : A -> C) l,

@@ -66,7 +66,7 @@ Proof.
     destruct (n - m)%nat eqn:E; [lia|]. assert (B := n_of_positive n0). lra.
 Qed.
 
-(** Counted from below: one contact above each sphere on each line with N >= 1. *)
+(** Contacts counted from below: a sphere has one contact above it on each line with N >= 1. *)
 Definition lines_above (i j k : Q) : Q :=
   let n := above i j k in some n.(alpha) + some n.(beta) + some n.(gamma).
 
@@ -170,8 +170,8 @@ Proof.
     rewrite E. opened. rewrite !n_of_S. ring.
 Qed.
 
-(** These are all contacts of that direction. Their forces sum to C(L+2, 4) with mean (L+2)/4, and the sum of squares
-    is C(L+2, 4)(2L+1)/5; L = k+1. *)
+(** The contacts with forces 1 ... L-1 are all contacts of one direction. Their forces sum to C(L+2, 4), with mean
+    (L+2)/4, and the sum of squares is C(L+2, 4)(2L+1)/5; L = k+1. *)
 Definition by_strength (k : nat) (g : Q -> Q) : Q :=
   total k (fun m => contacts_of_strength_3 (n_of k + 1) (n_of m + 1) * g (n_of m + 1)).
 
@@ -201,7 +201,7 @@ Proof.
   rewrite A, B, C. clear A B C. opened. repeat split; ring.
 Qed.
 
-(** The sum over the contacts themselves is the same. *)
+(** The sum by force equals the sum over the contacts. *)
 Theorem sum_of_strengths : forall k,
   24 * total_over_pile k along_gamma == (n_of k + 3) * (n_of k + 2) * (n_of k + 1) * n_of k.
 Proof.
@@ -229,7 +229,7 @@ Qed.
 
 Definition discs_brought (i k : Q) : three Q := by_line force (above i 0 k) (increments 0).
 
-(** The closed form, as for spheres. *)
+(** The closed form balances discs, as it balances spheres. *)
 Theorem discs_are_in_balance : forall i k,
   let g := discs_brought i k in
   unbalanced (by_line transmitted g (increments 0)) disc_directions g disc_directions (weight (increments 0)) =v= nothing.
@@ -331,7 +331,7 @@ Fixpoint choose (d : nat) (L : Q) : Q :=
 Lemma n_of_S_is_not_0 : forall n, ~ n_of n + 1 == 0.
 Proof. intros n. assert (N := n_of_not_negative n). lra. Qed.
 
-(** L layers have this number of spheres. *)
+(** L layers have C(L+d-1, d) spheres, for d from 2 to 6. *)
 Theorem spheres_in_dimensions : forall L,
   spheres_2 L == choose 2 L /\ spheres_3 L == choose 3 L /\ spheres_4 L == choose 4 L /\
   spheres_5 L == choose 5 L /\ spheres_6 L == choose 6 L.

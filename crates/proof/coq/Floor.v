@@ -12,7 +12,7 @@ Definition on_floor (s L i j : Q) : vector :=
 (** The normal force, in mg. *)
 Definition normal (s L i j : Q) : Q := (on_floor s L i j).(along_z) / weight (increments s).
 
-(** It is the normal force for any forces that balance all spheres. *)
+(** Any forces that balance all spheres have this force on the floor. *)
 Theorem on_floor_is_what_arrives : forall s f L i j, ~ 1 + s == 0 ->
   (forall k a b, (k < L)%nat -> occupied k a b = true -> balanced s f k a b) ->
   occupied L i j = true ->
@@ -28,12 +28,12 @@ Proof.
   repeat split; (rewrite a, b, c || idtac); ring.
 Qed.
 
-(** mg[1 + ((L-1-j) + 2sj) / (2(1+s))], linear in j. *)
+(** The normal force is mg[1 + ((L-1-j) + 2sj) / (2(1+s))], which is linear in j. *)
 Theorem base_normal : forall s L i j,
   (on_floor s L i j).(along_z) == 2 * (1 + s) + (L - 1 - j) + 2 * s * j.
 Proof. intros. unfold on_floor, brought. formulas. ring. Qed.
 
-(** mg(L+2)/3 under every sphere of an equilateral base. *)
+(** The normal force is mg(L+2)/3 under every sphere of an equilateral base. *)
 Theorem base_normal_equilateral : forall L i j, normal (1 # 2) L i j == (L + 2) / 3.
 Proof. intros. unfold normal. rewrite base_normal. formulas. field. Qed.
 
@@ -141,7 +141,7 @@ Qed.
 
 (** ** Shear *)
 
-(** -(L-1-3j)/2 along x and -sqrt(3)/2 (L-1-2i-j) along y, in f0 sin theta, on an equilateral base. *)
+(** The shear is -(L-1-3j)/2 along x and -sqrt(3)/2 (L-1-2i-j) along y, in f0 sin theta, on an equilateral base. *)
 Theorem shear : forall L i j,
   (on_floor (1 # 2) L i j).(along_x) == (3 * j - (L - 1)) * (1 # 2) /\
   (on_floor (1 # 2) L i j).(along_y) == (2 * i + j - (L - 1)) * (1 # 2).
@@ -326,7 +326,7 @@ Proof. intros. opened. split; ring. Qed.
 Lemma q_zero : forall z : Z, q z == 0 -> z = 0%Z.
 Proof. intros z H. unfold Qeq in H. simpl in H. lia. Qed.
 
-(** It vanishes only on the axis. Such a sphere exists only if L-1 = 3n, and then i = j = n. *)
+(** The shear vanishes only on the axis. A bottom sphere is on the axis only if L-1 = 3n, and then i = j = n. *)
 Theorem shear_vanishes_on_the_axis : forall L i j : Z,
   let F := on_floor (1 # 2) (q L) (q i) (q j) in
   (F.(along_x) == 0 /\ F.(along_y) == 0) <-> (i = j /\ L - 1 = 3 * j)%Z.
@@ -352,7 +352,7 @@ Theorem shear_ratio : forall L i j,
   (on_floor (1 # 2) L i j).(along_z) == L + 2.
 Proof. intros. opened. split; ring. Qed.
 
-(** This is the maximum over the base, attained only at the corners. *)
+(** This ratio is the maximum over the base, and is attained only at the corners. *)
 Theorem shear_is_greatest_in_the_corners : forall k i j, occupied k i j = true ->
   let shear_squared := from_axis_squared (1 # 2) (on_floor (1 # 2) (n_of k + 1) (q i) (q j)) in
   shear_squared <= n_of k * n_of k /\

@@ -124,7 +124,7 @@ Proof.
   rewrite E. ring.
 Qed.
 
-(** It is also the work of the weights. *)
+(** The sum of f^2 is also the work of the weights. *)
 Theorem energy_is_work : forall k,
   total_over_pile k (fun i j m => let f := closed_form (1 # 2) i j m in dot f f)
   == total_over_pile k (fun i j m => sum (field (above i j m) (n_of k - m))).
@@ -162,7 +162,7 @@ Theorem settlement : forall L i j k,
   2 * elastic_field 0 (L - 1) == L * (L - 1).
 Proof. intros. unfold w, phi, d, field. repeat split; formulas; ring. Qed.
 
-(** The same for discs. *)
+(** The elastic state of discs has the same field. *)
 Theorem field_of_discs : forall i k d,
   contact_drop (elastic_field (k - i) d) (elastic_field (k + 1 - i) (d - 1)) == k - i + 1 /\
   contact_drop (elastic_field i d) (elastic_field (i + 1) (d - 1)) == i + 1 /\
@@ -203,8 +203,8 @@ Proof.
     formulas; ring.
 Qed.
 
-(** It is attained with X = 1 between the spheres of the edge and their neighbours: t spheres down the edge the force
-    is 3t-2. *)
+(** The upper bound is attained with X = 1 between the spheres of the edge and their neighbours: t spheres down the edge
+    the force is 3t-2. *)
 Fixpoint down_the_edge (t : nat) : Q :=
   match t with
   | O => 0
@@ -314,7 +314,7 @@ Proof.
     split; formulas; ring.
 Qed.
 
-(** So from g >= 4 on the force is tensile, for all horizontal forces. *)
+(** So the force is tensile if g >= 4, for all horizontal forces. *)
 Theorem no_run_ends_with_pushes : forall sigma l a b g x y, l <> a -> l <> b -> a <> b ->
   0 <= x -> 0 <= y -> 4 <= g ->
   beside (on l (half_turn (map (Qmult g) (one_on l)))) 1 (pressed sigma l a b x y) (opposite sigma) < 0.

@@ -9,7 +9,8 @@ Open Scope Q_scope.
 
 (** ** Modes *)
 
-(** The parts of the mean before a + and before a - step, and their transfer across a step without motion. *)
+(** The parts f and h of the mean before a + and before a - step, after one step, for forces that do not vary in space.
+    *)
 Definition stepped (q : Q) (f h : three Q) : three Q * three Q :=
   let mixed same other := by_line Qplus (map (Qmult (1 - q)) same) (map (Qmult q) (half_turn other)) in
   (mixed f h, mixed h f).
@@ -56,7 +57,8 @@ Theorem registry : forall q s,
   by_line (fun x y => registry_excess x y q) (excesses s) (excesses once) =3= excesses (further q once).
 Proof. intros q []. by_shares. Qed.
 
-(** Two steps below a single layer of registry 0, if the fractions of the first signs are u and v. *)
+(** The recursion also holds two steps below a single layer of registry 0, if the fractions of the first signs are u and
+    v. *)
 Theorem registry_at_the_top : forall q u v,
   let first := Shares 0 u 0 0 0 v in
   by_line (fun x y => registry_excess x y q) (excesses (Shares (u + v) 0 0 0 0 0)) (excesses first)
@@ -108,7 +110,7 @@ Proof.
   rewrite (nth_indep (c :: s) b c) by (cbn [length]; lia). reflexivity.
 Qed.
 
-(** Means are over lists of n signs. *)
+(** The mean depends on lists of n signs only. *)
 Lemma mean_of_same_length : forall q n b F G,
   (forall s, length s = n -> F s == G s) -> mean q n b F == mean q n b G.
 Proof.

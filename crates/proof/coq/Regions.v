@@ -51,7 +51,7 @@ Proof.
       cbn [on Integers.bounds_above least map alpha beta gamma]; lia.
 Qed.
 
-(** For the paper's pile the counts are (9). *)
+(** For the paper's pile the counts are those of (9) of the paper. *)
 Theorem region_of_the_paper : forall d i j k, 0 <= i -> 0 <= j -> i + j <= k ->
   least (on d (Integers.bounds_above i j (each 0) (each k) k Plus)) = on d (Integers.above i j k).
 Proof. intros [] i j k Hi Hj Hk; cbn; lia. Qed.
@@ -124,11 +124,11 @@ Qed.
 
 Open Scope Q_scope.
 
-(** A line with force f, m spheres further down, step by step. *)
+(** The force along a line, m spheres below a contact with force f, step by step. *)
 Fixpoint after (f w : Q) (m : nat) : Q :=
   match m with O => f | S n => transmitted (after f w n) w end.
 
-(** One jump equals m steps. *)
+(** A closed form equals m steps. *)
 Theorem run : forall f w m, after f w m == transmitted f (force (n_of m) w).
 Proof.
   intros f w m. induction m as [|n IH]; cbn [after].

@@ -130,7 +130,7 @@ Qed.
 (** The height of a layer above the floor. *)
 Notation height k := (n_of L - n_of k).
 
-(** Its field: the position where the line of the contact meets the floor. *)
+(** The field of the first moment: the position where the line of the contact meets the floor. *)
 Definition straight_down (ahead : sign -> direction -> Q) (k : nat) (i j : Z) : three Q :=
   map (fun d => place ahead k (i, j) + height k * ahead (step k) d) (Three Alpha Beta Gamma).
 
@@ -173,7 +173,7 @@ Proof.
   split; apply A; [left | right]; reflexivity.
 Qed.
 
-(** The same for r^2. *)
+(** The field of the second moment. *)
 Definition spreading_down (k : nat) (i j : Z) : three Q :=
   map (fun d => from_axis k (i, j)
       + 2 * height k * (x k (i, j) * ahead_x (step k) d + 3 * y k (i, j) * ahead_y (step k) d)
@@ -222,7 +222,7 @@ End Pile.
 
 Definition none (k : nat) (a : axis) (i j : Z) : Q := 0.
 
-(** For any weights such forces exist. *)
+(** For any weights, forces that balance the pile exist. *)
 Fixpoint forces_under (top : list site) (step : nat -> sign) (w : nat -> Z -> Z -> Q) (k : nat) : Z -> Z -> three Q :=
   match k with
   | O => fun i j => by_line transmitted (transferred (step O) (step O) (each 0)) (each (w O i j))
@@ -464,7 +464,7 @@ Definition across (sigma : sign) (c : contact) : Q :=
 
 Definition load (F : contact -> Q) (c : contact) : Q := c.(bears) * F c.
 
-(** The same with E. *)
+(** Extends [numbers] to moments with E. *)
 Ltac numbers ::=
   repeat match goal with
          | |- context [along_x (down_by ?s ?d)] =>

@@ -182,7 +182,7 @@ Proof.
   intros p r x y Hp Hr. apply series_are_values. intros n. induction (seq 0 (S n)) as [|i rest IH]; cbn [fold_right]; values.
 Qed.
 
-(** The same for the operations on series. *)
+(** Proves that the operations on series preserve this property. *)
 Ltac series := lazymatch goal with
   | |- are_values (plus _ _ _ _) _ => apply plus_is_value; series
   | |- are_values (times _ _ _ _ _) _ => apply times_is_value; series

@@ -192,7 +192,7 @@ Proof.
         destruct E as [E | [E | [E | []]]]; subst; cbn [fst snd]; lia.
 Qed.
 
-(** It receives a force only along beta. *)
+(** The sphere r steps down its line receives a force only along beta. *)
 Lemma arrives_along_beta : forall f r, (r < m)%nat ->
   arriving f (a + S r) (fst (down sigma p (S r))) (snd (down sigma p (S r)))
   = Three 0 (on Beta (f (a + r)%nat (fst (down sigma p r)) (snd (down sigma p r)))) 0.
@@ -242,7 +242,7 @@ Proof.
   fold (along r). rewrite T. formulas. rewrite IH by lia. ring.
 Qed.
 
-(** At the end, where the sign changes, a third of it is subtracted. *)
+(** At the end, where the sign changes, a third of the force is subtracted. *)
 Lemma at_the_end : (0 < m)%nat -> step (a + m) = opposite sigma ->
   along m == 1 - (along 0 + n_of m - 1) * (1 # 3).
 Proof.
@@ -262,8 +262,8 @@ End Run.
 
 (** ** No run of five can end
 
-    Steps a to a+m-1 have one sign, and step a+m the other. If no contact below layer a is tensile, a contact below
-    layer a+m is, for m at least 5, or at least 4 from the top. *)
+    Steps a to a+m-1 have one sign, and step a+m the other. If no contact below layer a is tensile, then a contact below
+    layer a+m is tensile. This holds for m at least 5, and for m at least 4 if the run begins at the top. *)
 Theorem the_end_of_a_run_pulls : forall sigma a m f,
   top <> [] ->
   (forall r, (r < m)%nat -> step (a + r) = sigma) -> step (a + m) = opposite sigma ->

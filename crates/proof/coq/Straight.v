@@ -38,7 +38,7 @@ Definition balanced (s : Q) (f : forces) (k : nat) (i j : Z) : Prop :=
 
 (** ** Counts *)
 
-(** The spheres above (i, j) of layer k on its line, one by one, until the line ends. *)
+(** The number of spheres above (i, j) of layer k on its line, counted one by one until the line ends. *)
 Fixpoint spheres_above (d : direction) (k : nat) (i j : Z) : Z :=
   match k with
   | O => 0
@@ -67,7 +67,7 @@ Proof. intros. by_components. Qed.
 (** The forces on (i, j) of layer k from above, in closed form, (8) and (9). *)
 Definition brought (s i j k : Q) : three Q := by_line force (above i j k) (increments s).
 
-(** The forces that it transmits, (10). *)
+(** The forces that (i, j) of layer k transmits, (10). *)
 Definition closed_form (s i j k : Q) : three Q := by_line transmitted (brought s i j k) (increments s).
 
 (** The force transmitted above is the force received below, for all i, j, k. *)

@@ -1,4 +1,4 @@
-(** Sums over rows, layers and piles, by recursion; those of polynomials in closed form, for every length. *)
+(** Sums over rows, layers and piles, by recursion; closed forms of sums of polynomials, for every length. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa.
 From Cannonpile Require Import Directions.
@@ -16,7 +16,7 @@ Fixpoint total (n : nat) (f : nat -> Q) : Q :=
 Definition total_over_layer (k : nat) (f : Q -> Q -> Q) : Q :=
   total (S k) (fun j => total (S k - j) (fun i => f (n_of i) (n_of j))).
 
-(** All spheres of L layers. *)
+(** The sum over all spheres of L layers. *)
 Definition total_over_pile (L : nat) (f : Q -> Q -> Q -> Q) : Q :=
   total L (fun k => total_over_layer k (fun i j => f i j (n_of k))).
 
@@ -56,7 +56,7 @@ Proof.
     + rewrite <- H. apply HP. symmetry. apply n_of_S.
 Qed.
 
-(** Over layer k: row j has the sum R j (k+1-j), and the rows before y have the sum S y. *)
+(** The sum over layer k, if row j has the sum R j (k+1-j) and the rows before y have the sum S y. *)
 Theorem total_over_layer_is : forall (f : Q -> Q -> Q) (R : Q -> Q -> Q) (S : Q -> Q) (k : nat),
   (forall j, respects (R j)) -> (forall j, R j 0 == 0) -> (forall j x, R j (x + 1) == R j x + f x j) ->
   respects S -> S 0 == 0 -> (forall y, S (y + 1) == S y + R y (n_of k + 1 - y)) ->
@@ -73,7 +73,7 @@ Proof.
     + apply HS. apply n_of_S.
 Qed.
 
-(** Over L layers, where layer k has the sum U k. *)
+(** The sum over L layers, if layer k has the sum U k. *)
 Theorem total_over_pile_is : forall (f : Q -> Q -> Q -> Q) (U T : Q -> Q),
   (forall k : nat, total_over_layer k (fun i j => f i j (n_of k)) == U (n_of k)) ->
   respects T -> T 0 == 0 -> (forall x, T (x + 1) == T x + U x) ->

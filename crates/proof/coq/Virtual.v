@@ -62,7 +62,7 @@ Definition holds (l : list site) (p : site) : bool := member l (fst p) (snd p).
 Lemma holds_iff : forall l p, holds l p = true <-> In p l.
 Proof. intros l [i j]. apply member_iff. Qed.
 
-(** A single term. *)
+(** A sum with a single nonzero term. *)
 Lemma over_one : forall (l : list site) p f, NoDup l ->
   over l (fun r => if same_site r p then f r else 0) == if holds l p then f p else 0.
 Proof.
@@ -76,7 +76,7 @@ Proof.
       apply eq_true_iff_eq. rewrite !holds_iff. simpl. tauto.
 Qed.
 
-(** Sums over pairs of sites, one a neighbour [there] of the other, can be taken over either member. *)
+(** Let [there] map a site to its neighbour. A sum over such pairs of sites can run over either site of a pair. *)
 Lemma over_moved : forall (l m : list site) there back f, NoDup l -> NoDup m ->
   (forall p r : site, there r = p <-> r = back p) ->
   over l (fun p => if holds m (back p) then f (back p) p else 0)
@@ -236,7 +236,7 @@ Proof.
     + destruct (step k), x; unfold times, dot; cbn [from to]; formulas; ring.
 Qed.
 
-(** One sphere. *)
+(** The virtual work of the six neighbours on one sphere. *)
 Lemma work_of_six : forall sigma psi x y,
   times sigma (dot psi (pushed_by (six x) (six y))) ==
   times sigma (dot psi (pushed (x AB) Alpha Beta true) + dot psi (pushed (y AB) Alpha Beta false))
@@ -247,7 +247,7 @@ Proof. intros [] [] x y; unfold times, dot, pushed_by, six, plus_three; cbn [ab 
 Lemma dot_of_same : forall psi g h, g =3= h -> dot psi g == dot psi h.
 Proof. intros psi g h (A & B & C). unfold dot. formulas. rewrite A, B, C. reflexivity. Qed.
 
-(** A layer: its balance equations times phi. *)
+(** The balance equations of a layer, multiplied by phi. *)
 Lemma work_of_a_layer : forall k,
   (forall i j, In (i, j) (layer top step k) -> in_balance_beside k i j) ->
   over (spheres k) (fun p => dot (phi k (fst p) (snd p)) (f k (fst p) (snd p)))
@@ -286,7 +286,7 @@ Proof.
   destruct d; [left | right; left | right; right; left]; reflexivity.
 Qed.
 
-(** They equal the forces of the contacts above. *)
+(** These forces equal the forces of the contacts above. *)
 Lemma arriving_is_given : forall k d, arriving_along k d ==
   over (spheres k) (fun r => on d (f k (fst r) (snd r)) * on d (felt (S k) (support (step k) r d))).
 Proof.
@@ -533,7 +533,7 @@ Proof using on_the_floor in_equilibrium nothing_pulls.
   - intros. rewrite squeeze_with_floor by assumption. apply (C k i j x); assumption.
 Qed.
 
-(** The same as a lower bound. *)
+(** Weak duality for a lower bound. *)
 Theorem at_least_the_weights : certifies Minus -> over_spheres top step K (work_of_weight w psi) <= load_below.
 Proof using on_the_floor in_equilibrium nothing_pulls.
   intros [D C]. rewrite <- weights_with_floor, <- work_is_load_below.
@@ -552,7 +552,7 @@ Definition apex : list site := [(0, 0)%Z].
 Definition straight (k : nat) : sign := Plus.
 Definition mg (k : nat) (i j : Z) : Q := 1.
 
-(** Its layers are those of Straight.v. *)
+(** The layers of this pile are those of Straight.v. *)
 Lemma layers_of_straight : forall k i j, In (i, j) (layer apex straight k) <-> occupied k i j = true.
 Proof.
   intros k. induction k as [|k IH]; intros i j; rewrite occupied_iff.
@@ -573,7 +573,7 @@ Qed.
 Lemma holds_straight : forall k p, holds (layer apex straight k) p = occupied k (fst p) (snd p).
 Proof. intros k [i j]. apply eq_true_iff_eq. rewrite holds_iff. apply layers_of_straight. Qed.
 
-(** Forces without tension that balance K layers of it above a floor. *)
+(** Forces without tension that balance K layers of the straight pile above a floor. *)
 Definition balanced_beside (f : nat -> Z -> Z -> three Q) (X : nat -> axis -> Z -> Z -> Q) (K : nat) : Prop :=
   equilibrium apex straight f X mg K /\ no_pull apex straight f X K.
 
@@ -840,7 +840,7 @@ Proof.
   lra.
 Qed.
 
-(** It is the only state with this energy. *)
+(** The closed form is the only state with this energy. *)
 Lemma over_nothing_negative : forall A (l : list A) F, (forall x, In x l -> 0 <= F x) -> over l F <= 0 ->
   forall x, In x l -> F x == 0.
 Proof.

@@ -86,7 +86,7 @@ impl Body {
 
 /// A formula recorded on symbols.
 pub(super) struct Definition {
-    /// The name in the library, with the dimension appended if there are several.
+    /// The name in the library, with the dimension appended if there are definitions for several dimensions.
     pub(super) name: String,
     /// A description of the result, for the comment in Coq.
     pub(super) about: &'static str,

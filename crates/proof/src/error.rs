@@ -6,7 +6,7 @@ use core::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// An error of the core.
+    /// An error of the crate `cannonpile`.
     Core(cannonpile::Error),
 }
 
@@ -21,8 +21,8 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            // The message is that of the inner error, so the chain of sources continues with the source of the
-            // inner error.
+            // This variant prints the message of the inner error. So its source is the source of the inner error, or
+            // the chain would contain the same message twice.
             Self::Core(error) => error.source(),
         }
     }

@@ -24,7 +24,7 @@ enum Strength {
     Atom,
 }
 
-/// The maximum line width. Longer parts are written on separate lines.
+/// The maximum line width. The parts of a longer value are written on separate lines.
 const WIDTH: usize = 100;
 
 impl Carrier {
@@ -212,7 +212,8 @@ mod tests {
     use super::*;
     use cannonpile::geometry::Vector;
 
-    /// The constructor, the parts with two more columns each, and the indentation: a hundred columns, and one more.
+    /// The constructor, the indentation and the parts, with two more columns each, take 100 columns in the first case
+    /// and 101 in the second.
     #[test]
     fn long_values_are_broken_into_lines() {
         let parts = |last: usize| ["a".repeat(40), "b".repeat(30), "c".repeat(last)];

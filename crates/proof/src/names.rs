@@ -4,7 +4,7 @@
 /// Coq.
 pub(crate) fn in_coq(theorem: &str) -> &'static [&'static str] {
     let found = NAMES.iter().find(|(name, _)| *name == theorem);
-    // Not a default: theorems outside the list have no proof in Coq.
+    // Theorems outside the list have no proof in Coq.
     found.map_or(&[], |(_, names)| names)
 }
 

@@ -89,7 +89,8 @@ fn state(
 ) -> Result<Value, Error> {
     let forces = pile.forces::<BigRational>();
     let (below, unit) = (pile.dimension().directions().len(), forces.increment_sum()?);
-    let (mut contacts, mut loads, mut transmitted) = (Vec::new(), Vec::new(), BigRational::default());
+    let (mut contacts, mut loads, mut transmitted) =
+        (Vec::new(), Vec::new(), BigRational::default());
     for contact in forces.contacts(Selection::All)? {
         let force = contact?.force;
         transmitted += &force;

@@ -8,7 +8,7 @@ use num_traits::Zero;
 use super::{all, springs};
 use cannonpile_testkit::answers::ratio;
 
-/// The changes of a number.
+/// The amounts by which a number is changed.
 fn changes() -> [BigRational; 4] {
     [ratio(1, 1), ratio(-1, 1), ratio(1, 1_000_000), ratio(-2, 7)]
 }
