@@ -174,7 +174,7 @@ impl fmt::Display for Refusal {
             ))),
             Self::ForcesInPile { contact } => write!(
                 f,
-                "the pile itself has a force in the horizontal contact {contact}; remove it there"
+                "the pile itself has a force in the horizontal contact {contact}; move it to the certificate"
             ),
             Self::Stiffness { given } => {
                 write!(f, "the stiffness ratio must be positive, not {given}")

@@ -141,7 +141,7 @@ const label = () => {
   at("labels").hidden = pile.states.length === 1;
 };
 
-/** Selects a contact in the last state: that with the greatest or least force, or the next in tension or without a force. */
+/** Selects a contact of the last state: the one with the greatest or least force, or the next in tension or without a force. */
 const seek = (wanted) => {
   const state = pile.states[pile.states.length - 1];
   const forces = Array.from(state.forces, (_, contact) => pile.force(state, contact));
@@ -312,7 +312,7 @@ canvas.addEventListener("webglcontextrestored", () => {
   view.redraw();
 });
 
-// For scripts: positions of spheres on the canvas, and the selection.
+// An interface for scripts: positions of spheres on the canvas, and the selection.
 globalThis.cannonpile = {
   pile,
   view,
