@@ -4,10 +4,10 @@
 Prints `accepted` (exit status 0), or `refused: ` and the first condition that is violated (1). If the input is not a
 certificate, it prints one line on stderr (2). It needs Python 3.9 or later and the standard library only.
 
-The trusted base is this file, Python's integers and fractions, and two pages of mathematics: `src/paper.md` of the crate cannonpile
-("Stackings", "Regions", "Horizontal contacts") and `src/certificate.rs` in this crate. No code is shared with the
-library, and the methods differ: this script builds layers as sets of sites and transfers forces to the layer below,
-where the library uses counting formulas and visits the spheres one by one.
+The trusted base is this file, Python's integers and fractions, and two pages of mathematics: `src/paper.md` of the
+crate cannonpile ("Stackings", "Regions", "Horizontal contacts") and `src/certificate.rs` in this crate. No code is
+shared with the library, and the methods differ: this script builds layers as sets of sites and transfers forces to the
+layer below, where the library uses counting formulas and visits the spheres one by one.
 
 Forces are in f0 = mg/(n cos theta), with n = 3 directions for spheres and 2 for discs. A sphere is (k, i, j), with layer
 k counted from the top. Below a step of sign s it is supported by (k+1, i + s x, j + s y), where (x, y) = (0, 0), (1, 0),

@@ -402,8 +402,7 @@ Ltac parts :=
   unfold along_third, along_first, along_second;
   rewrite ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?Z.eqb_eq, ?Z.ltb_lt, ?Z.leb_le.
 
-(** The signs of D and c by lines, for any choice of the first two lines. x and y are the counts along these two lines.
-    *)
+(** The signs of D and c by lines, for any choice of the first two lines. x and y are their counts. *)
 Section Signs.
 Variables k j c m below x y x' y' : Z.
 Hypothesis Hc : (1 <= c <= k)%Z.
