@@ -9,7 +9,7 @@ Open Scope Q_scope.
 
 (** ** Modes *)
 
-(** The parts f and h of the mean before a + and before a - step, after one step, for forces that are constant in space. *)
+(** The parts f and h of the mean before a + and a - step, after one step, for forces that are constant in space. *)
 Definition stepped (q : Q) (f h : three Q) : three Q * three Q :=
   let mixed same other := by_line Qplus (map (Qmult (1 - q)) same) (map (Qmult q) (half_turn other)) in
   (mixed f h, mixed h f).

@@ -22,7 +22,7 @@ pub(super) fn disorder(f: &Formulas<E>) -> Vec<Definition> {
         ),
         of_numbers(
             "fourth_moment_of_pair",
-            "The coefficient of the product of the signs of steps s < t in the fourth moment of a unit load at depth n.",
+            "The coefficient of the product of the signs of steps s < t in the fourth moment of that load.",
             &["n", "s", "t"],
             Value::Number((f.fourth_moment_of_pair)(&n, &s, &t)),
         ),

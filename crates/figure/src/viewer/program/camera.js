@@ -15,7 +15,7 @@ class Camera {
     Object.assign(this, { size, around: 0, above: 0, target: [0, 0, 0], distance: 2 * size });
   }
 
-  /** Looks at spheres of radius 1, from the smallest distance that shows all of them in a picture of this aspect ratio. */
+  /** Looks at spheres of radius 1, from the smallest distance that shows all of them in a picture of this size. */
   look(around, above, centres, width, height) {
     this.around = around;
     this.above = above;

@@ -141,7 +141,7 @@ const label = () => {
   at("labels").hidden = pile.states.length === 1;
 };
 
-/** Selects a contact of the last state: the one with the greatest or least force, or the next in tension or without a force. */
+/** Selects a contact of the last state: that of greatest or least force, or the next in tension or without force. */
 const seek = (wanted) => {
   const state = pile.states[pile.states.length - 1];
   const forces = Array.from(state.forces, (_, contact) => pile.force(state, contact));
