@@ -146,7 +146,7 @@ impl From<MethodName> for Method {
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Output {
-    /// Format of the table [default: csv or json if --output ends so, otherwise table]
+    /// Format of the table [default: csv or json if --output has this extension, otherwise table]
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// File for the table, written atomically [default: stdout]

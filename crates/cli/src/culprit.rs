@@ -327,7 +327,7 @@ mod tests {
         let many = stackings(10_001).unwrap();
         blames(Culprit::Key(Key::Layers), many.registry(&0.5).unwrap_err());
 
-        // A load on a position without a certain sphere, a negative load, and a load on a base.
+        // A load at a position where some stackings have no sphere, a negative load, and a load on a base.
         let heavy = RandomPiles::under(Region::SITE, four());
         let on = RandomPiles::on(Region::triangle(4).unwrap(), four());
         let below = Site { i: 0, j: 0, k: 1 };

@@ -4,7 +4,8 @@ use core::fmt;
 
 /// An error of one of the crates below the command line.
 ///
-/// The conversions unwrap nested errors: an error of the core is always [`Core`](Self::Core), whatever crate returned it.
+/// The conversions unwrap nested errors: an error of the crate `cannonpile` is always [`Core`](Self::Core), whatever
+/// crate returned it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Error {
     Core(cannonpile::Error),

@@ -168,7 +168,7 @@ impl<'p> PileArrays<'p> {
     ///
     /// # Errors
     /// [`Error::Length`](cannonpile::Error::Length) for a slice of another length; [`Error::NeedsUnits`] for the arrays
-    /// of a pile; [`Error::Overflow`](cannonpile::Error::Overflow) for a position that exceeds the floats.
+    /// of a pile; [`Error::Overflow`](cannonpile::Error::Overflow) for a position outside the range of `f64`.
     ///
     /// # Examples
     /// ```

@@ -1,5 +1,5 @@
 # encoding: utf-8
-# cannonpile {version}: a check with a mathematical proof, in the style of scripts/checks-and-tests/checks of YADE.
+# cannonpile {version}: a check against exact contact forces, in the style of scripts/checks-and-tests/checks of YADE.
 # {title}
 #
 # Frictionless spheres relax from their exact positions on stiff springs, and the force of each contact is compared with the

@@ -14,8 +14,8 @@
 //!   u = 0 on the floor. A sphere has as many contacts below it as there are dimensions. So these equations yield its u
 //!   from those of the spheres below.
 //! * *Downwards, forces.* Contacts turn by τ/κ, where 2Rτ = w − ê(ê·w) with w = u_upper − u_lower. The force on the
-//!   upper sphere is F₀ê + (F₁ê + F₀τ)/κ + …. In first order, the sums of F₁ê + F₀τ below and above a sphere are equal.
-//!   For τ = 0 the transfer of F₁ along a line of contacts is that of F₀ for weightless spheres.
+//!   upper sphere is F₀ê + (F₁ê + F₀τ)/κ + …. To first order, the sums of F₁ê + F₀τ over the contacts below and above a
+//!   sphere are equal. For τ = 0 the transfer of F₁ along a line of contacts is that of F₀ for weightless spheres.
 //!
 //! So the relative error of a contact force is F₁/(F₀κ), and that of its vector is |F₁ê + F₀τ|/(F₀κ).
 //!
@@ -72,7 +72,7 @@ pub struct Compliance {
     unit: f64,
 }
 
-/// The extreme coefficients of many contacts.
+/// The largest coefficient of many contacts, and the sum of their squares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Extremes {
     largest: f64,
@@ -100,7 +100,8 @@ impl Compliance {
     ///
     /// # Errors
     /// [`NoCompliance::Touching`] if further neighbours touch, [`NoCompliance::Slack`] if a contact has no force or a
-    /// tensile one. [`NoCompliance::Scene`] if the spheres do not fit in memory, or a force exceeds the floats.
+    /// tensile one. [`NoCompliance::Scene`] if the spheres do not fit in memory, or a force is outside the range of
+    /// `f64`.
     ///
     /// # Examples
     /// ```
@@ -316,14 +317,15 @@ impl fmt::Display for NoCompliance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Touching => f.write_str(
-                "neighbours touch besides the contacts, and springs press them: choose a spacing at which they do not",
+                "further neighbours touch, and springs would press them: choose a spacing at which they do not",
             ),
             Self::Slack {
                 site: Site { i, j, k },
                 direction,
             } => write!(
                 f,
-                "the contact of sphere (k={k}, i={i}, j={j}) along {} has no force, or pulls, which no spring does",
+                "the contact of sphere (k={k}, i={i}, j={j}) along {} has no force or a tensile one: \
+                 its spring may open",
                 direction.name()
             ),
             Self::Scene(error) => error.fmt(f),

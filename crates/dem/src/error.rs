@@ -10,9 +10,9 @@ use cannonpile::lattice::Site;
 
 use crate::Key;
 
-/// Why a scene, a file or a table was refused.
+/// The reason why a scene, a file or a table was rejected.
 ///
-/// The message is one line. It names the value and says what would be accepted.
+/// The message is one line. It contains the given value and the accepted ones.
 ///
 /// # Examples
 /// ```
@@ -24,11 +24,11 @@ use crate::Key;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The core rejected a pile, a site, a geometry or a number.
+    /// The crate `cannonpile` rejected a pile, a site, a geometry or a number.
     Core(cannonpile::Error),
     /// The forces of horizontal contacts are unknown.
     ///
-    /// An error of the core that passed through that crate is [`Core`](Self::Core).
+    /// An error of `cannonpile` that `cannonpile_horizontal` returned is [`Core`](Self::Core).
     Horizontal(cannonpile_horizontal::Error),
     /// sin φ was given for a pile of discs.
     SinPhiOfDiscs,
@@ -68,14 +68,14 @@ pub enum Error {
         /// The most similar name of a case, if any.
         nearest: Option<&'static str>,
     },
-    /// A value in a scene file was refused.
+    /// A value in a scene file was rejected.
     #[non_exhaustive]
     InFile {
         /// The line of the key, counted from 1.
         line: usize,
         /// The key.
         key: &'static str,
-        /// Why the value was refused.
+        /// The reason why the value was rejected.
         error: Box<Self>,
     },
     /// A quantity in SI units was requested for a pile without sizes and weights.
@@ -84,7 +84,7 @@ pub enum Error {
         /// The quantity.
         quantity: Quantity,
     },
-    /// A suite test of a state at rest was requested for a pile with a contact that needs a tensile force.
+    /// A test for the suite of another code needs a state at rest, but some contact of the pile needs a tensile force.
     #[non_exhaustive]
     MustPull {
         /// The remedy.
@@ -189,7 +189,7 @@ pub(crate) fn quoted(text: &str) -> String {
     cannonpile::engine::quoted(text)
 }
 
-/// Errors of the core that this crate raises itself.
+/// Errors of the crate `cannonpile` that this crate itself returns.
 impl Error {
     pub(crate) fn syntax(text: &str, expected: &'static str) -> Self {
         cannonpile::Error::syntax(text, expected).into()

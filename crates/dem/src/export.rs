@@ -149,7 +149,7 @@ impl<'p> PileExport<'p> {
     ///
     /// let pile = Pile::triangular(10)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // The row n of `base.csv` is that of sphere 165 + n.
+    /// // Row n of `base.csv` belongs to sphere 165 + n.
     /// let export = PileExport::new(&packing)?;
     /// assert_eq!(export.numbering().first_on_floor(), 166);
     /// # Ok::<(), cannonpile_dem::Error>(())

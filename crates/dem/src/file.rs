@@ -25,13 +25,14 @@ pub enum PileFormat {
     Lammps,
     /// ParaView: `spheres.vtp`, `contacts.vtp`.
     Vtp,
-    /// YADE: `spheres.txt`, and `pile.py`, which relaxes it and writes the forces, as LAMMPS does.
+    /// YADE: `spheres.txt`, and `pile.py`, which relaxes the pile and writes its forces. All springs are equal, as for
+    /// LAMMPS.
     Yade,
     /// A benchmark card: `card.md` for readers, `card.json` for programs. It contains the pile, the exact answers,
     /// their accuracy, the criteria for a code, and the references.
     Card,
-    /// The test suite of LAMMPS: `dem-pile.yaml`, in the style of `unittest/granular`. The pile has up to 2000 spheres
-    /// on equal springs, and comes to rest.
+    /// The test suite of LAMMPS: `dem-pile.yaml`, in the style of `unittest/granular`. It needs a pile that springs of
+    /// equal stiffness bring to rest, with at most 2000 spheres.
     LammpsTest,
     /// The test suite of YADE: `checkPile.py`, in the style of `scripts/checks-and-tests/checks`, for up to 2000
     /// spheres. For an unstable pile the script checks that contacts are lost.

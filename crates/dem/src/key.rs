@@ -19,7 +19,7 @@ use core::fmt;
 pub enum Key {
     /// The number of layers.
     Layers,
-    /// How layers follow one another.
+    /// The stacking of the layers.
     Stacking,
     /// The top layer of a pile that grows down.
     Top,
@@ -27,13 +27,13 @@ pub enum Key {
     Base,
     /// Discs or spheres.
     Dimension,
-    /// sin φ.
+    /// sin φ, the sine of the azimuth of the base triangle.
     SinPhi,
     /// Loads on spheres.
     Load,
     /// Weightless spheres.
     Weightless,
-    /// a/R.
+    /// a/R, half the distance between horizontal neighbours over the radius.
     Spacing,
     /// The radius R.
     Radius,

@@ -127,7 +127,7 @@ fn atoms(pile: &NumberedPile<'_>, centres: &[[f64; 3]]) -> String {
     atoms.collect()
 }
 
-/// Returns commands that set the density of spheres with other weights.
+/// Returns commands that set the density of spheres with a weight of their own.
 fn densities(pile: &NumberedPile<'_>, springs: &Springs) -> Result<String, Error> {
     let masses = inertias(pile)?.into_iter().map(|(site, mass)| {
         let (id, density) = (pile.numbering().id(site)?, density(mass, springs.radius)?);

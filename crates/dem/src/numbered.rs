@@ -272,7 +272,7 @@ impl<'p> NumberedPile<'p> {
             layers.fill_row_of_base(piece, slices(&mut forces))?;
             let [normal, x, y] = forces;
             let forces = normal.into_iter().zip(x).zip(y);
-            // Sites come first in the zip, so that the end of a piece consumes no number.
+            // Sites come first in the zip, so that the end of a piece does not consume a sphere number.
             let spheres = piece.clone().into_iter().zip(ids.by_ref()).zip(forces);
             let forces = spheres.map(|((site, id), ((normal, shear_x), shear_y))| {
                 let force = FloorForce {
@@ -459,7 +459,7 @@ pub(super) fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64
 /// Returns a number correctly rounded. The error of an overflow contains `quantity`.
 ///
 /// # Errors
-/// [`Error::Overflow`](cannonpile::Error::Overflow) if the number exceeds the floats.
+/// [`Error::Overflow`](cannonpile::Error::Overflow) if the number is outside the range of `f64`.
 pub fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
     let scalar = "f64";
     number

@@ -105,7 +105,7 @@ cannonpile::data::as_text!(State);
 /// assert_eq!(pile.sphere_count(), 20_u32.into());
 /// assert!(scene.packing(&pile)?.touching().is_empty());
 ///
-/// // As high as the base carries.
+/// // Without `layers` the pile is as high as the base supports.
 /// let anchor = Some(Anchor::Base("hexagon:3".parse()?));
 /// let scene = Scene { anchor, stacking: Some(Pattern::Hcp), ..Scene::default() };
 /// assert_eq!(scene.pile()?.layers(), 5);
@@ -242,7 +242,7 @@ impl Scene {
         }
     }
 
-    /// Returns the pile of any stacking, top or base.
+    /// Returns the pile with the stacking and the top or base of the scene, without loads.
     fn stacked(&self) -> Result<Pile, cannonpile::Error> {
         let pattern = self.stacking.as_ref().unwrap_or(&Pattern::Fcc);
         let spelled = self.layers.or(pattern.layers());

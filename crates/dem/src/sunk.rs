@@ -10,8 +10,8 @@ use cannonpile::lattice::ContactKind;
 /// by relative errors impossible.
 ///
 /// From the floor up, the distance of each sphere from its supports is set to 2R − f/k, with the exact force f. The
-/// rotation of contacts changes forces by F/(kR) of themselves. So the error of centres is (F/(kR))² R times the number
-/// of layers.
+/// rotation of the contacts, which this neglects, changes forces by a relative amount of F/(kR). So the error of
+/// centres is (F/(kR))² R times the number of layers.
 pub(super) struct Sunk {
     pub(super) rigid: Vec<[f64; 3]>,
     pub(super) at_rest: Vec<[f64; 3]>,
@@ -70,7 +70,7 @@ fn supported_by(start: [f64; 3], supports: [([f64; 3], f64); 3]) -> [f64; 3] {
         let lengths = apart.map(|v| dot(v, v).sqrt());
         let missing = [0, 1, 2].map(|n| supports[n].1 - lengths[n]);
         let [a, b, c] = [0, 1, 2].map(|n| apart[n].map(|x| x / lengths[n]));
-        // Along a, b and c the step has the missing lengths as components.
+        // The components of the step along a, b and c are the missing lengths.
         let [bc, ca, ab] = [cross(b, c), cross(c, a), cross(a, b)];
         let volume = dot(a, bc);
         let step = [0, 1, 2]

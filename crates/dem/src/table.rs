@@ -1,8 +1,8 @@
 //! Tables of the forces and spheres of a pile, as csv, json and aligned text.
 //!
 //! A [`Table`] has columns, and rows generated on request. Writing needs memory for one page of rows. Cells are exact,
-//! and a [`NumberFormat`] determines how they are shown. A bound of all numbers is checked against the format before
-//! the first byte is written.
+//! and a [`NumberFormat`] determines how they are shown. Before the first byte is written, a bound of all numbers is
+//! checked, so that each number fits in the format.
 //!
 //! # Units
 //!

@@ -13,7 +13,7 @@ use cannonpile::lattice::Site;
 /// Returns a rational, correctly rounded.
 ///
 /// # Errors
-/// [`Error::Overflow`](cannonpile::Error::Overflow) if the number exceeds the floats.
+/// [`Error::Overflow`](cannonpile::Error::Overflow) if the number is outside the range of `f64`.
 pub fn nearest_rational(number: &BigRational, quantity: &'static str) -> Result<f64, Error> {
     nearest(&number.clone().into(), quantity)
 }
@@ -112,7 +112,7 @@ impl PerSphere {
     }
 }
 
-/// Returns the mass of a sphere in a code that needs positive masses: its own, or m if it is weightless.
+/// Returns the mass of a sphere for codes that need positive masses: its own mass, or m if it is weightless.
 fn inertia(pile: &NumberedPile<'_>, site: Site) -> Result<BigRational, Error> {
     let mass = pile.packing().mass_of(site)?;
     Ok(if mass.is_positive() {
@@ -122,15 +122,15 @@ fn inertia(pile: &NumberedPile<'_>, site: Site) -> Result<BigRational, Error> {
     })
 }
 
-/// Returns these masses for the spheres with a weight of their own.
+/// Returns the masses of [`inertia`] for the spheres with a weight of their own.
 pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<BTreeMap<Site, f64>, Error> {
     let sites = pile.pile().weights().map(|(site, _)| site);
     let masses = sites.map(|site| Ok((site, normal(&inertia(pile, site)?, "mass")?)));
     masses.collect()
 }
 
-/// Returns the spheres above the floor whose force differs from the weight of their mass in a code, by their numbers.
-/// Each has the additional downward force, in N.
+/// Returns the spheres above the floor whose weight and load differ from the weight of their [`inertia`]: the sphere
+/// number, and the additional downward force in N.
 pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<(u64, f64)>, Error> {
     let (packing, ordinary) = (pile.packing(), ordinary_weight(pile.pile()));
     let floor = pile.pile().layers() - 1;

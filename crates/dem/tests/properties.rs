@@ -1,7 +1,8 @@
-//! Properties of scenes and tables on random input. The generators are deterministic, and fuzzing shares them.
+//! Properties of scenes and tables, checked on random input. The generators are deterministic, and the fuzz targets use
+//! the same ones.
 //!
-//! Each property is a function of bytes. `cannonpile_testkit` defines it together with its planted faults. A failure
-//! prints the shortest bytes that proptest found, and the witness of the property.
+//! Each property is a function of bytes, defined in `cannonpile_testkit` together with planted faults that it must
+//! detect. A failure prints the shortest bytes that proptest found, and the input that they describe.
 
 use cannonpile::lattice::Dimension;
 use cannonpile_dem::Error;

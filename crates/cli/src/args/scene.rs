@@ -269,7 +269,7 @@ impl SceneOptions {
 
     /// Converts an error of a command that always computes in floats.
     ///
-    /// The sizes cause an overflow there, so the message names the size that is farthest from 1.
+    /// Such a command overflows only because of the sizes, so the message names the size that is farthest from 1.
     pub(crate) fn overflow_failure(&self, refused: InputError, scene: &Scene) -> Failure {
         let Error::Core(cannonpile::Error::Overflow {
             quantity, scalar, ..
@@ -289,7 +289,7 @@ impl SceneOptions {
         ))
     }
 
-    /// Returns the option, or the line of the file, of the size to change after an overflow.
+    /// Returns the place of the size to change after an overflow: an option, or a line of the file.
     pub(crate) fn place_of_size(&self, scene: &Scene) -> String {
         self.place(farthest_from_one(scene))
     }
@@ -344,7 +344,7 @@ impl SceneOptions {
     }
 }
 
-/// Returns the size that is farthest from 1. The radius counts only if its cube overflows.
+/// Returns the size that is farthest from 1. The radius is considered only if its cube is outside the range of `f64`.
 fn farthest_from_one(scene: &Scene) -> Key {
     const FLOATS: u64 = f64::MAX_EXP.unsigned_abs() as u64;
     let distance = |size: &BigRational| size.numer().bits().abs_diff(size.denom().bits());

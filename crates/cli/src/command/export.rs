@@ -59,7 +59,7 @@ pub(crate) struct Export {
         help_heading = "List of the files"
     )]
     list: Option<PathBuf>,
-    /// Format of the list [default: csv or json if --list ends so, otherwise table]
+    /// Format of the list [default: csv or json if --list has this extension, otherwise table]
     #[arg(
         long,
         value_enum,
@@ -304,7 +304,7 @@ fn check_springs(scene: &Scene, formats: &[PileFormat]) -> Result<(), Failure> {
     )))
 }
 
-/// Estimates the size of a file in bytes, from below.
+/// Returns a lower estimate of the size of a file, in bytes.
 fn bytes(files: &PileExport<'_>, file: PileFile) -> u64 {
     // Bytes a row, measured for 100 layers.
     let a_row = match file {
@@ -324,7 +324,7 @@ fn rows(files: &PileExport<'_>, formats: &[PileFormat]) -> u64 {
     rows.filter_map(|file| files.rows(*file)).sum()
 }
 
-/// Prints the rate on stderr, at a terminal or after more than a second.
+/// Prints the rows per second on stderr, if stderr is a terminal or the export took more than a second.
 fn print_rate(written: &[Written], begun: Instant) {
     let seconds = begun.elapsed().as_secs_f64();
     if seconds < 1.0 && !io::stderr().is_terminal() {
@@ -334,7 +334,7 @@ fn print_rate(written: &[Written], begun: Instant) {
     let bytes: u64 = written.iter().map(|file| file.bytes).sum();
     #[expect(
         clippy::cast_precision_loss,
-        reason = "rows that fit on a disk are exact enough as floats"
+        reason = "the number of rows that fit on a disk is exact enough as a float"
     )]
     let rate = rows as f64 / seconds;
     let files = written.len();

@@ -322,7 +322,7 @@ fn read_study(path: &Path) -> Result<RefinementStudy, Failure> {
     })
 }
 
-/// Parses the lengths of runs of equal signs, + first.
+/// Parses the lengths of runs of equal signs. The first run has the sign +.
 fn runs(text: &str) -> Result<Pattern, Failure> {
     let pattern = format!("({text})").parse();
     pattern.map_err(|_| {

@@ -18,7 +18,7 @@ impl<'p> PileArrays<'p> {
     ///
     /// # Errors
     /// [`Error::Length`](cannonpile::Error::Length) for a slice of another length;
-    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a force that exceeds the floats; the errors of
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a force outside the range of `f64`; the errors of
     /// [`Forces::layers`](cannonpile::Forces::layers).
     ///
     /// # Examples
@@ -140,7 +140,7 @@ impl<'p> PileArrays<'p> {
         for piece in pieces(self.pile.rows(Selection::All)?.off_the_floor()) {
             let mut found = [columns(&piece)?, columns(&piece)?, columns(&piece)?];
             layers.fill_row_of_vectors(&piece, found.each_mut().map(slices))?;
-            // The first index becomes the direction, and the second the axis.
+            // `found` is indexed by axis and then by direction, `by_line` by direction and then by axis.
             let [x, y, z] = found;
             let by_line = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
             put_vectors(&by_line.take(lines).collect::<Vec<_>>(), &mut left);

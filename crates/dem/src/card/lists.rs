@@ -33,7 +33,8 @@ pub(super) fn integer(number: &impl ToString) -> Json {
     }
 }
 
-/// Returns a record with a site in the middle: `k, i, j`, or `k, i` for a disc. Sites of exported piles are small.
+/// Returns the entries of `before`, of a site (`k, i, j`, or `k, i` for a disc) and of `after` as one record. The
+/// indices of exported piles are small enough for JSON numbers.
 pub(super) fn placed(pile: &Pile, before: Json, Site { i, j, k }: Site, after: Json) -> Json {
     let place = match pile.dimension() {
         Dimension::Two => json!({"k": k, "i": i}),

@@ -53,7 +53,7 @@ pub(super) fn page(
         answers["why_not_known"].is_null(),
     ) {
         (Some(verdict), _) => verdict,
-        (None, true) => "not asked of spheres without weight",
+        (None, true) => "not defined for spheres without weight",
         (None, false) => "not known",
     };
     let loads = rows(&card["pile"]["loads"], "{weight} mg on {site}", flat);

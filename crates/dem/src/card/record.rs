@@ -19,7 +19,8 @@ use crate::template::{fill, fill_lines};
 use cannonpile::scalar::{Ring, Surd};
 use cannonpile::{BaseExtremes, Verdict};
 
-/// The texts for a template, by name. A true fact has an empty text; a false fact has no entry.
+/// The texts for a template, by name. A condition that holds has an empty text, and one that does not hold has no
+/// entry.
 pub(super) type Names = BTreeMap<String, String>;
 
 /// The name of the layout. The version increases when a key is removed or changes its meaning.
@@ -60,7 +61,7 @@ pub(super) fn record(
     let compliance = springs.map(|(_, compliance)| format!("{compliance:.1e}"));
     let pull = extremes.least.as_ref().map(|least| -least.force.clone());
     let pull = pull.map(|pull| packing.unit_force().scaled(&pull).to_string());
-    // This is not a default. It is the requirement where floats cannot express the springs.
+    // Where floats cannot express the springs, the card requires this compliance.
     let most_compliance = compliance.clone().unwrap_or_else(|| "1e-7".into());
     names.extend(given([
         (kind(&stands, attained), flag(true)),
@@ -221,7 +222,7 @@ pub(super) fn name(path: &str, value: &Json, names: &mut Names) {
     names.insert(path.to_owned(), text);
 }
 
-/// The invariant of the texts of criteria.
+/// The message of the internal error for a line of `criteria.txt` that does not have three parts.
 pub(super) const CRITERION: &str = "a criterion of a card has a name, a demand and a check";
 
 /// Returns a/R, from sin²θ = (a/R)²(d−1)/(2d).
@@ -275,7 +276,7 @@ fn accept(springs: Option<(f64, f64)>, greatest: Option<f64>, weakest: Option<f6
         }
         _ => 1e-5,
     };
-    // The bounds are the ends of the scale. They replace no answer of the pile.
+    // Clamping limits the tolerance only. No exact value of the card changes.
     let power = error.log10().ceil().clamp(-5.0, -1.0);
     format!("1e{power}")
 }

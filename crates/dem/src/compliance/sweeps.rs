@@ -85,7 +85,7 @@ impl Sweeps {
                 Sign::Minus => minus,
             };
             for (forces, direction) in forces.iter().zip(directions) {
-                // The columns of forces include the spheres of this row.
+                // The columns `forces` already contain the spheres of this row.
                 let slack = forces[upper..upper + length].iter().zip(row.i.clone());
                 if let Some((_, i)) = slack.into_iter().find(|(force, _)| **force <= 0.0) {
                     let (site, direction) = (Site { i, j, k }, *direction);
@@ -126,8 +126,8 @@ impl Sweeps {
         Ok(moved)
     }
 
-    /// Calls `look` with all contacts from the top, with coefficients in f₀. Below and above a sphere the sums of F₁ê +
-    /// F₀τ are equal.
+    /// Calls `look` with each contact from the top, with its coefficients in f₀. The sums of F₁ê + F₀τ over the
+    /// contacts below and above a sphere are equal.
     pub(super) fn down(&self, look: &mut impl FnMut(SoftContact)) -> Result<(), Error> {
         let moved = self.displacements()?;
         // The sum of F₁ê + F₀τ above each sphere.

@@ -168,7 +168,7 @@ impl Scene {
     }
 }
 
-/// Returns the values of a table in the order of the file. All keys are known.
+/// Returns the values of a table in the order of the file.
 fn values<'a>(
     text: &'a str,
     table: &'a DeTable<'a>,

@@ -91,8 +91,8 @@ impl Cell {
         }
     }
 
-    /// Adds the text of the cell to a line: once per header of its column, or both bounds of an interval. The error of
-    /// an overflow contains `column`.
+    /// Adds the text of the cell to a line: one text for each header of the column, or the two bounds of an interval.
+    /// The error of an overflow contains `column`.
     pub(super) fn show(
         &self,
         numbers: NumberFormat,
@@ -142,7 +142,7 @@ impl NumberFormat {
     /// Returns a number as text. The error of an overflow contains `quantity`.
     ///
     /// # Errors
-    /// [`Error::Overflow`](cannonpile::Error::Overflow) if the number exceeds the floats.
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) if the number is outside the range of the float type.
     ///
     /// # Examples
     /// ```

@@ -90,10 +90,10 @@ pub(super) fn show(
 /// An iterator over rows.
 pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 
-/// The source of the sums of columns, in the order of the columns.
+/// The source of the sums of columns. Sums are in the order of the columns.
 pub(super) enum Sums<'a> {
     /// A function that computes the sums without the rows, for tables that may be long.
-    LayerGap(Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>),
+    Computed(Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>),
     /// The exact cells of the rows, for tables of few rows.
     OfRows,
 }
@@ -203,7 +203,7 @@ impl<'a> Table<'a> {
     /// Returns the table with a function that computes the sums of its columns.
     pub(super) fn summed(self, sums: impl FnOnce() -> Result<Vec<Surd>, Error> + 'a) -> Self {
         Self {
-            sums: Some(Sums::LayerGap(Box::new(sums))),
+            sums: Some(Sums::Computed(Box::new(sums))),
             ..self
         }
     }

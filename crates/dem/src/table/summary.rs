@@ -35,12 +35,12 @@ pub struct Summary<'p> {
     units: Units<'p>,
     touching: Option<Vec<LayerGap>>,
     standing: Standing,
-    /// Whether horizontal contacts stabilise a pile with tensile contacts, or the error that prevented an answer.
-    /// `None` if the question does not arise.
+    /// The verdict on a pile that needs tensile forces without its horizontal contacts, or the error of its
+    /// computation. `None` for all other piles, and unless exactly the horizontal neighbours touch.
     held: Option<Result<Certificate, cannonpile_horizontal::Error>>,
-    /// The extremes on the base, or the error that prevented them.
+    /// The extreme forces on the floor, or the error of their computation.
     base: Result<BaseExtremes, cannonpile::Error>,
-    /// The method for the base, or the error that prevents an answer for the whole base.
+    /// The method that computes the base forces, or the reason why the whole base is too large.
     method: Result<Method, cannonpile::Error>,
 }
 
@@ -264,7 +264,7 @@ impl<'p> Summary<'p> {
     }
 }
 
-/// Separates the errors of queries that are too large from others.
+/// Returns the error of a query that is too large as a value, and any other error as an error.
 fn unless_too_large<T>(
     answer: Result<T, cannonpile::Error>,
 ) -> Result<Result<T, cannonpile::Error>, cannonpile::Error> {

@@ -54,7 +54,7 @@ pub(crate) fn narrower(selection: Selection) -> &'static str {
 
 /// Returns a row that no row of the table exceeds, for the columns of forces and positions.
 fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Result<Vec<Cell>, Error> {
-    // One sphere has few rows, so they are checked themselves.
+    // One sphere has few rows, so each row is checked directly.
     if let Selection::One(_) = selection {
         return Ok(Vec::new());
     }
@@ -67,8 +67,8 @@ fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Result
     Ok(columns.iter().map(bound).collect())
 }
 
-/// Returns a length that no coordinate of a centre exceeds. From the origin, a centre is reached in steps of 2R: one
-/// per layer, plus as many as i and j of the base.
+/// Returns an upper bound of the coordinates of all centres: 2R times the number of steps of 2R on a path from the
+/// origin. The path has at most three steps for each layer, and twice the greatest coordinate of a corner of the base.
 fn greatest_place(packing: &Packing<'_>) -> BigRational {
     let shape = packing.pile().shape();
     let corners = shape.base().corners();

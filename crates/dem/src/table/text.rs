@@ -86,7 +86,7 @@ pub(super) fn write_rows(
         count += taken;
         let last = taken < page_length;
         let totals = match sums.take_if(|_| last) {
-            Some(Sums::LayerGap(sums)) => Some(totals(columns, sums()?, numbers)),
+            Some(Sums::Computed(sums)) => Some(totals(columns, sums()?, numbers)),
             Some(Sums::OfRows) => Some(totals(columns, core::mem::take(&mut of_rows), numbers)),
             None => None,
         };
@@ -150,12 +150,12 @@ fn totals(columns: &[Column], sums: Vec<Surd>, numbers: NumberFormat) -> Line {
         let word = if n == 0 { "total" } else { "" };
         let sum = if column.summed { sums.next() } else { None };
         let cell = match sum {
-            // The rows are already written, so a sum that exceeds the floats is shown exactly.
+            // The rows are already written, so a sum outside the range of the float type is shown exactly.
             Some(sum) if !fits(&sum, numbers) => Cell::Word(sum.to_string().into()),
             Some(sum) => sum.into(),
             None => word.into(),
         };
-        // The condition above ensures that the sum fits.
+        // The arm above handles a sum that does not fit, so this call does not fail.
         let _ = cell.show(numbers, column.name, places, &mut line);
     }
     line

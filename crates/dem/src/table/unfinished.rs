@@ -104,7 +104,7 @@ impl Drop for Pending {
     }
 }
 
-/// Locks a file of this process. The lock ends with the process in every case.
+/// Locks a file of this process. The lock ends with the process, however the process ends.
 pub(super) fn lock(file: &fs::File) -> bool {
     #[cfg(unix)]
     {

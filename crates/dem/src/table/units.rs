@@ -68,7 +68,7 @@ impl<'p> Units<'p> {
         self.forces().pile()
     }
 
-    /// Returns the forces in pile units, the source of those in SI units.
+    /// Returns the forces in pile units. Forces in SI units are computed from them.
     pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
         match self {
             Self::Pile(forces) => forces,
@@ -111,9 +111,9 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// Returns an upper bound of the forces of a selection. In mg or f₀, the root of the sum of the squared forces of a
-    /// layer is bounded. The bound is √3 times the sum of all weights down to the layer, plus 2√2 times the sum of all
-    /// horizontal forces.
+    /// Returns an upper bound of the forces of a selection. In mg or f₀, each force is at most the root of the sum of
+    /// the squared forces of its layer. This root is at most √3 times the sum of all weights down to the layer, plus
+    /// 2√2 times the sum of all horizontal forces.
     pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
         let horizontal = self.pile().horizontal_forces();
         let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();

@@ -69,7 +69,7 @@ impl Table<'_> {
             (FileFormat::Json, _) => json::write(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Record) => text::write_record(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Rows(noun)) => {
-                // If the number of rows is unknown, each row may take long.
+                // If the number of rows is unknown, each row may take long to compute, so pages are short.
                 let page = if is_counted {
                     text::PAGE
                 } else {

@@ -1,4 +1,4 @@
-//! Exported files: compared with the tables and with mechanics, and the folder after a failure.
+//! Tests of exported files: they agree with the tables and with mechanics, and a failure leaves no new file.
 
 mod arrays;
 mod cards;

@@ -31,7 +31,7 @@ fn hcp(layers: i128) -> Pile {
     Pile::under(Region::SITE, stacking).expect("a pile")
 }
 
-/// Extracts the error of the core from an error of random stackings.
+/// Extracts the error of the crate `cannonpile` from an error of random stackings.
 fn of_core(error: cannonpile_disorder::Error) -> Error {
     match error {
         cannonpile_disorder::Error::Core(error) => error.into(),
@@ -130,7 +130,7 @@ fn long_computations_end_only_after_a_request() {
         interrupt.request();
         let ended = interrupt.during(|| work(&pile, name));
         assert_eq!(ended, Err(INTERRUPTED), "{name}");
-        // The thread has no request any more.
+        // Afterwards the thread has no request, so the computation completes.
         assert_eq!(work(&pile, name), Ok(()), "{name}");
     }
 }
@@ -178,7 +178,7 @@ fn long_computations_in_several_threads_end() {
 fn a_request_ends_only_its_own_thread() {
     let (one, other) = (Interrupt::new(), Interrupt::new());
     one.request();
-    // Only the inner request ends the computation within it.
+    // Only the inner request ends the inner computation.
     let answer = one.during(|| other.during(|| work(&hcp(6), "forces")));
     assert_eq!(answer, Ok(()));
     let answer = thread::scope(|scope| {

@@ -1,4 +1,4 @@
-//! Scenes through serde: a written scene reads back the same, and invalid values are refused.
+//! Scenes through serde: a scene that is written and read is unchanged, and invalid values are rejected.
 
 use cannonpile::lattice::{MAX_LAYERS, Region};
 use cannonpile::stacking::Pattern;

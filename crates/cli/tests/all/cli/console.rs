@@ -1,4 +1,5 @@
-//! Commands and what they print, word for word: those of `commands/*.console`. `.ci/docs` runs those of README and the guide.
+//! Compares the output of the commands in `commands/*.console` word for word. `.ci/docs` does so for README and the
+//! guide.
 //!
 //! | line | meaning |
 //! |---|---|
@@ -178,7 +179,7 @@ fn agree(shown: &[&str], lines: &[String]) -> bool {
         && after == &lines[lines.len() - after.len()..]
 }
 
-/// Formats output as a snapshot. A gap stays at its position, and long output gets a new one.
+/// Formats output as a snapshot. A line `…` stays at its position, and long output gets a new one.
 fn cut(shown: &[&str], lines: &[String]) -> Vec<String> {
     const LONG: usize = 30;
     let errors = |line: &str| line.starts_with("! ");

@@ -18,7 +18,7 @@ use cannonpile::{Contacts, PackedContact, Pile};
 /// sphere `fx, fy, fz` and the contact point `x, y, z` follow. Discs have no `j`.
 ///
 /// Horizontal contacts with a [given force](Pile::with_horizontal_force) follow the sloping contacts of the sphere that
-/// names them. Their direction is their axis. The columns of the upper sphere then refer to the naming sphere.
+/// names them. Their direction is their axis. In such a row, k, i and j are the site of the naming sphere.
 ///
 /// # Errors
 /// [`Error::SiteOutside`](cannonpile::Error::SiteOutside), [`Error::LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyRows`](cannonpile::Error::TooManyRows).
@@ -139,7 +139,7 @@ impl Horizontal {
         forces.filter(move |(_, force)| self == Self::Touching || !force.is_zero())
     }
 
-    /// Returns the number of listed horizontal contacts of the spheres of some rows.
+    /// Returns the number of listed horizontal contacts of the spheres of the given rows.
     fn count(self, pile: &Pile, rows: &Rows<'_>) -> BigUint {
         match (self, rows.one()) {
             (Self::Pushing, _) => pushing(pile, rows).count().into(),
@@ -171,7 +171,7 @@ impl Horizontal {
     }
 }
 
-/// Returns the horizontal contacts with a force whose naming spheres are in some rows.
+/// Returns the horizontal contacts with a force that are named by a sphere of the given rows.
 fn pushing<'p>(
     pile: &'p Pile,
     rows: &Rows<'_>,

@@ -92,7 +92,7 @@ fn rounded_spheres<'p, F: Float>(
         let mut places = columns::<F>(row)?;
         centres.fill_row(row, slices(&mut places))?;
         let [x, y, z] = places;
-        // Sites come first in the zip, so that the end of a row consumes no number.
+        // Sites come first in the zip, so that the end of a row does not consume a sphere number.
         let spheres = row.clone().into_iter().zip(ids.by_ref());
         let rows = spheres.zip(x.into_iter().zip(y).zip(z));
         let rows = rows.map(|((site, id), ((x, y), z))| {

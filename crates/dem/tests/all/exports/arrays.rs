@@ -90,7 +90,7 @@ fn nearest(number: &BigRational) -> f64 {
     number.nearest().expect("a float")
 }
 
-/// Returns the exact force of each contact, evaluated one by one.
+/// Returns the exact force of each contact, from a separate query for each.
 fn one_by_one(pile: &Pile) -> Vec<BigRational> {
     let forces = pile.forces::<BigRational>();
     let sloping = forces.contacts(Selection::All).expect("contacts");

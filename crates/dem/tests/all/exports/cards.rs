@@ -1,4 +1,4 @@
-//! Benchmark cards: oracles confirm every number, and parsers can read the files.
+//! Tests of benchmark cards: oracles confirm every number, and parsers can read the files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -58,7 +58,7 @@ fn integer(value: &Value) -> i128 {
     value.to_string().parse().expect("an integer")
 }
 
-/// Collects all numbers given both exactly and as floats.
+/// Collects all numbers that a card states both exactly and as floats.
 fn pairs<'v>(value: &'v Value, found: &mut Vec<&'v Value>) {
     match value {
         Value::Object(entries) if entries.contains_key("exact") => found.push(value),
@@ -143,7 +143,7 @@ impl Oracle {
     }
 }
 
-/// Returns the oracle of a case, which defines the pile a second time.
+/// Returns the oracle of a case. Its pile is defined here, independently of the scene.
 fn oracle(name: &str) -> Option<Oracle> {
     let straight = |layers: usize| Twice::under(&Bounds::SITE, &"+".repeat(layers - 1));
     let hexagon = Bounds::hexagon(3, 3);
@@ -166,7 +166,7 @@ fn oracle(name: &str) -> Option<Oracle> {
     }))
 }
 
-/// Returns the position in a record.
+/// Returns the site of a record as (k, j, i).
 fn named(record: &Value) -> Place {
     let j = record.get("j").map_or(0, integer);
     (integer(&record["k"]), j, integer(&record["i"]))

@@ -1,5 +1,5 @@
-//! The compliance compared with springs: with piles relaxed by Newton's method from their geometry alone, with the
-//! closed forms of straight piles, and with measurements in LAMMPS.
+//! Compares the compliance with three sources: piles on springs, relaxed by Newton's method from their geometry alone;
+//! the closed forms of straight piles; and measurements in LAMMPS.
 
 use std::collections::BTreeSet;
 
@@ -129,7 +129,7 @@ impl Springs {
                     for column in 0..3 {
                         let same = f64::from(u8::from(row == column));
                         let across = same - ray[row] * ray[column];
-                        // The negative derivative of the force by the position of the upper sphere.
+                        // The negative derivative of the force with respect to the position of the upper sphere.
                         let stiff = stiffness * ray[row] * ray[column] - push / distance * across;
                         matrix[3 * upper + row][3 * upper + column] += stiff;
                         if *lower < self.free {
@@ -199,7 +199,7 @@ fn check(packing: &Packing<'_>, springs: &Springs) {
             .position(|pair| *pair == ids)
             .unwrap();
         let exact = exact.iter().find(|exact| exact.ids == contact.ids).unwrap();
-        // The rigid contact direction comes from this geometry, not from the library's vector.
+        // The direction of the rigid contact is computed from these centres, not taken from the library.
         let [upper, lower] = ids.map(|id| springs.centres[id]);
         let ray = between(&lower, &upper).map(|x| x / 2.0);
         let changes = [0, 1].map(|of| {
@@ -272,7 +272,7 @@ fn a_relaxed_pile_under_loads() {
         .unwrap();
     let mut springs = Springs::new(&[[0, 0]], "+++", 1.3, false);
     springs.weights[0] += 0.5;
-    // One sphere, three spheres, and the first of the third layer come before it.
+    // Index 5 is the second sphere of the third layer, after one sphere, three spheres, and the first of that layer.
     springs.weights[5] += 2.5;
     check(&packing(&pile, "13/10"), &springs);
 }
@@ -289,7 +289,7 @@ fn relaxed_discs() {
     }
 }
 
-/// The positions are the library's, because other tests cover them.
+/// The positions are those of the library, which other tests check.
 #[test]
 fn a_relaxed_isosceles_pile() {
     let pile = Pile::isosceles(4, ratio(2, 5)).unwrap();
@@ -430,13 +430,13 @@ fn packings_without_a_compliance_are_refused() {
         assert!(matches!(refused, NoCompliance::Slack { .. }));
         assert!(refused.to_string().contains(says), "{refused}");
     };
-    // Three lines bear the load, and all other contacts have no force.
+    // The three lines of contacts below the load bear it, and all other contacts have no force.
     let idle = Pile::triangular(3).unwrap().weightless();
     let idle = idle.with_load(Site::APEX, ratio(1, 1)).unwrap();
     slack(idle, "sphere (k=1, i=1, j=0) along alpha");
     slack(
         Pile::under(Region::SITE, Stacking::hcp(6).unwrap()).unwrap(),
-        "has no force, or pulls",
+        "has no force or a tensile one",
     );
     // Without contacts the error is 0.
     let one = Pile::triangular(1).unwrap();

@@ -1,4 +1,4 @@
-//! The contents of the files: the numbers of the tables, each correctly rounded.
+//! The files contain the numbers of the tables, each correctly rounded.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Axis, Dimension, Site};

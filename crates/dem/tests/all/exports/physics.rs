@@ -1,4 +1,4 @@
-//! The exported files describe a pile at rest.
+//! The exported files describe a pile in equilibrium.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Failures to write files, and the state of the folder afterwards.
+//! Tests of exports that fail, and of the folder afterwards.
 
 use std::fs;
 use std::io::{self, Write};
@@ -102,8 +102,8 @@ fn a_name_taken_at_the_last_moment() {
     fs::write(folder.path().join("spheres.txt"), "mine").expect("a file");
     let taken = folder.path().join("contacts.csv");
     let mut told = 0;
-    // While the third file is written, a folder takes the name of the second one. The first file has been renamed by
-    // then.
+    // While the third file is written, a folder takes the name of the second one. So the rename of the second file
+    // fails, after that of the first.
     let mut take = |_| {
         told += 1;
         if told == 3 {

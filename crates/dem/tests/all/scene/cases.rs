@@ -16,7 +16,7 @@ fn hash(text: &str) -> u64 {
 
 /// The published cases: name, hash of the file, and stability.
 ///
-/// If a case differs, correct the case and not this list: its numbers have been quoted.
+/// If a case differs, correct the case and not this list, because the numbers of the case have been quoted.
 const PUBLISHED: &[(&str, u64, &str)] = &[
     ("C1", 0x24df_3656_8a52_6e45, "yes"),
     ("C2", 0xd4b1_374d_08e5_20ec, "yes"),
@@ -86,7 +86,7 @@ fn every_case_has_its_stated_stability() {
         let pile = scene
             .in_state(scene.pile().expect("a pile"))
             .expect("a state");
-        // All forces are examined one by one, while the verdict examines few.
+        // This test examines every force. The verdict examines few.
         let sloping = pile.forces::<BigRational>().contacts(Selection::All);
         let mut pulls = sloping
             .expect("contacts")
