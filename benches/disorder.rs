@@ -1,5 +1,5 @@
-//! The cost of random stackings: means in floats, in integers by faults, and exact at one probability; enumerations and
-//! samples.
+//! Run times for random stackings: means in floats, sums by number of faults in integers, exact means at one
+//! probability, enumerations, and samples.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench disorder`
 //! asserts the sum of every mean and the number of stable stackings. It prints seconds and the exponents of the cost. With

@@ -1,4 +1,4 @@
-//! The cost of one contact and of one base sphere, in piles of 10 and of 10³⁶ layers.
+//! Run times of one contact force and of one base force, in piles of 10 and of 10³⁶ layers.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench one_contact`
 //! prints nanoseconds and, last, lines `ratio NAME VALUE`. With `-- --smoke` it only asserts the results.

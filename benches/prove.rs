@@ -1,4 +1,4 @@
-//! The time of the proof of every theorem.
+//! Measures the time of the proof of each theorem.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench prove`
 //! asserts that all theorems hold, and prints milliseconds. With `-- --smoke` it proves each theorem once.

@@ -1,4 +1,4 @@
-//! Correct rounding of ten million random and adversarial values of each quantity.
+//! Checks the correct rounding of ten million random and adversarial values of each quantity.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench rounding`
 //! rounds roots, rationals and every physical quantity of all kinds of piles to `f64` and `f32`. It checks each float in

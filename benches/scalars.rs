@@ -83,7 +83,7 @@ impl Operation {
 /// The worst cases.
 #[derive(Default)]
 struct Worst {
-    /// By how many floats an end was further out than it had to be.
+    /// The largest excess width of an end, as a number of floats.
     wider: u32,
     /// The relative error of double-doubles, for results between 2^−900 and 2^1023.
     error: f64,

@@ -59,7 +59,8 @@ fn main() {
     }
 }
 
-/// Measures both bounds of one sphere and of all, and the ratio of an upper bound to the same in floats.
+/// Measures both bounds of one sphere and of all spheres. Returns the ratio of the time of an exact upper bound to that
+/// of the same bound in floats.
 fn bounds(extent: Extent) -> (&'static str, f64) {
     for layers in [extent.size(10, 4), extent.size(16, 7)] {
         let (pile, site) = straight(layers);
@@ -110,7 +111,8 @@ fn bounds(extent: Extent) -> (&'static str, f64) {
     ("bounds_16_centre_over_clarabel", ratio)
 }
 
-/// Measures elastic states of stackings that are stable only with horizontal contacts, and the ratio of one to floats.
+/// Measures elastic states of stackings that are stable only with horizontal contacts. Returns the ratio of the time of
+/// one exact state to that of the same state in floats.
 fn elastic(extent: Extent) -> (&'static str, f64) {
     let stiffness_ratio = BigRational::one();
     let solve = |pile: &Pile| horizontal::elastic(pile, &stiffness_ratio).expect("a state");

@@ -1,4 +1,4 @@
-//! Other methods for the same forces, without the closed formulas.
+//! Other methods that compute the same forces without the closed form.
 //!
 //! They use the public interface of a pile only: positions of spheres, and contacts. They do not use contact lines,
 //! half-turns or multiples of f₀, so they are independent of the library. Their forces are in mg, for a/R = 6/5.

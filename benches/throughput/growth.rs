@@ -1,4 +1,4 @@
-//! The growth of the time with the size of the pile.
+//! Measures how the run time grows with the size of the pile.
 
 use std::hint::black_box;
 
@@ -74,7 +74,7 @@ fn exponent(extent: Extent, layers: [i128; 2], ask: impl Fn(&Pile)) -> f64 {
     median(ratios).ln() / (large / small).ln()
 }
 
-/// Measures one exact contact below six sign changes, far below them and close to them.
+/// Measures one exact contact force below six sign changes, once far below them and once close below.
 fn runs(extent: Extent) -> f64 {
     let layers = [1_000_000_i128, 1_000_000_000_000_000];
     let piles = layers.map(|layers| {
@@ -95,7 +95,7 @@ fn runs(extent: Extent) -> f64 {
             k: pile.layers() - 2,
         };
         let three = Direction::ALL.map(|d| forces.contact(site, d).expect("a force"));
-        // The sphere is in equilibrium, which a single line cannot show.
+        // A check of one line of contacts does not suffice, so the whole sphere must be in equilibrium.
         let left = forces.unbalanced(site).expect("forces");
         assert_eq!(left.into_array(), [(); 3].map(|()| BigRational::default()));
         black_box(three);

@@ -7,7 +7,7 @@ use cannonpile::scalar::{Algebra, Exactness, OwnNumerators, Ring};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-/// A rational whose numerators are rationals too.
+/// A rational scalar that uses rationals as numerators too, so that no common denominator is kept.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Plain(pub(crate) BigRational);
 

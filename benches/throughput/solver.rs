@@ -1,4 +1,4 @@
-//! The closed form compared with a sparse solver of the equations of equilibrium.
+//! Compares the time of the closed form with that of a sparse solver of the equations of equilibrium.
 
 use std::hint::black_box;
 
@@ -14,7 +14,8 @@ use crate::peers::network::Network;
 use crate::time::{ratio, seconds};
 use crate::{Extent, Results};
 
-/// Compares analysis, factorisation and solve, without assembly, with writing all forces into slices, with their table.
+/// Compares sparse LU (analysis, factorisation and solution, without the assembly of the equations) with the closed
+/// form. The time of the closed form includes its table and the writing of all forces into slices.
 pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let pile = Pile::triangular(extent.size(60, 8)).expect("a pile");
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");

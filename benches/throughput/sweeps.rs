@@ -1,4 +1,4 @@
-//! Sweeps of HCP layers: in floats, in the exact engine, in plain rationals, on two threads.
+//! Measures sweeps of HCP layers: in floats, in the exact engine, in plain rationals, and on two threads.
 
 use std::hint::black_box;
 

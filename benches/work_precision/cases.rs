@@ -21,7 +21,8 @@ impl Case {
         }
     }
 
-    /// Returns hexagonal close packing, with a sign change at every layer, under a hexagon of `side` spheres a side.
+    /// Returns hexagonal close packing, with a sign change at every layer, under a hexagon with `side` spheres on each
+    /// side.
     fn alternating(side: u16, layers: u16) -> Self {
         let top = Region::hexagon(side.into(), side.into()).expect("a hexagon");
         let stacking = Stacking::hcp(layers.into()).expect("a stacking");

@@ -70,10 +70,10 @@ const SCALARS: [(&str, RGBColor); 6] = [
 ];
 
 const NOTES: [&str; 4] = [
-    "Joined marks are one method at several settings.",
-    "Answers without an error stand in the grey column, side by side: there only the height means anything.",
-    "The table's floats are forces in mg, each the float nearest to an irrational number; all other forces are in mg/(3 cosθ),",
-    "where those of straight piles are small integers, which floats hold without an error.",
+    "Joined glyphs are one method at several settings.",
+    "Results without an error are in the grey column, side by side. In this column only the height has a meaning.",
+    "The floats of the table are forces in mg, rounded from irrational numbers. All other forces are in mg/(3 cosθ);",
+    "in this unit those of straight piles are small integers, which floats represent exactly.",
 ];
 
 #[derive(Clone, Copy)]

@@ -26,7 +26,7 @@ pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
             closed::<BigRational>(bench),
         ]);
     } else {
-        let none = "there is none across a change of sign";
+        let none = "no closed form after a sign change";
         runs.extend(
             [Method::Table, Method::Closed].map(|method| bench.without(method, "any", none)),
         );

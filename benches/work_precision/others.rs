@@ -95,7 +95,7 @@ fn springs(bench: &Bench) -> Vec<Run> {
         .flatten()
         .any(Signed::is_negative);
     if pulls {
-        let none = "no equilibrium: some contacts pull, and springs between spheres only push";
+        let none = "no equilibrium: some contacts need tension, and the springs have none";
         return vec![bench.without(Method::Springs, "f64", none)];
     }
     [1e4, 1e5, 1e6, 1e7, 1e8, 1e10]

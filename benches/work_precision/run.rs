@@ -16,7 +16,7 @@ pub(crate) enum Method {
     Engine,
     /// A sparse LU factorisation of the equations of equilibrium.
     Lu,
-    /// Conjugate gradients on them.
+    /// Conjugate gradients on these equations.
     Gradients,
     /// Damped relaxation of springs.
     Springs,
@@ -50,7 +50,7 @@ pub(crate) struct Run {
     pub(crate) remark: String,
 }
 
-/// The median time of computing all forces, and the relative error of the worst.
+/// The median time to compute all forces, and the relative error of the worst force.
 #[derive(Clone, Copy)]
 pub(crate) struct Measured {
     pub(crate) seconds: f64,

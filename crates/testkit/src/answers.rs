@@ -27,8 +27,8 @@ impl Shape {
         Self::Spheres(ratio(1, 2))
     }
 
-    /// Isosceles bases from the needle to the nearly flat triangle. They include ½ and 5/6. No spacing fits tall piles
-    /// beyond 5/6.
+    /// Isosceles bases from a narrow to a nearly flat triangle, with sin φ = ½ and 5/6 among them. Beyond 5/6 tall
+    /// piles have no possible spacing.
     pub fn isosceles() -> impl Iterator<Item = Self> {
         let sines = [
             (1, 1000),

@@ -41,7 +41,7 @@ fn text(error: &cannonpile::Error) -> String {
     error.to_string()
 }
 
-/// Compares sphere by sphere and contact by contact. The library finds these answers by lines.
+/// Compares sphere by sphere and contact by contact. The library computes these answers along lines of contacts.
 pub fn one_by_one(pile: &Pile, known: &Forces) -> Outcome {
     let forces: cannonpile::Forces<BigRational> = pile.forces();
     for (at, expected) in &known.above {

@@ -12,7 +12,7 @@ use num_traits::{One, ToPrimitive, Zero, pow};
 
 use super::oracles::one_by_one::{self, Floor, Grown, faults, of_site, sequences};
 
-/// The origin of the piles: a plane, a top layer or a base.
+/// The layer that the piles grow from: a plane, a top layer or a base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
     /// An infinite plane. All piles on it have the same sites.
@@ -26,7 +26,7 @@ pub enum Anchor {
 /// Piles of random stackings and their description.
 #[derive(Clone, Debug)]
 pub struct Piles {
-    /// Their origin.
+    /// The layer that the piles grow from.
     pub anchor: Anchor,
     /// The steps between layers.
     pub steps: usize,
@@ -117,7 +117,7 @@ impl Piles {
         sequences(self.steps, first)
     }
 
-    /// The force on the floor below each sphere of one stacking. Empty if the stacking is not a pile.
+    /// The force on the floor below each sphere of one stacking. Empty if the base does not support the stacking.
     pub fn bottom(&self, signs: &[i64]) -> BTreeMap<one_by_one::Place, Floor> {
         let grown = match self.anchor {
             Anchor::Plane => Grown::Plane,
@@ -137,7 +137,8 @@ impl Piles {
         }
         let mut bottom = one_by_one::bottom(&grown, &weight, &loads, signs).unwrap_or_default();
         if self.anchor == Anchor::Plane {
-            // The force of every other sphere within reach of the load is zero.
+            // The library also lists the other spheres that a load can reach. The oracle omits them, because their
+            // force is zero.
             let n = i64::try_from(self.steps).expect("few steps");
             let net: i64 = signs.iter().sum();
             for [x, y] in loads.keys() {

@@ -4,8 +4,8 @@
 //! midpoints to its neighbours, which are (2m ± 1)·2^(e−1). Below a power of two the floats are twice as dense. All these
 //! values are integers over powers of two, so a comparison costs one product and one shift.
 //!
-//! The exhaustive tests, the random ones, fuzzing and the bench of roundings share this check. `claims::nearest` injects its
-//! faults.
+//! The exhaustive tests, the random ones, fuzzing and the bench of roundings share this check. The tests of
+//! `claims::nearest` show that it detects faults.
 
 use core::cmp::Ordering;
 use core::fmt::Debug;

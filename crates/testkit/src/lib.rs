@@ -17,8 +17,8 @@
 //! | `json` | values written and read, as text and as bytes | `serde` |
 //! | [`laws`] | the law suite of scalars on operands chosen to break it | |
 //! | [`oracles`] | slow, simple computations that the library is compared with | some |
-//! | [`pair`] | two scalars in step, and the first operation at which they differ | |
-//! | [`proofs`] | what must hold of the theorems of a crate, and wrong formulas that they refuse | |
+//! | [`pair`] | two scalars in parallel, and the first operation at which they differ | |
+//! | [`proofs`] | checks of the theorems of a crate, and wrong formulas that the theorems must refute | |
 //! | [mod@properties] | the runner that tests a claim on random bytes | |
 //! | [`python_checker`] | the second certificate checker, as a Python process | |
 //! | [`rational`] | rationals from machine integers | |

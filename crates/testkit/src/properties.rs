@@ -12,7 +12,7 @@ use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunne
 
 use crate::claims::{Claim, Failure};
 
-/// No claim uses more bytes. A claim with fewer bytes reads zeros.
+/// The greatest number of random bytes. No claim reads more, and missing bytes are read as zeros.
 const BYTES: usize = 256;
 
 /// Declares a test for each claim: `name: claim, number of cases;`.

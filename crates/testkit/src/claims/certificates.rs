@@ -1,8 +1,8 @@
 //! An accepted certificate states the truth, even after random changes. Both checkers agree on it.
 //!
 //! The claims change certificates of a tiny pile in a few places. If
-//! [`check`](cannonpile_horizontal::certificate::Certificate::check) still accepts one, the exact programs of `States` must
-//! confirm it. The second checker, in Python, runs in [`python_checker`](crate::python_checker).
+//! [`check`](cannonpile_horizontal::certificate::Certificate::check) still accepts one, the exact linear programs of
+//! `States` must confirm it. The second checker, in Python, runs in [`python_checker`](crate::python_checker).
 
 use arbitrary::Unstructured;
 use cannonpile::Pile;
@@ -88,7 +88,7 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
         &read_certificate(&*again).ok(),
         &Some(read.clone()),
     )?;
-    // The truth is unknown for another pile.
+    // The oracle `drawn` does not apply to a certificate whose pile has changed.
     let holds = read.check().is_err() || read.pile != drawn.pile || is_true(&drawn, &read);
     demand(holds, || format!("accepted but false: {read:?}"))
 }
@@ -225,7 +225,7 @@ fn sphere(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
     Ok(site)
 }
 
-/// Tells whether a claim holds, by the exact programs over all compressive states.
+/// Tells whether a claim holds, by exact linear programs over all compressive states.
 fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
     let Drawn { states, corner, .. } = drawn;
     match &certificate.claim {
@@ -241,7 +241,7 @@ fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
             let x: Vec<_> = x.collect();
             let of_contacts = x.iter().filter(|force| !force.is_zero()).count();
             let given = certificate.horizontal.values();
-            // A force is not the pile's if no spheres touch there.
+            // A horizontal force between spheres that do not touch belongs to no state of the pile.
             let has_others = given.filter(|force| !force.is_zero()).count() > of_contacts;
             !has_others && has_least_energy(drawn, stiffness_ratio, &x)
         }
@@ -249,8 +249,8 @@ fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
     }
 }
 
-/// Tells whether no compressive state has less energy. The energy is convex, so this holds exactly if the energy does not
-/// decrease towards any of them. That test is linear.
+/// Tells whether no compressive state has less energy. The energy is convex, so this holds exactly if the energy does
+/// not decrease towards any of them. The derivative towards a state is linear, so a linear program decides this.
 fn has_least_energy(drawn: &Drawn, stiffness_ratio: &BigRational, x: &[BigRational]) -> bool {
     let Drawn { states, corner, .. } = drawn;
     let Some(corner) = corner.clone().filter(|_| states.is_compressive(x)) else {

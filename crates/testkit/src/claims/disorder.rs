@@ -99,7 +99,8 @@ pub fn any_size(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// The average number of spheres under a top layer. It is the sum of the bottom layers of all piles that are not higher.
+/// The average number of spheres under a top layer. It is the sum of the average numbers of spheres in the bottom
+/// layers of all piles up to this height.
 fn spheres_of(
     top: Region,
     stackings: RandomStackings,

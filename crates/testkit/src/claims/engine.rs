@@ -27,7 +27,7 @@ pub fn every_way(u: &mut Unstructured<'_>) -> Checked {
     all_ways_agree(&described, k, u.int_in_range(0..=20)?)
 }
 
-/// Checks the whole pile, layer k alone, and the layers from `from` on.
+/// Checks the whole pile, layer k alone, and the layers from `from` downwards.
 pub fn all_ways_agree(described: &Described, k: i128, from: usize) -> Checked {
     let solved = Solved::of(described);
     let pile = described.pile()?;

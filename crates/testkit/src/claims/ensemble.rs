@@ -67,8 +67,8 @@ fn merge_into(parts: &[Tally], whole: &Tally) -> Checked {
     }
 }
 
-/// A file is read back as it was written. With some replaced letters it is either a tally that a run could have written, or
-/// rejected. This holds for the file alone and together with the other part.
+/// A written file reads back the same. After some letters are replaced, it is rejected, or it is a tally that a run
+/// could have written. This holds for the file alone, and merged with the other part.
 pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     use cannonpile_disorder::TallyRecord;
 

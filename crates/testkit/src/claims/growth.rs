@@ -8,7 +8,7 @@ use super::numbered::first_of;
 use super::{Checked, demand, one_line, same};
 use crate::generators::region;
 
-/// One step down and up again, and many steps down, checked at single sites.
+/// Checks one step down and up again, and many steps down, at single sites.
 pub fn grown(u: &mut Unstructured<'_>) -> Checked {
     let region = region::region(u)?;
     let sign = *u.choose(&[Sign::Plus, Sign::Minus])?;

@@ -1,4 +1,5 @@
-//! The range of base forces in a pile with horizontal contacts, by exact programs over all compressive states, with proofs.
+//! The range of base forces in a pile with horizontal contacts, by exact linear programs over all compressive states,
+//! with certificates.
 //!
 //! The library returns the verdict on stability, the bounds of a bottom sphere, and the elastic state. The claim checks the
 //! certificate of each answer and compares the answer with [`States`]. That oracle contains only the balance of a sphere and

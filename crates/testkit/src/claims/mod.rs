@@ -3,8 +3,8 @@
 //! A claim draws its input from an [`Unstructured`] through [`generators`](crate::generators). It calls the library and
 //! checks the answer by a theorem. The property tests and the fuzz targets run the same claims.
 //!
-//! Small functions of their own do the checks. The tests at the foot of each file inject faults into their input: answers
-//! that are wrong by the smallest possible amount. The checks must catch them.
+//! Each check is a small function. The tests at the foot of each file call it with answers that are wrong by the
+//! smallest possible amount, which it must reject.
 //!
 //! | file | the claim |
 //! |---|---|
@@ -37,7 +37,7 @@
 //! | `disorder` | the mean over random stackings equals a plain average over all stackings (feature `disorder`) |
 //! | `ensemble` | tallies equal a plain enumeration, and parts merge into the whole (feature `disorder`) |
 //! | `certificates` | an accepted certificate is true, and the Python checker agrees (feature `horizontal`) |
-//! | `horizontal` | exact programs and proofs confirm the answers about horizontal contacts (feature `horizontal`) |
+//! | `horizontal` | exact linear programs and certificates confirm the answers about horizontal contacts (feature `horizontal`) |
 //!
 //! `reference` contains the oracle's forces of a described pile.
 
@@ -103,7 +103,7 @@ pub type Checked = Result<(), Failure>;
 pub enum Failure {
     /// The bytes do not determine an input. No generator returns this today.
     NoInput(arbitrary::Error),
-    /// The claim is false. Contains the witness.
+    /// The claim is false for this input. Contains the witness, a description of the wrong answer.
     Refuted(String),
 }
 

@@ -82,8 +82,8 @@ fn has_consecutive_numbers(
     )
 }
 
-/// Grown down from any region, or up from a wider base. The base extends by a few sites or many on each side, so sides
-/// vanish on the way. `None` if the runs are invalid or lead beyond the limit.
+/// A shape that grows down from any region, or up from a wider base. The base has additional sites on each side, few or
+/// many, so some of its sides vanish with the height. `None` if the runs are invalid or exceed the limit.
 fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
     let top = region::region(u)?;
     let made =

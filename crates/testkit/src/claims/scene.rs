@@ -96,7 +96,7 @@ fn in_state(scene: &Scene, pile: &Pile) -> Checked {
     }
 }
 
-/// Mostly valid, so that a single wrong value occurs alone.
+/// A scene whose values are mostly valid, so that often only one value is wrong.
 fn scene(u: &mut Unstructured<'_>) -> arbitrary::Result<Scene> {
     let mut size = || -> arbitrary::Result<BigRational> {
         if rarely(u, 16)? {

@@ -137,7 +137,7 @@ pub struct Corner {
     basic: Vec<usize>,
     free: Vec<usize>,
     rows: Vec<Vec<BigInt>>,
-    /// Positive.
+    /// The common denominator of all entries; positive.
     denominator: BigInt,
 }
 

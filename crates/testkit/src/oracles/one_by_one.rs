@@ -25,7 +25,7 @@ pub enum Grown {
     Base(BTreeSet<Place>),
 }
 
-/// The position of a site of the layer that names the sites.
+/// The position of a site of the top layer, or of the base for a pile that grows upwards.
 pub fn of_site([i, j]: [i64; 2]) -> Place {
     [2 * i + j, i + 2 * j]
 }
@@ -66,7 +66,7 @@ fn layers(from: &Grown, signs: &[i64]) -> Option<Vec<BTreeSet<Place>>> {
             let mut layers = vec![base.clone()];
             for sign in signs.iter().rev() {
                 let below = layers.last().unwrap();
-                // The contact α of a sphere above lies in the layer below.
+                // A sphere of the layer above has its α support in the layer below.
                 let above = below.iter().map(|[a, b]| [a + sign, b + sign]);
                 let is_supported =
                     |at: &Place| contacts(*at, *sign).iter().all(|c| below.contains(c));
@@ -112,7 +112,7 @@ pub fn bottom(
         for at in &spheres {
             let zero = || [(); 3].map(|()| BigRational::zero());
             let [fa, fb, fc] = above.remove(at).unwrap_or_else(zero);
-            // Both components of the horizontal force, along β and γ.
+            // The components of the horizontal force along β and γ.
             let over = BigRational::from_integer(sign_above.into());
             let along_b = (&fb - &fa) * &over;
             let along_c = (&fc - &fa) * &over;

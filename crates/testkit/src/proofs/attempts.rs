@@ -52,7 +52,7 @@ impl<F: Library> Attempts<F> {
         assert!(otherwise.is_empty(), "{}", otherwise.join("\n"));
     }
 
-    /// Panics unless some fault refutes each theorem. The first one in the list must fail in a step.
+    /// Panics unless some fault refutes each theorem. The first such fault must make a step fail.
     pub fn every_theorem_has_a_fault(&self) {
         for theorem in &self.theorems {
             let refuses = |fault: &&Fault<F>| fault.refuted_by.contains(&theorem.name);

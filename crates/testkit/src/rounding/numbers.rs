@@ -36,8 +36,8 @@ pub fn critical_roots(random: &mut Random, cases: u64) -> Tally {
     tally
 }
 
-/// Uses √(M²(1 ± δ)) and integers next to the square of 2^p + 1, at several scales. A power of two changes ties only among
-/// subnormals.
+/// Rounds √(M²(1 ± δ)), and roots of integers next to the square of 2^p + 1, at several scales. A factor that is a
+/// power of two changes ties only among subnormals.
 fn near_ties_by_radicand<F: CorrectlyRounded>(random: &mut Random, tally: &mut Tally) {
     let place = random.critical::<F>();
     let off = random.tiny() * sign(random);
@@ -57,7 +57,7 @@ fn near_ties_by_radicand<F: CorrectlyRounded>(random: &mut Random, tally: &mut T
     }
 }
 
-/// Uses c·√r for a simple r. The value lies close to a critical value, or on it if the root is rational.
+/// Rounds c·√r for a simple r. The value lies close to a critical value, or equals it if the root is rational.
 fn near_ties_by_coefficient<F: CorrectlyRounded>(random: &mut Random, tally: &mut Tally) {
     let squares = random.of(&[1, 4, 9, 49]);
     let plain = [random.within(1..1000), squares, squares];

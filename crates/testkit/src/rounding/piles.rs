@@ -16,7 +16,8 @@ use super::numbers::towards;
 use super::random::{Random, power};
 use crate::judge::{exact, midpoint};
 
-/// A straight pile of discs or on any base, of any height, or a pile of any stacking with loads and weights.
+/// A straight pile of any height, of discs or of spheres on any base triangle; or a pile of any stacking with loads and
+/// weights.
 pub fn any(random: &mut Random) -> Pile {
     let pile = match random.within(0..8) {
         0 => Pile::discs(layers(random)),
@@ -40,7 +41,7 @@ fn layers(random: &mut Random) -> i128 {
     random.of(&[few, few, few, 1000, float, 10_i128.pow(18), 10_i128.pow(30)])
 }
 
-/// Up to 5/6. No spacing fits beyond it.
+/// A value of sin φ up to 5/6. Beyond 5/6 tall piles have no possible spacing.
 fn sin_phi(random: &mut Random) -> BigRational {
     let any = (random.within(1..83), 100);
     ratio(random.of(&[(1, 2), (2, 5), (5, 6), (1, 1_000_000), any, any]))

@@ -12,7 +12,7 @@ pub struct Tally {
     pub cases: u64,
     /// The number of values with a wrong float, in one format or both.
     pub wrong: u64,
-    /// The first wrong one.
+    /// A description of the first wrong value.
     pub witness: Option<String>,
 }
 

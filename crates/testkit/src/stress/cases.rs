@@ -1,5 +1,5 @@
-//! The piles: tall ones, spacings at every bound, extreme sizes, many sign changes, loads of 10⁻³⁰ next to 10³⁰, and sin φ
-//! near its limits.
+//! The piles of the stress tests: tall ones, spacings at every bound, extreme sizes, many sign changes, loads of 10⁻³⁰
+//! next to 10³⁰, and sin φ near its limits.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Region, Site};

@@ -49,9 +49,9 @@ impl<T: Clone> Forces<T> {
 const SAMPLE: usize = 120;
 
 impl<T: Algebra> Forces<T> {
-    /// Computes the forces. For a straight pile it uses the closed form at corners, midpoints and fixed sites of the top,
-    /// middle and bottom layers. For any other pile it uses a sweep along the middle row of the last two layers, perhaps
-    /// some way into the next row.
+    /// Computes the forces. For a straight pile it uses the closed form at corners, midpoints and fixed sites of the
+    /// top, middle and bottom layers. For any other pile it uses a sweep, at spheres of the middle row of the last two
+    /// layers. The spheres may extend into the next row.
     pub fn of(pile: &Pile) -> Result<Self, Error> {
         if pile.shape().stacking().is_straight() {
             Self::one_by_one(pile)

@@ -5,7 +5,7 @@
 //! | `cases` | the piles |
 //! | `forces` | the tested quantities, in any scalar |
 //! | `errors` | exact errors in units in the last place |
-//! | `deep`, `deep.md` | 250 and 1,000 sign changes, separate because they take long; the last measurements |
+//! | `deep`, `deep.md` | 250 and 1,000 sign changes, separate because they take long, and their last measurements |
 //! | `table` | the table, and the bounds of every row |
 //! | `table.md` | the table of the last measurements |
 

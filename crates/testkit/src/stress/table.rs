@@ -1,4 +1,5 @@
-//! The table: a row for each pile and quantity, a column for each scalar, and the bounds of every row.
+//! The table of the worst errors, with a row for each pile and quantity and a column for each scalar, and the bounds of
+//! every row.
 
 use core::fmt::{self, Write as _};
 
@@ -15,13 +16,14 @@ use crate::judge::{Float, Value, is_nearest};
 
 /// The text above the rows.
 pub const HEAD: &str = "\
-Worst errors at the limits, in units in the last place of the format; of double-double and of the width of intervals, in
-those of `f64`.
+The worst errors at the limits, in units in the last place (ulp) of the format. For double-doubles and for the width of
+intervals the unit is the ulp of `f64`.
 
-The column `nearest` is of exact values rounded to `f64` and `f32`, in pile units and in SI, in units of the value itself:
-Correct rounding has an error of at most ½. The others are of scalars in pile units. Their units are those of the value, for contacts and
-normal forces of straight piles; of the normal force, for their shears, which are differences; of the greatest component,
-for positions; and where signs change, of the greatest force of the layer. Each interval holds the exact value.
+The column `nearest` shows the errors of exact values rounded to `f64` and `f32`, in pile units and in SI, in ulps of
+the value. Correct rounding has an error of at most ½. The other columns show the errors of scalars in pile units. In
+straight piles the errors of contact and normal forces are in ulps of the value, and those of shear forces, which are
+differences, in ulps of the normal force. After sign changes all errors of forces are in ulps of the greatest force of
+the layer. The errors of positions are in ulps of the greatest component. Each interval contains the exact value.
 
 | pile | quantity | nearest | `f64` | `f32` | double-double | interval |
 |---|---|--:|--:|--:|--:|--:|
@@ -72,7 +74,7 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// An exact value, and the number whose last place is the unit of its error.
+/// An exact value, and the number whose unit in the last place is the unit of its error.
 struct Wanted {
     value: BigRational,
     about: BigRational,
@@ -326,7 +328,8 @@ impl Row {
             Outcome::Errs(worst) => worst.is_at_most(limit),
             Outcome::Overflows => false,
         });
-        // The printed value is rounded, and the root approximate. The exact check was made before.
+        // These errors are computed from an approximate root, so they may slightly exceed ½. The exact check was made
+        // before.
         let half = self.nearest.is_at_most(&(ratio(1, 2) + ratio(1, 1 << 60)));
         if kept && half {
             Ok(())

@@ -9,7 +9,7 @@ use core::fmt::Debug;
 
 use crate::answers::Answers;
 
-/// `Ok`, or the contradiction to the theorem.
+/// `Ok`, or a description of the answer that contradicts the theorem.
 pub type Verdict = Result<(), String>;
 
 /// `got` equals `want`. The error names the item `what`.
