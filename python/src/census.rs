@@ -31,7 +31,7 @@ type Row = (
     Option<BigRational>,
 );
 
-/// The base of taller piles with sign changes is not searched.
+/// For taller piles with sign changes the range of base normal forces is not computed.
 const MAX_CHECKED_LAYERS: i128 = 100_000;
 
 /// An iterator over stackings.
@@ -49,7 +49,7 @@ impl Census {
 
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<Row>> {
         work(py, || {
-            // Entries that were not returned before a panic remain to be returned.
+            // After a panic in another thread the iterator continues with the remaining entries.
             let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
             for entry in entries.by_ref() {
                 let entry = entry?;

@@ -195,7 +195,7 @@ impl Pile {
         self.exact.weight()
     }
 
-    /// True if the pile is stable, None if this is open.
+    /// True if the pile is stable, None if this is undecided.
     #[getter]
     fn stands(&self, py: Python<'_>) -> PyResult<Option<bool>> {
         Ok(match work(py, || self.verdict())? {

@@ -103,7 +103,8 @@ class Recursion:
                     gamma = along_gamma - along_beta / 2
                     self.floor[site] = (vertical / 3 + weight, sign * gamma / 3, sign * along_beta / 6)
                     continue
-                # The three lower contacts carry the load of the upper ones and three times the weight, and balance their thrust.
+                # Forces are in f0, with a vertical part of mg/3. So the lower contacts carry the vertical force plus
+                # three times the weight, and balance the horizontal force.
                 carried, beta, gamma = vertical + 3 * weight, *(x * sign * next_sign for x in (along_beta, along_gamma))
                 alpha = (carried - beta - gamma) / 3
                 for index, force in enumerate((alpha, alpha + beta, alpha + gamma)):

@@ -70,7 +70,7 @@ def test_isosceles_bases_and_discs():
     assert all(pile.force(k, i, direction=direction) == force for (k, i, _, direction), force in closed.items())
 
 
-# The recursion matches the closed form of the paper. With a wrong stacking, the comparison fails.
+# The recursion agrees with the closed form of the paper, and disagrees for another stacking.
 def test_recursion_matches_closed_form():
     straight = recursion({"layers": 6})
     assert straight.forces == isosceles(6, Fraction(1, 2))

@@ -1,4 +1,4 @@
-"""The import time beyond NumPy, which is printed but not asserted."""
+"""The import time of the package without that of NumPy, which is printed but not asserted."""
 
 import re
 import subprocess

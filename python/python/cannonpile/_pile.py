@@ -324,8 +324,8 @@ class Pile:
     def stands(self) -> bool | None:
         """Whether the pile is stable: no contact force is tensile.
 
-        None if the answer is open: spheres have further contacts that may stabilise the pile, or weigh nothing. At a = R
-        (``spacing=1``) horizontal contacts are included.
+        None if stability is undecided, because further contacts may stabilise the pile, or if the spheres are
+        weightless. At a = R (``spacing=1``) horizontal contacts are included.
 
         Examples
         --------
@@ -344,7 +344,7 @@ class Pile:
         ValueError
             If the spacing is impossible for this stacking.
         OverflowError
-            If it exceeds float64.
+            If the unit exceeds float64.
 
         Examples
         --------

@@ -181,7 +181,7 @@ class Known(namedtuple("Known", "title purpose stands")):
     title : str
         A short description of the pile.
     purpose : str
-        The feature of a contact force code that the case tests.
+        What the case tests in a code that computes contact forces.
     stands : bool or None
         True if the pile is stable. None for weightless spheres.
 

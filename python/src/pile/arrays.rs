@@ -14,7 +14,7 @@ use crate::exception::Raised;
 use crate::work::work;
 
 impl Pile {
-    /// Pile units or SI units.
+    /// Returns the arrays of the pile, in SI units or in pile units.
     fn numbers(&self, si: bool) -> PyResult<PileArrays<'_>> {
         let numbers = if si {
             self.packing()
