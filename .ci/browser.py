@@ -106,7 +106,7 @@ class Browser:
         self.send("Emulation.setEmulatedMedia", features=[scheme])
 
     def open(self, path):
-        """Opens a file; returns the seconds until its first picture."""
+        """Opens a file, and returns the seconds until its first picture."""
         begun = time.monotonic()
         self.loaded = False
         self.send("Page.navigate", url=pathlib.Path(path).resolve().as_uri())

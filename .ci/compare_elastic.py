@@ -1,7 +1,7 @@
 """Compares measured forces of a code with springs with those of an elastic state, relative to the largest force.
 
 Usage: compare_elastic.py MEASURED CONTACTS, a LAMMPS dump or a csv with id1, id2 and force, and contacts.csv of the export
-with its spheres.csv beside it. What bears a force must bear that one, what does not must not, to 1e-5 of the greatest.
+with its spheres.csv beside it. All forces must agree to 1e-5 of the largest force. Open contacts must have no force.
 """
 
 import csv

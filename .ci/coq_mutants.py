@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Changes recorded definitions of Formulas.v, one at a time, and checks that Coq rejects a proof: coq_mutants.py FOLDER few|one|all.
 
-FOLDER has the files of `cannonpile prove --to coq`, compiled. An operator, a number or a name is changed; `one` takes one of
-each definition, the one in its middle, `few` does so for every 27th definition, `all` takes all. Exit status 1 if a change
-survives, with its line, and beforehand if what is unchanged is refused. COQ_JOBS are run at once.
+FOLDER has the compiled files of `cannonpile prove --to coq`. A change replaces an operator, a number or a name. `all`
+makes every change, `one` the middle one of each definition, and `few` the middle one of every 27th definition. The exit
+status is 1 if a change survives, which is printed, or if Coq rejects the unchanged files. COQ_JOBS is the number of
+changes tested in parallel.
 """
 
 import os

@@ -31,7 +31,7 @@ def integers(place):
 
 
 class Program:
-    """The linear program whose feasible set is all contact forces mu >= 0 that balance the free spheres."""
+    """The linear program over all contact forces mu >= 0 that balance the free spheres."""
 
     def __init__(self, piled, folder):
         self.piled, self.touching, self.folder = piled, pairs(piled), folder

@@ -17,8 +17,8 @@ kills, one on each line with the reason. The script fails if an unlisted mutant 
 
 Examples in the documentation (doctests) are not run.
 
-Needs cargo-mutants (for its list of faults), and the Python packages tree-sitter and tree-sitter-rust; `.ci/mutants` installs them.
-"""
+Needs cargo-mutants, which lists the faults, and the Python packages tree-sitter and tree-sitter-rust. `.ci/mutants`
+installs them. """
 
 import argparse
 import collections

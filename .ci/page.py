@@ -1,8 +1,8 @@
-"""The page of `cannonpile export --to html` in a browser: `page.py FOLDER`, with CANNONPILE naming the binary. Pages and pictures
-of them are left in the folder.
+"""Tests the page of `cannonpile export --to html` in a browser: `page.py FOLDER`. CANNONPILE is the path of the binary.
+The pages and screenshots remain in the folder.
 
-What is seen is judged by pixels, what is said by what `cannonpile contacts` and `base` say of the same scene, what is asked of
-others by the browser's own record.
+The tests check pictures by their pixels, tables against the output of `cannonpile contacts` and `base` for the same
+scene, and network requests by the record of the browser.
 """
 
 import csv
@@ -86,14 +86,14 @@ class Shown:
         return self.browser.run(f"{ROWS}; rows()")
 
     def spheres(self, ids):
-        """Selects each sphere by its number; returns its indices and the rows of its table."""
+        """Selects each sphere by its number, and returns its indices and the rows of its table."""
         return self.browser.run(
             f"{ROWS}; {ids}.map((sphere) => {{ cannonpile.choose({{ sphere }});"
             " return { sphere, place: cannonpile.pile.place(sphere).split(','), rows: rows() }; })"
         )
 
     def chosen(self):
-        """Returns the same for the selected sphere."""
+        """Returns the indices of the selected sphere, and the rows of its table."""
         sphere = self.run("cannonpile.view.chosen.sphere")
         return {"sphere": sphere, "place": self.run(f"cannonpile.pile.place({sphere}).split(',')"), "rows": self.rows()}
 
@@ -117,7 +117,7 @@ def said(row, state=0, states=1):
 
 
 def judge_sphere(told, exact, newtons, state=0, states=1):
-    """Compares the table of a sphere with `contacts`, exactly and in N; returns the number of contacts."""
+    """Compares the table of a sphere with `contacts`, exactly and in N, and returns the number of contacts."""
     judged = 0
     for row in told["rows"]:
         if row["other"] is None:
