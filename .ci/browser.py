@@ -76,25 +76,25 @@ class Browser:
             message["sessionId"] = self.session
         self.socket.send(json.dumps(message))
         while True:
-            said = json.loads(self.socket.recv())
-            if said.get("id") == self.sent:
-                if "error" in said:
-                    raise RuntimeError(f"{method}: {said['error']}")
-                return said["result"]
-            self._hear(said)
+            response = json.loads(self.socket.recv())
+            if response.get("id") == self.sent:
+                if "error" in response:
+                    raise RuntimeError(f"{method}: {response['error']}")
+                return response["result"]
+            self._record(response)
 
-    def _hear(self, said):
-        told = said.get("params", {})
-        match said.get("method"):
+    def _record(self, event):
+        values = event.get("params", {})
+        match event.get("method"):
             case "Runtime.exceptionThrown":
-                details = told["exceptionDetails"]
+                details = values["exceptionDetails"]
                 self.errors.append(details.get("exception", {}).get("description", details["text"]))
-            case "Runtime.consoleAPICalled" if told["type"] in ("error", "warning", "assert"):
-                self.errors.append(" ".join(str(part.get("value")) for part in told["args"]))
-            case "Log.entryAdded" if told["entry"]["level"] in ("error", "warning"):
-                self.errors.append(told["entry"]["text"])
+            case "Runtime.consoleAPICalled" if values["type"] in ("error", "warning", "assert"):
+                self.errors.append(" ".join(str(part.get("value")) for part in values["args"]))
+            case "Log.entryAdded" if values["entry"]["level"] in ("error", "warning"):
+                self.errors.append(values["entry"]["text"])
             case "Network.requestWillBeSent":
-                self.requests.append(told["request"]["url"])
+                self.requests.append(values["request"]["url"])
             case "Page.loadEventFired":
                 self.loaded = True
 
@@ -111,7 +111,7 @@ class Browser:
         self.loaded = False
         self.send("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
         while not self.loaded:
-            self._hear(json.loads(self.socket.recv()))
+            self._record(json.loads(self.socket.recv()))
         self.settle()
         return time.monotonic() - begun
 
@@ -121,10 +121,10 @@ class Browser:
 
     def run(self, script):
         """Returns the JSON value of a script, after waiting for promises."""
-        said = self.send("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
-        if "exceptionDetails" in said:
-            raise RuntimeError(f"{script}: {said['exceptionDetails']}")
-        return said["result"].get("value")
+        response = self.send("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in response:
+            raise RuntimeError(f"{script}: {response['exceptionDetails']}")
+        return response["result"].get("value")
 
     def click(self, x, y):
         for kind in ["mousePressed", "mouseReleased"]:

@@ -33,11 +33,11 @@ def integers(place):
 class Program:
     """The linear program over all contact forces mu >= 0 that balance the free spheres."""
 
-    def __init__(self, piled, folder):
-        self.piled, self.touching, self.folder = piled, pairs(piled), folder
-        places = [integers(sphere.place) for sphere in piled]
-        balance = {number: [{}, {}, {}] for number, sphere in enumerate(piled) if not sphere.fixed}
-        self.bearing = {number: [] for number, sphere in enumerate(piled) if sphere.fixed}
+    def __init__(self, all_spheres, folder):
+        self.all_spheres, self.touching, self.folder = all_spheres, pairs(all_spheres), folder
+        places = [integers(sphere.place) for sphere in all_spheres]
+        balance = {number: [{}, {}, {}] for number, sphere in enumerate(all_spheres) if not sphere.fixed}
+        self.bearing = {number: [] for number, sphere in enumerate(all_spheres) if sphere.fixed}
         for name, (one, other) in enumerate(self.touching):
             for end, by in ((one, other), (other, one)):
                 if end in balance:
@@ -47,7 +47,7 @@ class Program:
                     self.bearing[end].append(name)
         self.rows = []
         for number, equations in balance.items():
-            weight = piled[number].weight
+            weight = all_spheres[number].weight
             for equation, total in zip(equations, (0, 0, weight)):
                 terms = "".join(f" {c * weight.denominator:+d} m{name}" for name, c in equation.items() if c)
                 self.rows.append(f" r{len(self.rows)}:{terms} = {total * weight.denominator}")
@@ -60,35 +60,35 @@ class Program:
         file.write_text("\n".join(lines) + "\n")
         answer.unlink(missing_ok=True)
         run = subprocess.run(["esolver", "-L", "-O", answer, file], capture_output=True, text=True, timeout=300)
-        said = answer.read_text() if answer.exists() else ""
-        status = re.search(r"status\s*=?\s*(\w+)", said, re.IGNORECASE)
+        solution = answer.read_text() if answer.exists() else ""
+        status = re.search(r"status\s*=?\s*(\w+)", solution, re.IGNORECASE)
         if status and status[1].upper() == "INFEASIBLE":
             return None
-        value = re.search(r"Value = (\S+)", said)
+        value = re.search(r"Value = (\S+)", solution)
         if not (status and status[1].upper() == "OPTIMAL" and value):
-            raise SystemExit(f"FAILED: esolver finds neither an optimum nor infeasibility: {said[:200]}{run.stderr[-500:]}")
+            raise SystemExit(f"FAILED: esolver finds neither an optimum nor infeasibility: {solution[:200]}{run.stderr[-500:]}")
         return Fraction(value[1])
 
 
 def main(folder, file=None):
-    piled = spheres(folder)
+    all_spheres = spheres(folder)
     with tempfile.TemporaryDirectory() as scratch:
-        program = Program(piled, scratch)
+        program = Program(all_spheres, scratch)
         if file is None:
             if program.extreme("Minimize", next(iter(program.bearing))) is not None:
                 raise SystemExit("FAILED: an unstable pile has an equilibrium")
-            print(f"{len(piled)} spheres have no equilibrium")
+            print(f"{len(all_spheres)} spheres have no equilibrium")
             return
         claimed = bounds(file)
         if len(claimed) != len(program.bearing):
             raise SystemExit(f"FAILED: {len(claimed)} bounds for {len(program.bearing)} bottom spheres")
         for number in program.bearing:
-            least, greatest, attained = claimed[piled[number].site]
-            weight = piled[number].weight
+            least, greatest, attained = claimed[all_spheres[number].site]
+            weight = all_spheres[number].weight
             exact = [weight + program.extreme(sense, number) for sense in ("Minimize", "Maximize")]
             if exact != [least, greatest] and (attained or not least <= exact[0] <= exact[1] <= greatest):
-                raise SystemExit(f"FAILED: {piled[number].site} has bounds {exact[0]} to {exact[1]}, not {least} to {greatest}")
-    print(f"{2 * len(claimed)} bounds agree with QSopt_ex: {len(piled)} spheres, {len(program.touching)} contacts")
+                raise SystemExit(f"FAILED: {all_spheres[number].site} has bounds {exact[0]} to {exact[1]}, not {least} to {greatest}")
+    print(f"{2 * len(claimed)} bounds agree with QSopt_ex: {len(all_spheres)} spheres, {len(program.touching)} contacts")
 
 
 main(*sys.argv[1:])

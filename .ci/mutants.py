@@ -58,7 +58,7 @@ PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
 
 # The module that mutated code calls. No mutant is active in constant evaluation. So a constant with mutants also becomes a
 # function, which expressions in its file or block call. Other files, macros, patterns and paths use the original constant.
-ASKED = """
+ACTIVE_MODULE = """
 //! The active mutant: the one that the environment variable MUTANT names, or none.
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
 use std::io::Write;
@@ -275,8 +275,8 @@ class Rewriter:
             guard = node.child_by_field_name("condition")
             given = f"({self.text(guard)})"
             for fault in faults:
-                asked = self.active(fault)
-                given = f"({asked} || {given})" if fault.replacement == "true" else f"(!{asked} && {given})"
+                active = self.active(fault)
+                given = f"({active} || {given})" if fault.replacement == "true" else f"(!{active} && {given})"
             return self.plain(node, [(guard, given)])
         if node.type == "struct_expression":
             return self.choice(faults, self.plain(node), lambda fault: self.without_field(node, fault))
@@ -294,9 +294,9 @@ class Rewriter:
             )
             return f"match {self.text(right)} {{ mutant_r => {alternatives} }}"
         if operator in {"&&", "||"}:
-            asked = self.active(faults[0])
+            active = self.active(faults[0])
             assert len(faults) == 1 and faults[0].replacement in {"&&", "||"}, faults[0].words
-            return f"({asked} ^ (({asked} ^ ({self.text(left)})) {operator} ({asked} ^ ({self.text(right)}))))"
+            return f"({active} ^ (({active} ^ ({self.text(left)})) {operator} ({active} ^ ({self.text(right)}))))"
         compares = operator in {"==", "!=", "<", ">", "<=", ">="}
         mark, deref = ("&", "*") if compares else ("", "")
         alternatives = self.choice(
@@ -354,7 +354,7 @@ class Copy:
             (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(HERE / name, self.tree / name)
         count = max(self.faults, default=0) + 1
-        (self.tree / "crates" / "surd" / "src" / "mutants.rs").write_text(ASKED.replace("COUNT", str(count)))
+        (self.tree / "crates" / "surd" / "src" / "mutants.rs").write_text(ACTIVE_MODULE.replace("COUNT", str(count)))
         self.originals = {}
         for file in {fault.file for fault in self.faults.values()} | {"crates/surd/src/lib.rs", "src/lib.rs"}:
             self.originals[file] = (self.tree / file).read_bytes()
@@ -418,13 +418,13 @@ class Copy:
     def settle(self):
         """Removes mutants that do not compile, until the rest compiles."""
         while True:
-            said = self.cargo("check", "--lib", "--bins")
+            completed = self.cargo("check", "--lib", "--bins")
             errors = [
                 line["message"]
-                for line in map(json.loads, said.stdout.splitlines())
+                for line in map(json.loads, completed.stdout.splitlines())
                 if line["reason"] == "compiler-message" and line["message"]["level"] == "error" and line["message"]["spans"]
             ]
-            if said.returncode == 0:
+            if completed.returncode == 0:
                 return
             files, lost = set(), 0
             for error in errors:
@@ -436,19 +436,19 @@ class Copy:
             if not lost:
                 for error in errors[:20]:
                     print(error["rendered"])
-                print(said.stderr[-3000:])
+                print(completed.stderr[-3000:])
                 raise SystemExit("the instrumented code does not compile")
             self.write(files)
 
     def build(self):
-        said = self.cargo("test", "--no-run", "--lib", "--bins", "--tests")
-        if said.returncode:
-            print(said.stderr[-4000:])
+        completed = self.cargo("test", "--no-run", "--lib", "--bins", "--tests")
+        if completed.returncode:
+            print(completed.stderr[-4000:])
             raise SystemExit("the tests do not build")
         # Each binary runs in the folder of its package, as with `cargo test`. Binaries of examples contain no tests.
         return [
             (line["executable"], str(Path(line["manifest_path"]).parent))
-            for line in map(json.loads, said.stdout.splitlines())
+            for line in map(json.loads, completed.stdout.splitlines())
             if line["reason"] == "compiler-artifact"
             and line["executable"]
             and line["profile"]["test"]
@@ -593,12 +593,12 @@ def listed(folder):
     """Returns the mutants of cargo-mutants, numbered."""
     path = folder / "listed.json"
     listing = ["cargo", "mutants", "--workspace", "--list", "--json"]
-    said = subprocess.run(listing, cwd=HERE, check=True, capture_output=True, text=True)
-    path.write_text(said.stdout)
+    completed = subprocess.run(listing, cwd=HERE, check=True, capture_output=True, text=True)
+    path.write_text(completed.stdout)
     texts = {}
     faults = []
     times = collections.Counter()
-    for number, one in enumerate(one for one in json.loads(said.stdout) if one["package"] != TESTKIT):
+    for number, one in enumerate(one for one in json.loads(completed.stdout) if one["package"] != TESTKIT):
         file = one["file"]
         if file not in texts:
             texts[file] = (HERE / file).read_text()
@@ -614,9 +614,9 @@ def listed(folder):
 def changed_lines(commit):
     """Returns the source lines that differ from a commit, as (file, line). Lines of a renamed file differ only if edited."""
     diff = ["git", "diff", "-U0", "--find-renames=40%", "-l0", commit, "--", *SOURCES]
-    said = subprocess.run(diff, cwd=HERE, check=True, capture_output=True, text=True).stdout
+    completed = subprocess.run(diff, cwd=HERE, check=True, capture_output=True, text=True).stdout
     lines, file = set(), None
-    for line in said.splitlines():
+    for line in completed.splitlines():
         if line.startswith("+++ b/"):
             file = line.removeprefix("+++ b/")
         hunk = re.match(r"@@ -\S+ \+(\d+)(?:,(\d+))? @@", line)
@@ -641,32 +641,32 @@ def options():
     return parser.parse_args()
 
 
-def chosen(faults, asked):
-    if asked.room:
-        faults = [fault for fault in faults if room(fault.file) in asked.room]
+def chosen(faults, arguments):
+    if arguments.room:
+        faults = [fault for fault in faults if room(fault.file) in arguments.room]
     else:
         faults = [fault for fault in faults if room(fault.file) not in TOOLS and fault.file not in RECORDS]
-    if asked.changed:
-        lines = changed_lines(asked.changed)
+    if arguments.changed:
+        lines = changed_lines(arguments.changed)
         faults = [fault for fault in faults if (fault.file, int(fault.place.split(":")[1])) in lines]
-    first, count = map(int, asked.shard.split("/"))
+    first, count = map(int, arguments.shard.split("/"))
     faults = faults[first::count]
-    if asked.sample and asked.sample < len(faults):
-        faults = sorted(random.Random(1).sample(faults, asked.sample), key=lambda fault: fault.number)
+    if arguments.sample and arguments.sample < len(faults):
+        faults = sorted(random.Random(1).sample(faults, arguments.sample), key=lambda fault: fault.number)
     return faults
 
 
 def main():
-    asked = options()
+    arguments = options()
     began = time.monotonic()
-    folder = asked.folder.resolve()
+    folder = arguments.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     state = folder / "state.json"
     planted = listed(folder)
     # Every survivor on the list must still be a mutant.
     if stale := sorted(survivors().keys() - {fault.key for fault in planted}):
         raise SystemExit("in .ci/mutants.survivors, but not among the mutants:\n" + "\n".join(stale))
-    copy = Copy(folder, chosen(planted, asked), asked.jobs)
+    copy = Copy(folder, chosen(planted, arguments), arguments.jobs)
     everything = dict(copy.faults)
     print(f"{len(everything)} mutants", flush=True)
     if not everything:
@@ -682,7 +682,7 @@ def main():
         print(f"{len(copy.faults)} compile, {time.monotonic() - began:.0f} s", flush=True)
         binaries = copy.build()
         print(f"built, {time.monotonic() - began:.0f} s", flush=True)
-        recorded = Tests(copy).record(binaries, asked.jobs, asked.slowest)
+        recorded = Tests(copy).record(binaries, arguments.jobs, arguments.slowest)
         unviable = {number: why for number, (_, why) in copy.unviable.items()}
         state.write_text(json.dumps({"viable": sorted(copy.faults), "unviable": unviable, "recorded": recorded}))
     failing = [test["name"] for test in recorded if test["passed"] is False]
@@ -691,13 +691,13 @@ def main():
     if failing:
         print(f"left out, because they fail without a mutant: {', '.join(failing)}", flush=True)
     if slow:
-        print(f"left out, because they take longer than {asked.slowest:.0f} s: {', '.join(slow)}", flush=True)
+        print(f"left out, because they take longer than {arguments.slowest:.0f} s: {', '.join(slow)}", flush=True)
 
     results = folder / "results.jsonl"
     done = {}
     if results.exists():
         done = {one["number"]: one for one in map(json.loads, results.read_text().splitlines())}
-    attack = Attack(Tests(copy), recorded, asked.most)
+    attack = Attack(Tests(copy), recorded, arguments.most)
     reasons = survivors()
 
     def is_to_be_shown(fault):
@@ -705,24 +705,24 @@ def main():
         one = done.get(fault.number)
         if one is None or one["outcome"] != "survives so far":
             return one is None
-        return asked.most > one["most"] and fault.key not in reasons
+        return arguments.most > one["most"] and fault.key not in reasons
 
     # In random order, because then the mutants tested within --seconds are a random sample.
     todo = [fault for fault in copy.faults.values() if is_to_be_shown(fault)]
     random.Random(2).shuffle(todo)
-    with results.open("a") as out, concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
+    with results.open("a") as out, concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
 
         def one(fault):
-            if time.monotonic() - began > asked.seconds:
+            if time.monotonic() - began > arguments.seconds:
                 return
-            judged = {"number": fault.number, "key": fault.key, "place": fault.place, "most": asked.most} | attack.judge(fault)
+            judged = {"number": fault.number, "key": fault.key, "place": fault.place, "most": arguments.most} | attack.judge(fault)
             with attack.lock:
                 done[fault.number] = judged
                 out.write(json.dumps(judged) + "\n")
                 out.flush()
 
         list(pool.map(one, todo))
-    raise SystemExit(report(copy, everything, done, asked.least))
+    raise SystemExit(report(copy, everything, done, arguments.least))
 
 
 def survivors():

@@ -22,10 +22,10 @@ SCREEN, PHONE = (1280, 860), (390, 844)
 
 
 def cannonpile(*words):
-    said = subprocess.run([CANNONPILE, *words], check=False, capture_output=True, text=True)
-    if said.returncode not in (0, 1):
-        raise AssertionError(said.stderr)
-    return said.stdout
+    completed = subprocess.run([CANNONPILE, *words], check=False, capture_output=True, text=True)
+    if completed.returncode not in (0, 1):
+        raise AssertionError(completed.stderr)
+    return completed.stdout
 
 
 def page(name, *scene):
@@ -109,30 +109,30 @@ class Shown:
 GREEK = {"α": "alpha", "β": "beta", "γ": "gamma", "αβ": "alpha-beta", "αγ": "alpha-gamma", "γβ": "gamma-beta"}
 
 
-def said(row, state=0, states=1):
+def row_numbers(row, state=0, states=1):
     """Returns the exact multiple and the exact force in N of a row for a state, or None."""
     cells = row["exact"] if states == 1 else [row["exact"][state]]
     numbers = [number.removesuffix(" N") for cell in cells for number in cell]
     return numbers if len(numbers) == 2 else ["0", "0"] if numbers == ["0"] else None
 
 
-def judge_sphere(told, exact, newtons, state=0, states=1):
+def judge_sphere(shown_table, exact, newtons, state=0, states=1):
     """Compares the table of a sphere with `contacts`, exactly and in N, and returns the number of contacts."""
     judged = 0
-    for row in told["rows"]:
+    for row in shown_table["rows"]:
         if row["other"] is None:
             continue
         side, way = row["head"].split(", ")
         other = row["other"].split("(")[1].rstrip(")").split(",")
-        named = {"below": [told["place"]], "above": [other], "beside": [told["place"], other]}[side]
+        named = {"below": [shown_table["place"]], "above": [other], "beside": [shown_table["place"], other]}[side]
         keys = [key for key in ((*place, GREEK[way]) for place in named) if key in exact]
-        found = said(row, state, states)
+        found = row_numbers(row, state, states)
         if side == "beside" and not keys:
-            check(found in (None, ["0", "0"]), told["sphere"], row)
+            check(found in (None, ["0", "0"]), shown_table["sphere"], row)
             continue
-        check(any(found == [exact[key], newtons[key]] for key in keys), told["sphere"], row, [exact[key] for key in keys])
+        check(any(found == [exact[key], newtons[key]] for key in keys), shown_table["sphere"], row, [exact[key] for key in keys])
         judged += 1
-    check(judged > 0, "sphere", told["sphere"], "has no contact in its table")
+    check(judged > 0, "sphere", shown_table["sphere"], "has no contact in its table")
     return judged
 
 
@@ -234,12 +234,12 @@ def draws_and_picks(browser):
     check("no such sphere" in shown.run("document.getElementById('found').textContent"), "9999")
     # All spheres, and the base forces.
     everything = shown.spheres("Array.from({ length: cannonpile.pile.count }, (_, n) => n + 1)")
-    judged = sum(judge_sphere(told, exact, newtons) for told in everything)
+    judged = sum(judge_sphere(shown_table, exact, newtons) for shown_table in everything)
     check(judged == 2 * len(exact), judged, "contacts, not", 2 * len(exact))
     base = table("base", *scene)
-    for told, wanted in zip(everything[-len(base) :], base):
-        check(told["place"][1:] == [wanted["i"], wanted["j"]], told, wanted)
-        for row, column in zip(told["rows"][-3:], ["normal", "shear_x", "shear_y"]):
+    for shown_table, wanted in zip(everything[-len(base) :], base):
+        check(shown_table["place"][1:] == [wanted["i"], wanted["j"]], shown_table, wanted)
+        for row, column in zip(shown_table["rows"][-3:], ["normal", "shear_x", "shear_y"]):
             check(row["exact"][0] == [wanted[column]], row, wanted)
     shown.quiet()
     return f"{judged} forces in tables are those of the command line"
@@ -289,7 +289,7 @@ def contacts_are_picked(browser):
 def judge_contact(shown, contact, exact, newtons, state=0):
     place = shown.run(f"cannonpile.pile.place(cannonpile.pile.ends[0][{contact}])").split(",")
     way = shown.run(f"cannonpile.pile.wayNames[cannonpile.pile.wayOf[{contact}]]")
-    found = said(shown.rows()[state])
+    found = row_numbers(shown.rows()[state])
     check(found == [exact[*place, way], newtons[*place, way]], contact, found, exact[*place, way])
     return found[0]
 
@@ -337,15 +337,15 @@ def both_states_are_shown(browser):
         browser.click(*shown.at(1, state))
         check(shown.heading() == "Sphere 1 (0,0,0)", state, shown.heading())
     sloping, pushing = 0, 0
-    for told in shown.spheres("Array.from({ length: cannonpile.pile.firstOnFloor - 1 }, (_, n) => n + 1)"):
-        sloping += judge_sphere(told, isostatic, of_isostatic, state=0, states=2)
-        pushing += judge_sphere(told, exact, newtons, state=1, states=2)
+    for shown_table in shown.spheres("Array.from({ length: cannonpile.pile.firstOnFloor - 1 }, (_, n) => n + 1)"):
+        sloping += judge_sphere(shown_table, isostatic, of_isostatic, state=0, states=2)
+        pushing += judge_sphere(shown_table, exact, newtons, state=1, states=2)
     check(pushing == sloping + 2 * (len(exact) - len(isostatic)) and len(exact) == len(isostatic) + 3, sloping, pushing)
     # Three horizontal contacts have a force, and the others are open.
     shown.run("document.getElementById('show-forces').click(); cannonpile.choose({ sphere: cannonpile.pile.find('2,0,-1') })")
     beside = [row for row in shown.rows() if row["head"].startswith("beside")]
     wanted = exact["2", "0", "-1", "alpha-beta"]
-    check(sum(said(row, 1, 2)[0] == wanted for row in beside) == 1, beside, wanted)
+    check(sum(row_numbers(row, 1, 2)[0] == wanted for row in beside) == 1, beside, wanted)
     check("open" in shown.run("document.getElementById('chosen').textContent"), "nothing is open")
     browser.picture(folder / "elastic.png")
     check(any(isostatic[key] != exact[key] for key in isostatic), "one state only")
@@ -436,8 +436,8 @@ def main():
     with Browser() as browser:
         for test in [draws_and_picks, contacts_are_picked, cut_takes_layers_off, both_states_are_shown, dark_and_small, texts_are_no_markup, many_spheres]:
             begun = time.monotonic()
-            said = test(browser)
-            print(f"{test.__name__}: {said} ({time.monotonic() - begun:.1f} s)", flush=True)
+            summary = test(browser)
+            print(f"{test.__name__}: {summary} ({time.monotonic() - begun:.1f} s)", flush=True)
     print(f"without_webgl: {without_webgl(folder / 'hcp.html')}")
 
 

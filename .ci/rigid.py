@@ -23,19 +23,19 @@ TOLERANCE = 1e-9
 STARTS = 30
 
 
-def problem(piled):
+def problem(all_spheres):
     """Returns H, with a row for each contact and three columns for each free sphere, the weights, and the contacts."""
-    touching = pairs(piled)
-    free = [number for number, sphere in enumerate(piled) if not sphere.fixed]
+    touching = pairs(all_spheres)
+    free = [number for number, sphere in enumerate(all_spheres) if not sphere.fixed]
     column = {number: 3 * place for place, number in enumerate(free)}
     normals = numpy.zeros((len(touching), 3 * len(free)))
     for row, (one, other) in enumerate(touching):
-        normal = (numpy.array(piled[one].place) - numpy.array(piled[other].place)) / 2
+        normal = (numpy.array(all_spheres[one].place) - numpy.array(all_spheres[other].place)) / 2
         for end, sign in ((one, 1), (other, -1)):
             if end in column:
                 normals[row, column[end] : column[end] + 3] = sign * normal
     gravity = numpy.zeros(3 * len(free))
-    gravity[2::3] = [-float(piled[number].weight) for number in free]
+    gravity[2::3] = [-float(all_spheres[number].weight) for number in free]
     return normals, gravity, touching
 
 
@@ -79,15 +79,15 @@ def require(condition, message):
 
 
 def main(folder, file=None):
-    piled = spheres(folder)
-    normals, gravity, touching = problem(piled)
+    all_spheres = spheres(folder)
+    normals, gravity, touching = problem(all_spheres)
     found = [forces for forces in solutions(normals @ normals.T, normals @ gravity) if forces is not None]
     require(len(found) > STARTS / 2, f"Siconos finds forces from {len(found)} of {STARTS + 1} starts only")
     left = [abs(normals.T @ forces + gravity) for forces in found]
     fastest = [accelerations.max() for accelerations in left]
     if file is None:
         require(min(fastest) > 1e-3, f"nothing moves: the greatest acceleration is {min(fastest)} g")
-        print(f"{len(piled)} spheres move, by {min(fastest):.6f} to {max(fastest):.6f} g at most, from {len(found)} starts")
+        print(f"{len(all_spheres)} spheres move, by {min(fastest):.6f} to {max(fastest):.6f} g at most, from {len(found)} starts")
         return
     require(max(fastest) < 100 * TOLERANCE, f"something moves, by {max(fastest)} g")
     claimed = bounds(file)
@@ -96,11 +96,11 @@ def main(folder, file=None):
     moved = [10 * accelerations.sum() for accelerations in left]
     require(max(moved) < 10_000 * TOLERANCE, f"accelerations may move a normal force by {max(moved)} mg")
     used = []
-    for number, sphere in enumerate(piled):
+    for number, sphere in enumerate(all_spheres):
         if not sphere.fixed:
             continue
         bearing = [(row, one) for row, pair in enumerate(touching) if number in pair for one in pair if one != number]
-        rise = [(row, (piled[one].place[2] - sphere.place[2]) / 2) for row, one in bearing]
+        rise = [(row, (all_spheres[one].place[2] - sphere.place[2]) / 2) for row, one in bearing]
         normal = [float(sphere.weight) + sum(forces[row] * up for row, up in rise) for forces in found]
         least, greatest, _ = claimed[sphere.site]
         for one, by in zip(normal, moved):
@@ -113,7 +113,7 @@ def main(folder, file=None):
     # If all starts give nearly the same forces, the comparison tests little.
     require(not used or mean > 0.1, "the states are nearly equal")
     print(
-        f"{len(claimed)} normal forces lie within their bounds, in {len(found)} states of {len(piled)} spheres; on average they use "
+        f"{len(claimed)} normal forces lie within their bounds, in {len(found)} states of {len(all_spheres)} spheres; on average they use "
         f"{mean:.0%} of the range; residual accelerations change a force by at most {max(moved):.0e} mg"
     )
 

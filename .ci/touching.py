@@ -30,20 +30,20 @@ def spheres(folder):
     return read
 
 
-def pairs(piled):
+def pairs(all_spheres):
     """Returns the pairs (upper, lower) that touch, without pairs of fixed spheres; cells are a little wider than a diameter."""
     cells = {}
-    for number, sphere in enumerate(piled):
+    for number, sphere in enumerate(all_spheres):
         cells.setdefault(tuple(math.floor(c / 2.1) for c in sphere.place), []).append(number)
     found = []
-    for number, sphere in enumerate(piled):
+    for number, sphere in enumerate(all_spheres):
         x, y, z = (math.floor(c / 2.1) for c in sphere.place)
         near = [(x + a, y + b, z + c) for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1)]
         for other in (other for cell in near for other in cells.get(cell, []) if other > number):
-            distance = math.dist(sphere.place, piled[other].place)
+            distance = math.dist(sphere.place, all_spheres[other].place)
             if distance < 2 - 1e-9:
                 raise SystemExit(f"FAILED: spheres {number + 1} and {other + 1} overlap")
-            if distance < 2 + 1e-9 and not (sphere.fixed and piled[other].fixed):
+            if distance < 2 + 1e-9 and not (sphere.fixed and all_spheres[other].fixed):
                 found.append((number, other))
     return found
 

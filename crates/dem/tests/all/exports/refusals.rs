@@ -101,18 +101,18 @@ fn a_name_taken_at_the_last_moment() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("spheres.txt"), "mine").expect("a file");
     let taken = folder.path().join("contacts.csv");
-    let mut told = 0;
+    let mut reports = 0;
     // While the third file is written, a folder takes the name of the second one. So the rename of the second file
     // fails, after that of the first.
     let mut take = |_| {
-        told += 1;
-        if told == 3 {
+        reports += 1;
+        if reports == 3 {
             fs::create_dir_all(taken.join("inside")).expect("a folder");
         }
     };
     let refused = export.write(&[PileFormat::Csv], folder.path(), &mut take);
     assert!(matches!(refused, Err(WriteError::File { path, .. }) if path == taken));
-    assert_eq!(told, 3);
+    assert_eq!(reports, 3);
     assert!(!folder.path().join("spheres.csv").exists());
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);
 }
