@@ -2,8 +2,8 @@
 //! probability, enumerations, and samples.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench disorder`
-//! asserts the sum of every mean and the number of stable stackings. It prints seconds and the exponents of the cost. With
-//! `-- --smoke` it uses few layers.
+//! asserts that the mean normal forces of a unit load sum to 1, and the number of stable stackings. It prints seconds and
+//! the exponents of the cost. With `-- --smoke` it uses few layers.
 
 use std::env;
 use std::time::Instant;
@@ -44,7 +44,7 @@ fn in_floats(piles: &RandomPiles) {
 fn by_faults(piles: &RandomPiles) {
     let by_faults = piles.by_faults().expect("sums");
     let first = by_faults.rows().next().expect("a row").expect("a sum");
-    // In FCC the load on the corner is a third.
+    // Without faults (FCC) the load reaches the floor at three spheres, the first row among them, with a third each.
     if piles.is_weightless() {
         assert_eq!(first.normal, BigRational::new(1.into(), 3.into()));
     }
@@ -69,7 +69,7 @@ fn seconds(run: impl Fn()) -> f64 {
     runs.fold(f64::INFINITY, f64::min)
 }
 
-/// Prints the times of n and 2n layers, and the exponent.
+/// Prints the times for n and 2n steps, and the exponent.
 fn measure(name: &str, steps: [u32; 2], run: impl Fn(u32)) {
     let times = steps.map(|steps| seconds(|| run(steps)));
     for (steps, time) in steps.iter().zip(times) {

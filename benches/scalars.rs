@@ -123,7 +123,7 @@ impl Worst {
         }
         let parts = |a: &DoubleDouble| scaled(a.high()) + scaled(a.low());
         let (n, d) = operation.exactly(&parts(&a), &parts(&b));
-        // |n/d| lies between 2^(bits−1) and 2^(bits+1), in units of 2^−1074.
+        // n/d is in units of 2^−1074, so the magnitude of the result lies between 2^(bits−1) and 2^(bits+1).
         let bits = n.bits().cast_signed() - d.bits().cast_signed() - 1074;
         let Some(got) = operation
             .apply(a, &b)
@@ -160,7 +160,7 @@ fn scaled(x: f64) -> BigInt {
 fn quotient(n: &BigUint, d: &BigUint) -> f64 {
     let shift = d.bits().saturating_sub(64);
     let top = |n: &BigUint| (n >> shift).to_f64().unwrap_or(f64::INFINITY);
-    // A much smaller numerator is scaled first, to keep its digits.
+    // The numerator is scaled first, so that it keeps its digits even if it is much smaller than d.
     top(&(n << 160_u32)) / top(d) * 2.0_f64.powi(-160)
 }
 
@@ -206,7 +206,7 @@ impl Random {
         (x, if partner.is_finite() { partner } else { y })
     }
 
-    /// Returns two double-doubles. The lower part is sometimes half a unit in the last place, or zero.
+    /// Returns two double-doubles. The lower part is sometimes zero, or 2^−53 of the higher part.
     fn numbers(&mut self) -> [DoubleDouble; 2] {
         let (x, y) = self.pair();
         [x, y].map(|high| {

@@ -378,7 +378,7 @@ impl Shape {
     #[inline]
     pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
         let region = self.whole_region(k);
-        // Not a default: the counts are zero outside the pile.
+        // The counts are zero outside the pile.
         region.map_or([0; 3], |region| {
             region.spheres_above(i, j, run.sign, k - run.from)
         })

@@ -8,7 +8,7 @@ use super::equations::Equations;
 pub(crate) struct Iterated<F> {
     pub(crate) forces: Vec<F>,
     pub(crate) iterations: usize,
-    /// True if the residual of the recurrence is at most the tolerance.
+    /// True if the residual of the recurrence is at most `tolerance`·‖b‖.
     pub(crate) converged: bool,
 }
 

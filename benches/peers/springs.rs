@@ -67,7 +67,7 @@ pub(crate) fn relax(network: &Network, layers: u16, stiffness: f64) -> Relaxed {
         .copied()
         .map(f64::abs)
         .fold(0.0, f64::max);
-    // The rounding of six contacts, each between two rounded positions, with a margin.
+    // The effect of rounded positions on the residual force: six contacts with two rounded ends each, and a margin.
     let roundings = 16.0 * f64::EPSILON * extent * stiffness;
     let (patience, most) = (10 * usize::from(layers), 400 * usize::from(layers));
     let (mut least, mut fallen) = (f64::INFINITY, 0);
@@ -102,7 +102,7 @@ pub(crate) fn relax(network: &Network, layers: u16, stiffness: f64) -> Relaxed {
 /// The approximate ω of the slowest mode, in √(k/m)/L. Piles of 10 to 40 layers relax in 30 to 50 steps for each layer.
 const SLOWEST: f64 = 1.0;
 
-/// Returns the force of every contact, and the residual force on every sphere.
+/// Writes the force of every contact into `forces`, and the residual force on every sphere into `loads`.
 fn push(
     network: &Network,
     positions: &[[f64; 3]],

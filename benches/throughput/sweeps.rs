@@ -122,7 +122,7 @@ fn time_in<T: Algebra>(pile: &Pile) -> f64 {
     })
 }
 
-/// Sweeps down in the exact engine, with numerators as limbs in place.
+/// Sweeps down in the exact engine, which stores numerators as limbs and updates them in place.
 fn time_exact(pile: &Pile) -> f64 {
     time_in::<BigRational>(pile)
 }

@@ -156,8 +156,8 @@ fn measured<T: Algebra + RealEmbeddable>(
 
 /// Returns the error, and asserts that it agrees with the scalar: zero, inside the enclosure, or a few roundings.
 ///
-/// The closed form has a few roundings. The recursion has at most ten roundings for each layer, because no step amplifies
-/// errors. Each rounding is relative to the largest possible force, √(3KN) f₀ for N spheres in K layers.
+/// The closed form has a few roundings. The recursion has at most ten roundings for each layer, and no step amplifies
+/// errors. Each rounding is relative to a bound on all forces, √(KC) f₀ for C contacts in K layers.
 fn held<T: Algebra + RealEmbeddable>(
     bench: &Bench,
     method: Method,

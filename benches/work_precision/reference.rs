@@ -68,7 +68,7 @@ impl Reference {
         self.relative(errors.max().expect("a contact"))
     }
 
-    /// Asserts that every enclosure contains the exact force.
+    /// Returns whether every enclosure contains the exact force.
     pub(crate) fn is_enclosed_by<T: RealEmbeddable>(&self, forces: &[[T; 3]]) -> bool {
         let mut compared = self.compared(forces);
         compared.all(|(force, exact)| {
@@ -104,7 +104,7 @@ pub(crate) fn by_sphere<T>(forces: Vec<T>) -> Vec<[T; 3]> {
     spheres
 }
 
-/// Asserts that the contact forces on each sphere and its weight, 3 f₀ cosθ, sum to zero.
+/// Asserts that the contact forces and the weight, 3 f₀ cosθ, of each sphere above the floor sum to zero.
 fn certify(pile: &Pile, network: &Network, transmitted: &[[BigRational; 3]]) {
     let forces = pile.forces::<BigRational>();
     let mut left = vec![Vector::zero(); network.sites.len()];

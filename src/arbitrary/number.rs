@@ -175,7 +175,7 @@ pub fn real_sin_phi(u: &mut Unstructured<'_>) -> Result<f64> {
         f64::from_bits(u.int_in_range(1..=largest.to_bits())?)
     } else {
         let s = f64::from(u.arbitrary::<u32>()?) / f64::from(u32::MAX);
-        // Not a default: the values must lie strictly between 0 and 1.
+        // The values must lie strictly between 0 and 1.
         s.clamp(f64::MIN_POSITIVE, largest)
     })
 }
@@ -184,7 +184,7 @@ pub fn real_sin_phi(u: &mut Unstructured<'_>) -> Result<f64> {
 #[doc(hidden)]
 #[must_use]
 pub fn exactly(x: f64) -> BigRational {
-    // Not a default: the generators draw finite floats only.
+    // The generators draw finite floats only.
     BigRational::from_float(x).unwrap_or_default()
 }
 

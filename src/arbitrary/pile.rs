@@ -282,7 +282,7 @@ pub fn site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
     let floor = pile.layers() - 1;
     let k = match u.int_in_range(0..=2)? {
         0 => floor,
-        // Not a default: in low piles some of these layers coincide.
+        // In low piles some of these layers coincide.
         1 => [0, 1, floor - 1][u.choose_index(3)?].clamp(0, floor),
         _ => u.int_in_range(0..=floor)?,
     };

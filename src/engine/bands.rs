@@ -98,7 +98,7 @@ where
 
 /// Returns the number of bands for these passes: 1 where more threads would cost more than they save.
 fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
-    // Not a default: this count decides only whether threads are used.
+    // This count decides only whether threads are used.
     let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;

@@ -95,7 +95,7 @@ impl Size {
         let bits = turned.bits();
         let planes = match bits.checked_sub(62) {
             None | Some(0) => 1,
-            // Not a default: a number of planes beyond the address space is refused later for its size.
+            // A number of planes beyond the address space is refused later for its size.
             Some(over) => 1 + usize::try_from(over.div_ceil(LIMB.into())).unwrap_or(usize::MAX - 1),
         };
         Self { bits, planes }
@@ -220,7 +220,7 @@ impl Planes {
         let all = self
             .limbs
             .first()
-            // Not a default: without planes there is nothing to carry.
+            // Without planes there is nothing to carry.
             .map_or([0; 3], |plane| plane.0.each_ref().map(Vec::len));
         let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
         let fits = carry_rows(&mut planes, &all.map(|n| 0..n));
@@ -390,7 +390,7 @@ pub(super) fn limbs(value: &BigInt, planes: usize) -> Option<Vec<i64>> {
     let mut limbs = Vec::with_capacity(planes);
     for _ in 1..planes {
         if held < LIMB {
-            // Not a default: above the highest word all bits are zero.
+            // Above the highest word all bits are zero.
             bits |= u128::from(words.next().unwrap_or(0)) << held;
             held += u64::BITS;
         }

@@ -98,7 +98,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             meter.pass();
             if meter.counts() && pass.turns {
                 let sites = pass.part.site_count().to_usize();
-                // Not a default: a count beyond `usize` is reported as its maximum.
+                // A count beyond `usize` is reported as its maximum.
                 meter.turn(sites.unwrap_or(usize::MAX));
             }
             (self.k, self.pass, self.extras_added) = (pass.k, Some(pass), false);

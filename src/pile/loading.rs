@@ -87,7 +87,7 @@ impl Loading {
     }
 
     pub(crate) fn horizontal_force(&self, contact: HorizontalContact) -> BigRational {
-        // Not a default: a contact that is not in the list has no force.
+        // A contact that is not in the list has no force.
         self.horizontal.get(&contact).cloned().unwrap_or_default()
     }
 
@@ -123,7 +123,7 @@ impl Loading {
 
     /// Returns the load on a sphere.
     pub(crate) fn load(&self, site: Site) -> BigRational {
-        // Not a default: a sphere that is not in the list has no load.
+        // A sphere that is not in the list has no load.
         self.loads.get(&site).cloned().unwrap_or_default()
     }
 

@@ -148,7 +148,7 @@ impl<I: FixedInteger> FixedRational<I> {
             .to_rational()
             .as_ref()
             .and_then(f64::nearest_to_rational);
-        // Not a default: every number of 128 bits is within the range of floats, and a fault is not a number.
+        // Every number of 128 bits is within the range of floats, and a fault is not a number.
         nearest.unwrap_or(f64::NAN)
     }
 

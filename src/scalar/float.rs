@@ -29,7 +29,7 @@ macro_rules! float_scalar {
             const NAME: &'static str = stringify!($float);
 
             fn from_rational(r: &BigRational) -> Self {
-                // Not a default: a rational beyond the range of floats becomes not-a-number, which is undefined.
+                // A rational beyond the range of floats becomes not-a-number, which is undefined.
                 $float::nearest_to_rational(r).unwrap_or($float::NAN)
             }
 

@@ -77,7 +77,7 @@ impl Interval {
     /// ```
     #[must_use]
     pub fn point(value: f64) -> Self {
-        // Not a default: a value that is not finite may be any number.
+        // A value that is not finite may be any number.
         Self::new(value, value).unwrap_or(Self::WHOLE)
     }
 

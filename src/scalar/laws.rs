@@ -304,7 +304,7 @@ fn in_range<T: Algebra + RealEmbeddable>(want: &BigRational, bits: u32) -> bool 
     // If 2^−(e+bits) does not underflow, then a value of magnitude 2^−e keeps all its digits.
     let in_reach = |e: &u32| holds(&power(*e)) && holds(&power(e + bits).recip());
     let least = 8;
-    // Not a default: without this minimum, a scalar that represents no number would break no law.
+    // Without this minimum, a scalar that represents no number would break no law.
     let limit = power((least..=64).rev().find(in_reach).unwrap_or(least));
     want.is_zero() || (want.abs() <= limit && want.abs() >= limit.recip())
 }

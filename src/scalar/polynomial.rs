@@ -44,7 +44,7 @@ impl Monomial {
         self.0
             .iter()
             .find(|(s, _)| *s == symbol)
-            // Not a default: the exponent of an absent symbol is 0.
+            // The exponent of an absent symbol is 0.
             .map_or(0, |(_, power)| *power)
     }
 
@@ -96,7 +96,7 @@ impl Ord for Monomial {
         let lexicographic = || {
             let powers = |s: Symbol| self.power(s).cmp(&other.power(s));
             let mut orders = self.symbols(other).into_iter().map(powers);
-            // Not a default: equal powers of all symbols are equal monomials.
+            // Equal powers of all symbols are equal monomials.
             orders.find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
         };
         self.degree().cmp(&other.degree()).then_with(lexicographic)
@@ -234,7 +234,7 @@ impl Polynomial {
     #[must_use]
     pub fn degree(&self) -> u64 {
         let greatest = self.terms.keys().next_back();
-        // Not a default: zero and the fault have no terms, and their degree is 0 by definition.
+        // Zero and the fault have no terms, and their degree is 0 by definition.
         greatest.map_or(0, Monomial::degree)
     }
 
@@ -254,7 +254,7 @@ impl Polynomial {
             .keys()
             .map(|monomial| monomial.power(symbol))
             .max()
-            // Not a default: zero and the fault have no terms, and their degree is 0 by definition.
+            // Zero and the fault have no terms, and their degree is 0 by definition.
             .unwrap_or(0)
     }
 

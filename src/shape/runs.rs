@@ -82,7 +82,7 @@ impl Shape {
     /// Returns the number of sign changes above layer k. A sign change at layer k itself does not count.
     pub(crate) fn changes_above(&self, k: i128) -> usize {
         let run = self.run_to(k);
-        // Not a default: the top layer has no run and no sign change above it.
+        // The top layer has no run and no sign change above it.
         run.unwrap_or(0)
     }
 

@@ -129,7 +129,7 @@ fn uniform_base(f: &Formulas) -> Vec<Step> {
     let difference = here - &there;
     let factor = int(2) * &setting.s - &int(1);
     let rows = symbol("j") - &symbol("j'");
-    // Not a default: if the division fails, a step of the proof fails.
+    // If the division fails, a step of the proof fails.
     let quotient = difference.divide_exactly(&factor).unwrap_or_else(P::zero);
     let at_half = difference.substitute(Symbol("s"), &super::setting::half());
     let mut steps = equations! {

@@ -24,7 +24,8 @@ impl Random {
         choices[usize::try_from(self.bits() >> 40).expect("24 bits") % choices.len()]
     }
 
-    /// A float of about 2^exponent, where 0 includes the subnormals. Often it is a power of two or next to one.
+    /// A float of about ±2^`exponent`, where −1023 includes the subnormals. It is often a power of two, or next to a power
+    /// of two.
     fn about(&mut self, exponent: i16) -> f64 {
         let biased = u64::try_from(1023 + exponent + self.of(&[0, 1, 2])).expect("a float's");
         let power = f64::from_bits(biased.min(2046) << 52);
@@ -32,8 +33,7 @@ impl Random {
         self.of(&[power, power.next_up(), power.next_down(), any, any]) * self.of(&[1.0, -1.0])
     }
 
-    /// Special and moderate floats, and floats at a limit: of the format, or of the factors (2^960) and products (2^−900)
-    /// whose rounding error is representable.
+    /// Special and moderate floats, and floats near 2^`limit`: at the limits of the format, or very large or small.
     fn float(&mut self) -> f64 {
         let limit = self.of(&[-1023, -1020, -900, -450, 511, 958, 959, 1021, 1023]);
         let moderate = i16::try_from(self.bits() >> 58).expect("6 bits") - 32;
@@ -343,7 +343,7 @@ fn infinite_ends() {
     assert!(ray.contains(&beyond) && Interval::WHOLE.contains(&-beyond));
 }
 
-/// A subnormal times a large number, or divided by a small one. The interval contains the rounding error and is not wider.
+/// A subnormal times a large number, or divided by a small one. The interval contains the exact result and is tightest.
 #[test]
 fn subnormals_are_multiplied_and_divided_tightly() {
     let mut inexact = 0;
@@ -394,7 +394,7 @@ fn intervals_without_a_common_point_are_not_equal() {
     }
 }
 
-/// 2^−1022 (1 − 2^−53) rounds up to the least normal float. A subnormal cannot represent its significand.
+/// 2^−1022 (1 − 2^−53) rounds up to the least normal float, because no subnormal has a significand of 53 bits.
 #[test]
 fn a_product_rounded_to_the_least_normal_float_is_contained() {
     let (x, y) = (1.0_f64.next_down(), f64::MIN_POSITIVE);

@@ -1,7 +1,7 @@
 //! Claims about random stackings on random input. The input is deterministic, from the generators that the fuzz targets
 //! share.
 //!
-//! Each claim is a function of bytes. `cannonpile_testkit` defines it next to its mutants, which it must reject. A
+//! Each claim is a function of bytes. `cannonpile_testkit` defines the claims, and mutants that each claim must reject. A
 //! failure prints the shortest bytes that proptest found, and the description of the case.
 
 use cannonpile_testkit::{claims, properties};

@@ -38,7 +38,7 @@ pub(super) struct Seen {
     pub(super) at: Point,
     /// The magnification relative to the target.
     pub(super) magnification: f64,
-    /// The distance from the eye, or along the view if the eye is at infinity.
+    /// The distance from the eye. In a parallel projection, the depth behind the target.
     pub(super) distance: f64,
 }
 

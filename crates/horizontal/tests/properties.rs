@@ -1,7 +1,7 @@
 //! Claims about horizontal contacts on random input. The test is deterministic, and its generators are those of the
 //! fuzz targets.
 //!
-//! Each claim is a function of bytes. `cannonpile_testkit` defines it next to its mutants, which it must reject. A
+//! Each claim is a function of bytes. `cannonpile_testkit` defines the claims, and mutants that each claim must reject. A
 //! failure prints the shortest input that proptest finds, and the counterexample of the claim.
 
 use cannonpile_testkit::claims;
@@ -28,6 +28,6 @@ fn tiny_piles_cover_all_verdicts() {
             .claim;
         Ok(format!("{claim:?} alone={alone}"))
     });
-    // A pile that is stable without horizontal contacts is stable with them.
+    // Three of four combinations: a pile that is stable without horizontal contacts is stable with them.
     assert_eq!(kinds.len(), 3, "{kinds:?}");
 }

@@ -1,7 +1,7 @@
 //! Claims about roots and rationals on random input. The test is deterministic, and its generators are
 //! those of the fuzz targets.
 //!
-//! Each claim is a function of bytes. `cannonpile_testkit` defines it next to its mutants, which it must
+//! Each claim is a function of bytes. `cannonpile_testkit` defines the claims, and mutants that each claim must
 //! reject. A failure prints the shortest input that proptest finds, and the counterexample of the claim.
 
 use cannonpile_testkit::{claims, properties};

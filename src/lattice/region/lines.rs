@@ -150,7 +150,7 @@ impl Trapezoid {
     /// Returns the count with machine integers, for a row that fits in memory.
     pub(crate) fn near(self) -> Trapezoid<i64> {
         #[expect(clippy::cast_possible_truncation, reason = "|n| ≤ LONG")]
-        // Not a default: a bound that is farther away than the length of any row takes effect on the same side of the
+        // A bound that is farther away than the length of any row takes effect on the same side of the
         // row after clamping.
         let near = |n: i128| n.clamp(-i128::from(LONG), LONG.into()) as i64;
         Trapezoid {
@@ -199,7 +199,7 @@ impl Slopes {
     /// numbers within [`LONG`].
     #[inline]
     pub(crate) fn new(Trapezoid { cap, rises, falls }: Trapezoid<i64>, n: usize) -> Self {
-        // Not a default: a missing bound is replaced by one that never takes effect.
+        // A missing bound is replaced by one that never takes effect.
         let (rises, falls) = (rises.unwrap_or(FAR), falls.unwrap_or(FAR));
         let inside =
             |position: i64| usize::try_from(position.max(0)).map_or(n, |position| position.min(n));
@@ -208,7 +208,7 @@ impl Slopes {
         let rise = inside(meet.min(cap - rises));
         let fall = inside(falls - cap + 1).max(rise);
         let counts = |least: i64, positions: usize| {
-            // Not a default: `along` rejects a count below zero, since it has no value.
+            // `along` rejects a count below zero, since it has no value.
             let least = usize::try_from(least).unwrap_or(usize::MAX);
             if positions == 0 {
                 0..0
@@ -216,7 +216,7 @@ impl Slopes {
                 least..least.saturating_add(positions)
             }
         };
-        // Not a default: every row in memory is shorter.
+        // Every row in memory is shorter.
         let last = falls + 1 - i64::try_from(n).unwrap_or(FAR);
         Self {
             up: counts(rises, rise),

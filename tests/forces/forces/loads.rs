@@ -82,7 +82,7 @@ fn every_sphere_of_small_piles_has_its_own_weight_and_load() {
         let mut case = Case::under(&random.bounds(2), &signs);
         let places: Vec<_> = case.balance.places().collect();
         for place in places {
-            // Zero occurs more often than not. Then lines begin without an increment.
+            // Most weights are zero, so that many lines of contacts begin at a weightless sphere, without an increment.
             let weight = [ratio(0, 1), ratio(0, 1), random.rational()];
             let weight = &weight[random.below(3)];
             case = case.with_weight(place, weight);
@@ -131,7 +131,7 @@ fn extremes_over_the_base_equal_the_oracle() {
         let extremes = case.pile.base_extremes().unwrap();
         assert_eq!(Some(&extremes.normal_min), normals().min());
         assert_eq!(Some(&extremes.normal_max), normals().max());
-        // Shear along y is in units of √3 of those along x.
+        // The unit of shear along y is √3 times that along x.
         let squared = floor.values().filter(|[normal, ..]| !normal.is_zero());
         let squared = squared.map(|[n, x, y]| (x * x + y * y * ratio(3, 1)) / (n * n));
         assert_eq!(Some(extremes.max_shear_ratio.square()), squared.max());

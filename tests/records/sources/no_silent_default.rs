@@ -1,7 +1,7 @@
 //! If an invariant makes a case impossible, the crates return an error that names it. They never continue with zero, an
 //! empty value or a bound.
 //!
-//! A harmless default has a line above it with `// Not a default: ` and the reason.
+//! A harmless default has a comment above it with the reason.
 
 use super::{Source, code, is_of_word, sources};
 
@@ -20,7 +20,7 @@ const ARBITRARY: [&str; 15] = [
     "empty", "vec", "INFINITY",
 ];
 
-const REASON: &str = "// Not a default: ";
+const REASON: &str = "// ";
 
 /// The line numbers, from 1, of defaults that hide an impossible case without a reason.
 fn silent_defaults(text: &str) -> Vec<usize> {
@@ -142,21 +142,11 @@ fn silent_defaults_are_found() {
         let below =
             |comment: &str| silent_defaults(&format!("fn f() {{\n    {comment}\n    {silent}\n}}"));
         if !silent.contains("\n    .") {
-            assert!(
-                below("// Not a default: nothing is there.").is_empty(),
-                "{silent}"
-            );
-            assert!(
-                below("// Not a default: nothing\n    // is there.").is_empty(),
-                "{silent}"
-            );
-            assert_eq!(below("// It cannot be."), [3], "{silent}");
-            assert_eq!(below("// Not a default: "), [3], "{silent}");
-            assert_eq!(
-                below("let b = 3; // Not a default: no line of its own."),
-                [3],
-                "{silent}"
-            );
+            assert!(below("// Nothing is there.").is_empty(), "{silent}");
+            assert!(below("// Nothing\n    // is there.").is_empty(), "{silent}");
+            assert_eq!(below("//"), [3], "{silent}");
+            assert_eq!(below("/// It documents."), [3], "{silent}");
+            assert_eq!(below("let b = 3; // No line of its own."), [3], "{silent}");
         }
     }
 }
@@ -175,7 +165,7 @@ fn harmless_values_are_accepted() {
         "// a.unwrap_or(0)",
         "\"a.unwrap_or(0)\"",
         "#[cfg(test)]\nmod tests { fn f() { a.unwrap_or(0) } }",
-        "a\n    // Not a default: nothing is there.\n    .unwrap_or(0)",
+        "a\n    // Nothing is there.\n    .unwrap_or(0)",
     ] {
         assert_eq!(silent_defaults(clear), [0; 0], "{clear}");
     }

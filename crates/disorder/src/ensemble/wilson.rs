@@ -15,9 +15,10 @@ const DIGITS: u32 = 18;
 
 impl Tally {
     /// Returns a confidence interval for the probability that a random stacking stands, at the fault probability of the
-    /// samples. It is Wilson's interval, which contains the true value in about 95 % of cases. `None` for all
-    /// stackings, whose probability [is known](Self::standing_probability), and with horizontal contacts if the run did
-    /// not count them.
+    /// samples. It is Wilson's interval, which contains the true value in about 95 % of cases.
+    ///
+    /// Returns `None` if the run visited all stackings, because [the probability](Self::standing_probability) is then
+    /// exact. Also returns `None` for horizontal contacts if the run did not count them.
     ///
     /// With k of n samples standing and z = 1.96 the bounds are (k + z²/2 ± z√(k(n−k)/n + z²/4))/(n + z²). The root has
     /// an error of at most 10⁻⁹/n. The bounds are then correctly rounded.
@@ -51,8 +52,8 @@ fn interval(k: &BigUint, n: &BigUint) -> Option<[f64; 2]> {
     if n.is_zero() || k > n {
         return None;
     }
-    // The common denominator is 2n(n + z²), and the numerators are n(2k + z²) ± z√(n(4k(n−k) + z²n)). Both z² are in
-    // units of 10⁻⁴.
+    // The common denominator is 2n(n + z²), and the numerators are n(2k + z²) ± z√(n(4k(n−k) + z²n)). All are scaled by
+    // 10⁴, since z² is in units of 10⁻⁴.
     let unit = BigUint::from(10_000_u32);
     let others = n - k;
     let radicand = n * (k * others * 4_u32 * &unit + n * SQUARE) * SQUARE;

@@ -8,7 +8,7 @@ fn files() -> Vec<ProofFile> {
     cannonpile_proof::files().expect("files")
 }
 
-/// Returns the theorems and lemmas of a file, as `File.name`.
+/// Returns the theorems of a file, as `File.name`. Lemmas are left out.
 fn stated(file: &ProofFile) -> impl Iterator<Item = String> {
     let module = file.name().strip_suffix(".v").unwrap_or_default();
     let lines = file.text().lines();
@@ -121,7 +121,7 @@ fn every_listed_proof_is_checked() {
     );
 }
 
-/// Definitions over integers, with their own arithmetic.
+/// Formulas over integers are exported twice: over rationals, and over integers in the module `Integers`.
 #[test]
 fn integer_formulas_are_exported() {
     let files = files();
