@@ -1,4 +1,4 @@
-"""Reads spheres.vtp and contacts.vtp of a folder with VTK, and compares them with the csv files.
+"""Reads spheres.vtp and contacts.vtp of a folder with VTK and with an XML parser, and compares them with the csv files.
 
 The numbers of points, vertices and lines must agree, and all arrays with a csv column must agree to the last digit. Weights and
 loads must sum to the reaction of the floor. Usage: read_vtp.py FOLDER
@@ -7,6 +7,7 @@ loads must sum to the reaction of the floor. Usage: read_vtp.py FOLDER
 import csv
 import math
 import sys
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -15,6 +16,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 
 def read(path):
+    require(ElementTree.parse(path).getroot().tag == "VTKFile", f"{path} is not XML with the root VTKFile")
     reader = vtkXMLPolyDataReader()
     errors = []
     reader.AddObserver(vtkCommand.ErrorEvent, lambda *_: errors.append("VTK reports an error"))
@@ -60,7 +62,8 @@ def check_spheres(folder, spheres):
     same("layer", found["layer"], [row["k"] for row in spheres])
     same("radius", found["radius"], [row["radius"] for row in spheres])
     require(len(found["weight"]) == n and len(found["load"]) == n, "weights and loads")
-    # The force of the floor is opposite to base.csv, and is zero for spheres above the floor.
+    # base.csv has the forces on the floor, with normal forces positive downwards. The reactions are opposite to them.
+    # Spheres above the floor have the reaction zero.
     base = iter(table(folder / "base.csv"))
     reactions = []
     for row in spheres:

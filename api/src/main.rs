@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut lines, mut names) = (String::new(), 0);
     for item in all.items() {
         let line = item.to_string();
-        // Of a derived implementation only the header is listed, which names the trait.
+        // Only the header of a derived implementation is listed. It names the trait.
         if written.contains(&line) || line.starts_with("impl") {
             let is_of_trait = item.parent_id().is_some_and(|id| trait_impls.contains(&id));
             names += u32::from(is_name(item) && !is_of_trait);

@@ -209,7 +209,23 @@ pub fn measured(bytes: &[u8]) -> Corpus {
             claims::measured::any_table,
             claims::measured::a_file,
             claims::measured::injected_fault,
+            claims::measured::repeated_pairs,
         ],
+    )
+}
+
+/// Any bytes are read as a table, or rejected.
+#[must_use]
+pub fn bytes(bytes: &[u8]) -> Corpus {
+    holds(bytes, &[claims::measured::any_file])
+}
+
+/// A table of exact forces is read whole in any dialect, and a planted fault is found.
+#[must_use]
+pub fn dialect(bytes: &[u8]) -> Corpus {
+    holds(
+        bytes,
+        &[claims::dialect::exact_table, claims::dialect::planted_fault],
     )
 }
 
@@ -217,6 +233,19 @@ pub fn measured(bytes: &[u8]) -> Corpus {
 #[must_use]
 pub fn placed(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::measured::by_place])
+}
+
+/// Contacts in files of VTK are read as written. Any file is read or rejected, and a file without contacts is rejected.
+#[must_use]
+pub fn vtk(bytes: &[u8]) -> Corpus {
+    holds(
+        bytes,
+        &[
+            claims::vtk::any_file,
+            claims::vtk::damaged,
+            claims::vtk::written,
+        ],
+    )
 }
 
 /// The definitions for Coq have the values of the formulas in rationals.

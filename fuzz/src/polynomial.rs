@@ -76,7 +76,7 @@ fn sum_of<'a>(terms: impl Iterator<Item = &'a (BigRational, [u32; 3])>) -> Polyn
     })
 }
 
-/// Generates small numbers, and sometimes an arbitrary rational.
+/// Generates a point with small coordinates, some of them arbitrary rationals instead.
 fn point(u: &mut Unstructured<'_>) -> Result<Point> {
     let mut coordinate = || {
         if rarely(u, 8)? {
@@ -117,7 +117,7 @@ fn arithmetic(f: &Terms, g: &Terms, point: &Point, u: &mut Unstructured<'_>) -> 
     Ok(())
 }
 
-/// Substituting a polynomial equals evaluation at its value.
+/// Evaluating f(g) at a point equals evaluating f at the value of g.
 fn substitution(f: &Terms, g: &Terms, point: &Point, which: usize) {
     let symbol = SYMBOLS[which];
     let composed = f.build().substitute(symbol, &g.build());
@@ -161,7 +161,7 @@ fn sums(f: &Terms, u: &mut Unstructured<'_>) -> Result<()> {
         let mut small = || u.int_in_range(-4..=4_i64);
         [small()?, small()?, small()?, small()?, small()?, small()?]
     };
-    // Σ from ax + b to cy + d, where the x of a bound is not the summation variable.
+    // Σ over x from ax + b to cy + d. The x in the lower bound is free: it is not the summation variable.
     let line = |slope: i64, symbol, height: i64| {
         Polynomial::from(symbol) * &Polynomial::constant(&number::ratio(slope, 1))
             + &Polynomial::constant(&number::ratio(height, 1))

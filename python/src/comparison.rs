@@ -207,6 +207,29 @@ impl Comparison {
         self.0.missing()
     }
 
+    /// The number of entries that list a pair a second time.
+    #[getter]
+    fn repeated(&self) -> u64 {
+        self.0.repeated()
+    }
+
+    /// The number of contacts with the floor that are judged.
+    #[getter]
+    fn floor(&self) -> u64 {
+        self.0.floor()
+    }
+
+    /// The largest relative error of the floor.
+    #[getter]
+    fn floor_error(&self) -> Option<f64> {
+        self.0.floor_error()
+    }
+
+    /// The number of pairs with two different forces.
+    fn contradictory(&self, rtol: f64) -> u64 {
+        self.0.contradictory(rtol)
+    }
+
     /// The number of ignored pairs of bottom spheres.
     #[getter]
     fn fixed(&self) -> u64 {
@@ -221,13 +244,13 @@ impl Comparison {
 
     /// The largest relative error.
     #[getter]
-    fn largest_error(&self) -> f64 {
+    fn largest_error(&self) -> Option<f64> {
         self.0.largest_error()
     }
 
     /// The root mean square of the relative errors.
     #[getter]
-    fn rms_error(&self) -> f64 {
+    fn rms_error(&self) -> Option<f64> {
         self.0.rms_error()
     }
 

@@ -211,6 +211,37 @@ def test_nothing_measured():
         pile.assert_close(np.empty((0, 2), dtype=np.int64), np.empty(0))
     one = Pile(1)
     one.assert_close(one.contact_ids(), one.forces())
+    for empty in (pile.compare(np.empty((0, 2), dtype=np.int64), np.empty(0)), one.compare(one.contact_ids(), one.forces())):
+        assert (empty.largest_error, empty.rms_error, empty.floor_error) == (None, None, None)
+
+
+def test_zeros_are_measured(pile):
+    forces = pile.forces()
+    at = int(np.argmax(forces))
+    forces[at] = 0
+    found = pile.compare(pile.contact_ids(), forces)
+    assert (found.missing, found.beyond(0.5), found.largest_error) == (0, 1, 1.0)
+
+
+def test_pairs_may_be_given_in_both_orders(pile):
+    ids, forces, vectors = pile.contact_ids(), pile.forces(), pile.vectors()
+    both, twice = np.vstack([ids, ids[:, ::-1]]), np.append(forces, forces)
+    pile.assert_close(both, twice, vectors=np.vstack([vectors, -vectors]), rtol=TIGHT)
+    assert pile.compare(both, twice).repeated == len(ids)
+    twice[-1] *= 1.5
+    assert pile.compare(both, twice).contradictory() == 1
+    with pytest.raises(AssertionError):
+        pile.assert_close(both, twice)
+
+
+def test_floor_is_judged(pile):
+    bottom = [[pile.sphere_count, 0]]
+    normal = pile.base()[-1, 0]
+    ids = np.vstack([pile.contact_ids(), bottom])
+    found = pile.compare(ids, np.append(pile.forces(), normal))
+    assert (found.floor, found.floor_error) == (1, 0)
+    with pytest.raises(AssertionError):
+        pile.assert_close(ids, np.append(pile.forces(), 2 * normal))
 
 
 @pytest.mark.parametrize(("name", "pile", "known"), cannonpile.cases())

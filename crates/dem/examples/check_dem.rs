@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Measured::new(ids, norm(vector)).with_vector(vector)
         });
         let comparison = Comparison::new(&packing, measured)?;
-        let (matched, error) = (comparison.matched(), comparison.largest_error());
+        let (matched, error) = (comparison.matched(), comparison.largest_error().unwrap());
         println!("stiffness {stiffness:e} mg/R: {matched} contacts, largest error {error:.2e}");
         assert!(comparison.accepted(10.0 / stiffness));
         errors.push(error);

@@ -64,6 +64,7 @@ mod sunk;
 pub mod table;
 #[doc(hidden)]
 pub mod template;
+mod vector;
 pub mod verify;
 mod vtp;
 #[doc(hidden)]

@@ -1,10 +1,16 @@
-//! VTK's XML files of poly data: a header with the offset of each array, then the arrays in raw binary form.
+//! VTK's XML files of poly data: a header with the offset of each array, then the arrays in base64.
 //!
 //! Each array is its size in bytes as a `u64`, followed by the bytes
-//! (<https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>). All sizes are known before the first number
-//! is written.
+//! (<https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>). All sizes are known before the first
+//! number is written. Raw bytes would be shorter, but a file with raw bytes is not XML.
 
 use std::io::{self, Write};
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+/// The number of bytes that are encoded at once: a multiple of three, so that padding occurs only at the end of an array.
+const CHUNK: usize = 3 << 12;
 
 /// The number type of an array.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +50,11 @@ impl Array {
     fn bytes(&self) -> u64 {
         self.kind.bytes() * self.components * self.things
     }
+
+    /// Returns the length in base64, with the size in front.
+    fn encoded(&self) -> u64 {
+        4 * (8 + self.bytes()).div_ceil(3)
+    }
 }
 
 /// A part of the file with some arrays: `PointData`, `CellData`, `Points`, `Verts`, `Lines`.
@@ -59,6 +70,8 @@ pub(super) struct PolyData<'w> {
     coming: Vec<u64>,
     /// The remaining bytes of the current array.
     left: u64,
+    /// Bytes that are not yet encoded.
+    chunk: Vec<u8>,
 }
 
 impl<'w> PolyData<'w> {
@@ -87,31 +100,31 @@ impl<'w> PolyData<'w> {
                     "<DataArray type=\"{:?}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{offset}\"/>",
                     array.kind, array.name, array.components,
                 )?;
-                offset += 8 + array.bytes();
+                offset += array.encoded();
                 coming.push(array.bytes());
             }
             writeln!(out, "</{tag}>")?;
         }
         write!(
             out,
-            "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_"
+            "</Piece>\n</PolyData>\n<AppendedData encoding=\"base64\">\n_"
         )?;
         coming.reverse();
         Ok(Self {
             out,
             coming,
             left: 0,
+            chunk: Vec::with_capacity(CHUNK),
         })
     }
 
     /// Begins the next array.
     pub(super) fn array(&mut self) -> io::Result<()> {
-        self.check_done()?;
-        self.left = self
-            .coming
-            .pop()
-            .ok_or_else(|| io::Error::other("an array too many"))?;
-        self.out.write_all(&self.left.to_le_bytes())
+        self.finish()?;
+        let size = self.coming.pop();
+        let size = size.ok_or_else(|| io::Error::other("an array too many"))?;
+        self.left = 8 + size;
+        self.bytes(&size.to_le_bytes())
     }
 
     pub(super) fn float(&mut self, x: f64) -> io::Result<()> {
@@ -142,8 +155,8 @@ impl<'w> PolyData<'w> {
     }
 
     /// Writes the end of the file.
-    pub(super) fn end(self) -> io::Result<()> {
-        self.check_done()?;
+    pub(super) fn end(mut self) -> io::Result<()> {
+        self.finish()?;
         if !self.coming.is_empty() {
             return Err(io::Error::other("an array too few"));
         }
@@ -153,12 +166,26 @@ impl<'w> PolyData<'w> {
     fn bytes(&mut self, bytes: &[u8]) -> io::Result<()> {
         let left = self.left.checked_sub(bytes.len() as u64);
         self.left = left.ok_or_else(|| io::Error::other("an array that is too long"))?;
-        self.out.write_all(bytes)
+        for byte in bytes {
+            self.chunk.push(*byte);
+            if self.chunk.len() == CHUNK {
+                self.encode()?;
+            }
+        }
+        Ok(())
     }
 
-    fn check_done(&self) -> io::Result<()> {
+    fn encode(&mut self) -> io::Result<()> {
+        self.out
+            .write_all(STANDARD.encode(&self.chunk).as_bytes())?;
+        self.chunk.clear();
+        Ok(())
+    }
+
+    /// Writes the end of the current array.
+    fn finish(&mut self) -> io::Result<()> {
         if self.left == 0 {
-            Ok(())
+            self.encode()
         } else {
             Err(io::Error::other("an array that is too short"))
         }

@@ -1,4 +1,5 @@
-//! Common parts of tests for the suites of other codes. These tests take seconds, and contain the whole pile.
+//! Common parts of tests that are exported for the test suites of other codes. These tests take seconds, and contain the
+//! whole pile.
 
 use super::numbered::NumberedPile;
 use crate::Error;
@@ -7,8 +8,8 @@ use cannonpile::engine::refuse_beyond;
 /// The maximal number of spheres, because suites run many tests.
 const MAX_SPHERES: u64 = 2000;
 
-/// The accepted error, relative to the greatest force. On these springs the error of straight piles is a hundredth of
-/// it.
+/// The accepted error, relative to the greatest force. With the springs of these tests, straight piles have a hundredth
+/// of this error.
 pub(super) const TOLERANCE: f64 = 1e-5;
 
 /// The expected outcome of a test.

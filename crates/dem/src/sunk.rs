@@ -2,6 +2,7 @@
 
 use super::numbered::NumberedPile;
 use super::springs::Springs;
+use super::vector::{dot, minus, plus, solved};
 use crate::Error;
 use cannonpile::lattice::ContactKind;
 
@@ -28,7 +29,7 @@ impl Sunk {
             .map(|[least, _]| (2.0 - (least / radius).floor()) * radius);
         let rigid = pile.centres()?.map(|centre| {
             let (_, centre) = centre?;
-            Ok(add(centre, shift))
+            Ok(plus(centre, shift))
         });
         let rigid: Vec<[f64; 3]> = rigid.collect::<Result<_, Error>>()?;
         let mut supports: Vec<Vec<Support>> = vec![Vec::new(); rigid.len()];
@@ -54,7 +55,7 @@ impl Sunk {
                 at_rest[sphere] = supported_by(at_rest[sphere], [first, second, third]);
             } else if let [first, second] = on[..] {
                 // A third support along y keeps a disc in its plane.
-                let aside = add(at_rest[sphere], [0.0, radius, 0.0]);
+                let aside = plus(at_rest[sphere], [0.0, radius, 0.0]);
                 at_rest[sphere] = supported_by(at_rest[sphere], [first, second, (aside, radius)]);
             }
         }
@@ -66,34 +67,14 @@ impl Sunk {
 fn supported_by(start: [f64; 3], supports: [([f64; 3], f64); 3]) -> [f64; 3] {
     let mut at = start;
     for _ in 0..8 {
-        let apart = supports.map(|(centre, _)| add(at, centre.map(|x| -x)));
+        let apart = supports.map(|(centre, _)| minus(at, centre));
         let lengths = apart.map(|v| dot(v, v).sqrt());
         let missing = [0, 1, 2].map(|n| supports[n].1 - lengths[n]);
-        let [a, b, c] = [0, 1, 2].map(|n| apart[n].map(|x| x / lengths[n]));
-        // The components of the step along a, b and c are the missing lengths.
-        let [bc, ca, ab] = [cross(b, c), cross(c, a), cross(a, b)];
-        let volume = dot(a, bc);
-        let step = [0, 1, 2]
-            .map(|n| (missing[0] * bc[n] + missing[1] * ca[n] + missing[2] * ab[n]) / volume);
-        at = add(at, step);
+        let directions = [0, 1, 2].map(|n| apart[n].map(|x| x / lengths[n]));
+        // Along these directions the step has the missing lengths as components.
+        at = plus(at, solved(directions, missing));
     }
     at
-}
-
-fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 #[cfg(test)]
@@ -109,7 +90,7 @@ mod tests {
         ];
         let at = supported_by([0.0, 0.0, 1.2], supports);
         for (centre, distance) in supports {
-            let apart = add(at, centre.map(|x| -x));
+            let apart = minus(at, centre);
             assert!(
                 (dot(apart, apart).sqrt() - distance).abs() < 1e-15,
                 "{at:?}"

@@ -19,11 +19,18 @@
 //!   that disagrees with its vector. A tensile force is negative; its error follows the same formula.
 //! * A contact whose exact force is 0 may be absent from the list. If it was measured, its error is relative to the
 //!   largest exact force of the pile.
-//! * A contact is missing if its exact force is not 0, and the list lacks it or gives a force of 0.
+//! * A contact is missing if its exact force is not 0, and the list lacks it. A force of 0 is a measurement, with an
+//!   error of 1.
+//! * A pair may be listed twice: in both orders, or with the same force. If the two forces differ, the worse one is
+//!   judged. If they differ by more than the accepted error times the exact force, the comparison is not accepted.
 //! * A pair without a contact in the pile is extra if its force exceeds the accepted error times the largest exact
 //!   force. A smaller force is noise. The same holds for neighbours that touch without being contacts, as in a layer at
 //!   a = R.
 //! * The spheres of the bottom layer are fixed: pairs of two of them are counted, but not judged.
+//! * A sphere of the bottom layer may be paired with a number outside the pile, or touch a point below its centre. This
+//!   is a contact with the floor or with a wall. The sum of the vertical forces on the sphere is compared with the exact
+//!   normal force of the floor, relative to that force. Tangential forces of the floor are not judged. If there are
+//!   several such contacts, but only their magnitudes are known, they are counted as contacts with walls.
 //! * If all measured forces are the exact ones times one factor, the report names this factor. A factor of 9.81 means
 //!   different gravity, and −1 means the opposite sign convention.
 //!
@@ -81,47 +88,45 @@
 //! ```
 
 mod axes;
-mod columns;
 mod comparison;
-mod csv_file;
 mod difference;
-mod dump;
 mod entry;
 mod finding;
+mod floor;
+mod format;
 mod frame;
 mod gathering;
-mod header;
+mod kind;
 mod ledger;
-mod lines;
+mod listed;
+mod loaded;
 mod measured;
+mod moments;
 mod placed;
 mod places;
-mod preset;
 mod read;
 mod reading;
 mod refinement;
 mod refusal;
 mod registration;
 mod report;
+mod rows;
 mod slots;
 mod symptoms;
 mod tally;
 mod unbalanced;
-mod vtk_array;
-mod vtk_file;
+mod vtk;
 
 pub use axes::{Axes, Coordinate, TableAxis};
-pub use columns::Columns;
 pub use comparison::Comparison;
-pub use csv_file::read_csv;
 pub use difference::{Difference, Extra};
-pub use dump::read_dump;
 pub use entry::Force;
 pub use finding::Finding;
+pub use format::{Columns, Dialect, DialectOptions, Mark, Preset, Rows, Separator, TextEncoding};
 pub use frame::Frame;
+pub use kind::FileKind;
 pub use measured::{MAX_ENTRIES, Measured};
 pub use placed::Placed;
-pub use preset::Preset;
 pub use read::{Compared, Reader, read};
 pub use reading::Reading;
 pub use refinement::{

@@ -25,11 +25,25 @@ properties! {
     any_file_of_measured_forces_is_read_or_refused: claims::measured::any_file, 1024;
     any_table_of_another_code_is_compared_or_refused: claims::measured::any_table, 512;
     measured_forces_are_read_as_written: claims::measured::a_file, 512;
-    tables_are_accepted_by_place_in_any_frame: claims::measured::by_place, 96;
+    contacts_in_files_of_vtk_are_read_as_written: claims::vtk::written, 512;
+    damaged_files_of_vtk_are_read_or_refused: claims::vtk::damaged, 1024;
+    any_file_like_one_of_vtk_is_read_or_refused: claims::vtk::any_file, 1024;
+    tables_are_accepted_by_place_in_any_frame: claims::measured::by_place, 192;
     a_fault_among_measured_forces_is_found: claims::measured::injected_fault, 256;
+    a_fault_among_repeated_pairs_is_found: claims::measured::repeated_pairs, 512;
+    exact_tables_are_read_whole_in_any_dialect: claims::dialect::exact_table, 10_000;
+    a_fault_is_found_in_any_dialect: claims::dialect::planted_fault, 10_000;
     a_planted_order_of_accuracy_is_found: claims::refinement::given_order, 1024;
     any_refinement_comes_back_from_its_record: claims::refinement::any_levels, 1024;
     any_record_of_a_refinement_is_read_or_refused: claims::refinement::any_record, 1024;
+}
+
+/// Few dialects are refused.
+#[test]
+fn tables_of_most_dialects_are_accepted() {
+    let kinds = census(|u| Ok(claims::dialect::outcome(u).expect("a table")));
+    let all: u32 = kinds.values().sum();
+    assert!(kinds["accepted"] * 10 > all * 9, "{kinds:?}");
 }
 
 #[test]

@@ -30,6 +30,15 @@ pub fn row(preset: Preset, measured: &Measured, centres: &[[f64; 3]]) -> String 
         Preset::Yade => format!("{},{},{force:?}\n", one - 1, other - 1),
         Preset::DemEngine => format!("SS,{n},{m},{},{point}\n", joined(&vector)),
         Preset::Mddem => format!("{one},{other},{:?},{point},0,0,1\n", force / 1024.0),
+        Preset::Kratos => format!("{},{},{force:?}\n", joined(&a), joined(&b)),
+        Preset::MercuryDpm => {
+            let point = point.replace(',', " ");
+            format!(
+                "0.5 {} {} {point} 1e-6 0 {force:?} 0 0 0 1 0 0 0\n",
+                one - 1,
+                other - 1
+            )
+        }
         _ => {
             let minus = joined(&vector.map(|x| -x));
             let (a, b) = (joined(&a), joined(&b));
@@ -46,6 +55,8 @@ pub fn head(preset: Preset) -> Option<&'static str> {
         Preset::DemEngine => "contact_type,A,B,f_x,f_y,f_z,X,Y,Z\nSM,1,2,0,0,1,0,0,9\n",
         Preset::Mddem => "i_tag,j_tag,overlap,cx,cy,cz,nx,ny,nz\n",
         Preset::ExaDem => "0,0,0,0,5,-1,0,0,9,1,0,0,0,0,0,0,0,8,0,0,0\n",
+        Preset::Kratos => "x1,y1,z1,x2,y2,z2,local_contact_force_z\n",
+        Preset::MercuryDpm => "# 0.5 3\n# 0 0 0 10 10 10\n# 1 1 0 0 0 0\n",
         _ => return None,
     })
 }

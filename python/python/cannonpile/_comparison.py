@@ -16,7 +16,9 @@ class Comparison:
 
     Exact forces are correctly rounded to float64. The error of a contact is |f - f0| / |f0|. For vectors it is the larger one
     of this and |F - F0| / |f0|. A contact with exact force 0 may be absent; its error is relative to the largest exact force.
-    Contacts between two bottom spheres, which are fixed, are ignored.
+    Contacts between two bottom spheres, which are fixed, are ignored. A pair may be given twice: in both orders, or with the
+    same force. The worse of two different forces is judged. A number outside the pile is that of the floor or of a wall, if the
+    other sphere is at the bottom.
 
     Examples
     --------
@@ -69,6 +71,42 @@ class Comparison:
         return self._native.missing
 
     @property
+    def repeated(self) -> int:
+        """The number of entries that give a pair a second time.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[1, 2], [2, 1]], [0.5, 0.5]).repeated
+        1
+        """
+        return self._native.repeated
+
+    @property
+    def floor(self) -> int:
+        """The number of contacts with the floor whose normal forces were judged.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[2, 0], [3, 0], [4, 0]], [4 / 3, 4 / 3, 4 / 3]).floor
+        3
+        """
+        return self._native.floor
+
+    @property
+    def floor_error(self) -> float | None:
+        """The largest relative error of the normal force of the floor on a bottom sphere. None if no such force was judged.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[2, 0], [3, 0]], [4 / 3, 8 / 3]).floor_error
+        1.0
+        """
+        return self._native.floor_error
+
+    @property
     def fixed(self) -> int:
         """The number of measured pairs of bottom spheres. These spheres are fixed, so the pairs are ignored.
 
@@ -93,8 +131,9 @@ class Comparison:
         return self._native.largest_force
 
     @property
-    def largest_error(self) -> float:
+    def largest_error(self) -> float | None:
         """The largest relative error of a measured contact. Infinite if a force is measured but all exact forces are zero.
+        None without measured contacts.
 
         Examples
         --------
@@ -105,8 +144,9 @@ class Comparison:
         return self._native.largest_error
 
     @property
-    def rms_error(self) -> float:
-        """The root mean square of the relative errors of the measured contacts, accurate to about 1e-8.
+    def rms_error(self) -> float | None:
+        """The root mean square of the relative errors of the measured contacts, accurate to about 1e-8. None without measured
+        contacts.
 
         Examples
         --------
@@ -199,8 +239,34 @@ class Comparison:
         """
         return self._native.beyond(_tolerance(rtol))
 
+    def contradictory(self, rtol: float = 1e-6) -> int:
+        """Return the number of pairs that are given twice, with forces that differ by more than `rtol` times the exact force.
+
+        Parameters
+        ----------
+        rtol : float, default 1e-6
+            The relative difference.
+
+        Returns
+        -------
+        int
+            At most `repeated`.
+
+        Raises
+        ------
+        ValueError
+            If the tolerance is negative or not a number.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[1, 2], [2, 1]], [0.46, 0.47]).contradictory()
+        1
+        """
+        return self._native.contradictory(_tolerance(rtol))
+
     def accepted(self, rtol: float = 1e-6) -> bool:
-        """Return whether no contact is missing, no pair is extra, and no relative error exceeds `rtol`.
+        """Return whether no contact is missing, no pair is extra or contradictory, and no relative error exceeds `rtol`.
 
         Parameters
         ----------

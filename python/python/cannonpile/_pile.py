@@ -777,8 +777,8 @@ class Pile:
     ) -> Comparison:
         """Compare measured contact forces with the exact ones, contact by contact.
 
-        Contacts are identified by the ids of their spheres or by position. Positions may be in any frame: exchanged axes, a
-        rotation about the vertical and a translation are detected. The order of the contacts, and of the two spheres of each,
+        Contacts are identified by the ids of their spheres or by position. Positions may be in any frame: any
+        rotation, reflection and translation is detected. The order of the contacts, and of the two spheres of each,
         does not matter.
 
         Parameters
@@ -805,7 +805,7 @@ class Pile:
         Raises
         ------
         ValueError
-            If array shapes do not match, a sphere does not exist, a pair occurs twice, or a number is not finite. The
+            If array shapes do not match, a sphere does not exist, a pair occurs three times, or a number is not finite. The
             message names the entry, counted from 1.
         OverflowError
             If an exact force exceeds float64.

@@ -1,4 +1,4 @@
-//! Options of `mean`: a scene that does not depend on the stacking.
+//! Options of `mean`: a scene without a stacking, because the mean is over all stackings.
 
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile_dem::Key;
@@ -99,7 +99,7 @@ impl UnsupportedOptions {
     }
 }
 
-/// Returns a key of a scene file that `mean` does not support. Sizes are ignored.
+/// Returns a key of a scene file that `mean` does not support. Radius, mass, gravity and stiffness ratio are ignored.
 fn unsupported_key(scene: &Scene) -> Option<Key> {
     if scene.stacking.is_some() {
         Some(Key::Stacking)
@@ -160,7 +160,7 @@ impl RandomSceneOptions {
         })
     }
 
-    /// Returns the piles without loads.
+    /// Returns the random piles, before loads are added.
     fn piles(&self, file: Option<&Scene>) -> Result<RandomPiles, Failure> {
         let of_file = file
             .and_then(|scene| scene.anchor)

@@ -308,8 +308,8 @@ fn check_springs(scene: &Scene, formats: &[PileFormat]) -> Result<(), Failure> {
 fn bytes(files: &PileExport<'_>, file: PileFile) -> u64 {
     // Bytes a row, measured for 100 layers.
     let a_row = match file {
-        PileFile::ContactsVtp => 137,
-        PileFile::SpheresVtp => 104,
+        PileFile::ContactsVtp => 182,
+        PileFile::SpheresVtp => 138,
         PileFile::ContactsCsv => 78,
         PileFile::LammpsData => 74,
         PileFile::SpheresCsv => 67,

@@ -10,7 +10,8 @@ use cannonpile::Packing;
 use cannonpile_dem::scene::Scene;
 use cannonpile_dem::table::{FileFormat, NumberFormat};
 use cannonpile_dem::verify::{
-    Columns, Compared, Fault, Preset, Reader, RefinementFiles, Refusal, Report, Source,
+    Columns, Compared, DialectOptions, Fault, Mark, Preset, Reader, RefinementFiles, Refusal,
+    Report, Separator, Source, TextEncoding,
 };
 use clap::{Args, ValueEnum};
 
@@ -21,18 +22,26 @@ use crate::output::{Failure, READABLE_FILE_OR_STDIN, print_message, unreadable, 
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Error of a contact: relative to its exact force, or to the largest exact force if its own is 0.
+Error of a contact: relative to its exact force, or to the largest exact force if its own is 0. A contact that is listed
+with force 0 is measured, with an error of 1. A pair may be in two rows, once in each order; the worse row counts.
 
 Pairs of spheres without an exact contact are extra, or noise if their force is below --accept times the largest force.
-Pairs of bottom spheres are fixed, and not compared.
+Pairs of bottom spheres are fixed, and not compared. A bottom sphere paired with a number outside the pile touches the floor
+or a wall: the vertical forces on it are compared with the exact normal force of the floor.
 
 Findings explain the differences: a constant factor, swapped axes, a missing layer, and so on. The json report also records
 the scene, the SHA-256 of the file and the version of this program.
 
-Columns of the table are separated by commas, semicolons, tabs or blanks. --columns takes names of the header, or #N for
-the N-th column. It accepts signs, factors and sums: fx=-#10-#13, force=1e7*overlap. kind=contact_type:SS reads only rows
-with SS in this column; the other rows are contacts with walls. With two centres x1…z2, fx,fy,fz is the force on the first
-sphere. With a contact point x,y,z, the force is compressive unless force is negative.
+The kind of FILE is known by its content: a text table, a LAMMPS dump local file, a VTK file (.vtp, .vtu, .vtk), or a file of
+ParaView that names such files (.pvtp, .pvtu, .vtm, .pvd). It may be compressed by gzip or zstd. Of a text table the first
+lines decide the dialect: separator, quotes, comments, decimal sign, header, row of units. The report shows it, and the
+options under Table override it. Only the columns that are needed are read.
+
+--columns takes names of the header, or #N for the N-th column. It accepts signs, factors and sums: fx=-#10-#13,
+force=1e7*overlap. A name with a comma is quoted: force=\"Force, normal\". kind=contact_type:SS reads only rows with SS in
+this column; the other rows are contacts with walls. step=time names the column of the time step: the last one is read, or
+that of --step. With two centres x1…z2, fx,fy,fz is the force on the first sphere. With a contact point x,y,z, the force is
+compressive unless force is negative.
 
 Refinement study: --refinement takes a file for each stiffness or time step. It prints the error of each level, the observed
 order of accuracy and the extrapolated error. The exit status is 1 if the errors show no order.
@@ -43,13 +52,13 @@ Examples:
   cannonpile verify contacts.txt --columns id1=A,id2=B,force=Fn --first-id 0 --layers 10 --spacing 1.2
   cannonpile verify Contact_pairs_0100.csv --preset dem-engine --scene pile.toml --accept 1e-3
   cannonpile verify --refinement 1e5=soft.csv,1e6=firm.csv,1e7=stiff.csv --scene pile.toml
+  cannonpile verify table.csv.gz --separator ';' --decimal comma --step 500 --scene pile.toml
   cannonpile verify forces.csv --match place --columns x=cx,y=cy,z=cz --scene pile.toml --unbalanced rest.csv";
 
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Verify {
-    /// Table with columns id1, id2, force or fx, fy, fz; LAMMPS dump local file (the last snapshot); or VTK lines (.vtp, .vtu);
-    /// - for stdin
+    /// Table with columns id1, id2, force or fx, fy, fz; LAMMPS dump local file; or VTK file; - for stdin
     #[arg(value_name = "FILE", required_unless_present = "refinement")]
     measured: Option<PathBuf>,
     /// Refinement study: a file for each stiffness or time step, in place of FILE
@@ -73,7 +82,7 @@ pub(crate) struct Verify {
     /// Largest accepted relative error; 0 requires correctly rounded forces
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,
-    /// Columns for id1, id2, force, fx, fy, fz, x1 … z2 (centres), x, y, z (contact point) and kind
+    /// Columns for id1, id2, force, fx, fy, fz, x1 … z2 (centres), x, y, z (contact point), kind and step
     #[arg(
         long,
         value_name = "QUANTITY=COLUMN,...",
@@ -81,7 +90,8 @@ pub(crate) struct Verify {
         help_heading = "Table"
     )]
     columns: Option<Columns>,
-    /// Columns of a known code: lammps, yade, exadem, exadem-vtp, dem-engine, mddem or lethe; --columns overrides them
+    /// Columns of a known code: lammps, yade, exadem, exadem-vtp, dem-engine, kratos, mddem (also DIRT), lethe or mercurydpm;
+    /// --columns overrides them
     #[arg(long, value_name = "CODE", help_heading = "Table")]
     preset: Option<Preset>,
     /// Matching of the contacts of table and scene [default: numbers, or that of the preset]
@@ -93,11 +103,70 @@ pub(crate) struct Verify {
     /// Number of the first sphere [default: 1, or that of the preset]
     #[arg(long, value_name = "N", help_heading = "Table")]
     first_id: Option<u64>,
-    /// File for the residual force on each sphere above the floor, in N: csv, or json if it ends so
+    #[command(flatten)]
+    dialect: DialectArgs,
+    /// Step to read of a file with several, by its number or time [default: the last]
+    #[arg(
+        long,
+        value_name = "STEP",
+        allow_hyphen_values = true,
+        help_heading = "Table"
+    )]
+    step: Option<String>,
+    /// File for the residual force on each sphere above the floor, in N: csv, or json if it has this extension
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     unbalanced: Option<PathBuf>,
     #[command(flatten)]
     output: Output,
+}
+
+/// The dialect of a text table. Its first lines decide what is not given.
+#[derive(Args)]
+struct DialectArgs {
+    /// Separator of cells: one character, tab or blanks [default: what makes most cells numbers]
+    #[arg(long, value_name = "MARK", help_heading = "Table")]
+    separator: Option<Separator>,
+    /// Decimal sign [default: point, unless there are only commas]
+    #[arg(long, value_enum, value_name = "MARK", help_heading = "Table")]
+    decimal: Option<Decimal>,
+    /// Quote around cells, or none [default: \" or ']
+    #[arg(long, value_name = "MARK", help_heading = "Table")]
+    quote: Option<Mark>,
+    /// Beginning of a comment, or none [default: #, %, // or !]
+    #[arg(long, value_name = "MARK", help_heading = "Table")]
+    comment: Option<Mark>,
+    /// Number of lines above the table [default: those above the header]
+    #[arg(long, value_name = "N", help_heading = "Table")]
+    skip: Option<u64>,
+    /// Whether a row of units follows the header [default: whether it has no number]
+    #[arg(long, value_name = "BOOL", help_heading = "Table")]
+    unit_row: Option<bool>,
+    /// Encoding, such as utf-16le or windows-1252 [default: UTF-8, UTF-16 with a byte order mark, or windows-1252]
+    #[arg(long, value_name = "NAME", help_heading = "Table")]
+    encoding: Option<TextEncoding>,
+}
+
+/// The decimal sign.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Decimal {
+    /// 0.5
+    Point,
+    /// 0,5
+    Comma,
+}
+
+impl DialectArgs {
+    fn options(&self) -> DialectOptions {
+        DialectOptions {
+            encoding: self.encoding,
+            separator: self.separator,
+            quote: self.quote.clone(),
+            comment: self.comment.clone(),
+            decimal_comma: self.decimal.map(|decimal| decimal == Decimal::Comma),
+            skip: self.skip,
+            unit_row: self.unit_row,
+        }
+    }
 }
 
 /// The parameter of a refinement study.
@@ -114,7 +183,7 @@ enum Parameter {
 enum Matching {
     /// Numbers of the two spheres, in the order of the exports
     Numbers,
-    /// Positions: both centres or the contact point, in any rotated, reflected or shifted frame
+    /// Positions: both centres or the contact point, in any frame: shifted, rotated about any axis, mirrored
     Place,
 }
 
@@ -172,8 +241,8 @@ impl Verify {
             })?;
         }
         drop(progress);
-        if read.snapshots > 1 {
-            print_message(&format!("note: {}", judged(path, &read)));
+        if let Some(note) = other_steps(path, &read) {
+            print_message(&note);
         }
         Ok(read.comparison.accepted(self.accept))
     }
@@ -201,7 +270,13 @@ impl Verify {
             let reason = "--first-id requires --match numbers: add it, or leave out --first-id";
             return Err(Failure::Message(reason.into()));
         }
-        let reader = Reader::new().with_columns(columns);
+        let reader = Reader::new()
+            .with_columns(columns)
+            .with_dialect(self.dialect.options());
+        let reader = match &self.step {
+            Some(step) => reader.with_step(step.clone()),
+            None => reader,
+        };
         let reader = match &self.unbalanced {
             Some(_) => reader.with_balance(),
             None => reader,
@@ -243,6 +318,7 @@ fn compare(
     } else {
         Box::new(BufReader::with_capacity(1 << 16, File::open(path)?))
     };
+    let reader = &reader_in_folder(reader, path);
     if format != Format::Json {
         return Ok((reader.compare(packing, input)?, None));
     }
@@ -258,6 +334,15 @@ fn compare(
     Ok((read, Some(source)))
 }
 
+/// Returns the reader, which knows the folder of a file.
+fn reader_in_folder(reader: &Reader, path: &Path) -> Reader {
+    let reader = reader.clone();
+    match path.parent() {
+        Some(folder) if path != Path::new("-") => reader.in_folder(folder.to_owned()),
+        _ => reader,
+    }
+}
+
 fn name(path: &Path) -> String {
     if path == Path::new("-") {
         "stdin".into()
@@ -266,13 +351,13 @@ fn name(path: &Path) -> String {
     }
 }
 
-fn judged(path: &Path, read: &Compared) -> String {
-    let (name, snapshots) = (name(path), read.snapshots);
-    let step = read
-        .timestep
-        .map(|step| format!(", time step {step}"))
-        .unwrap_or_default();
-    format!("{name} has {snapshots} snapshots; this report is about the last{step}")
+/// Returns a note on the steps of a file that were not compared.
+fn other_steps(path: &Path, read: &Compared) -> Option<String> {
+    let (name, steps) = (name(path), read.steps);
+    let step = read.step.as_ref().filter(|_| steps > 1)?;
+    Some(format!(
+        "note: {name} has {steps} steps; this report is about step {step}"
+    ))
 }
 
 /// Returns the format that the file name extension stands for: JSON or CSV.

@@ -6,6 +6,7 @@ mod console;
 mod ensemble;
 mod explain;
 mod export;
+mod found_tables;
 mod man;
 mod mean;
 mod memory;

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::vector::transposed;
+
 /// One of the three coordinates of a position or a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Coordinate {
@@ -17,7 +19,7 @@ impl Coordinate {
     const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
     /// Returns the next coordinate, in cyclic order: x follows z.
-    pub(super) const fn next(self) -> Self {
+    const fn next(self) -> Self {
         match self {
             Self::X => Self::Y,
             Self::Y => Self::Z,
@@ -149,6 +151,36 @@ impl Axes {
         let swapped = [x > y, x > z, y > z].into_iter().filter(|is| *is).count();
         let reversed = self.0.iter().filter(|axis| axis.is_reversed).count();
         (swapped + reversed) % 2 == 1
+    }
+
+    /// Returns the axes whose vertical is nearest to a direction of the table. Turns about z yield all other axes with
+    /// this vertical.
+    pub(super) fn upright(up: [f64; 3], is_mirrored: bool) -> Self {
+        let [x, y, z] = up.map(f64::abs);
+        let vertical = if z >= x && z >= y {
+            Coordinate::Z
+        } else if y >= x {
+            Coordinate::Y
+        } else {
+            Coordinate::X
+        };
+        let is_reversed = vertical.of(up) < 0.0;
+        let first = vertical.next();
+        let second = TableAxis {
+            coordinate: first.next(),
+            is_reversed: is_reversed != is_mirrored,
+        };
+        let third = TableAxis {
+            coordinate: vertical,
+            is_reversed,
+        };
+        Self([first.into(), second, third])
+    }
+
+    /// Returns the matrix of the permutation. Its rows are x, y and z of the scene in the axes of the table.
+    pub(super) fn matrix(self) -> [[f64; 3]; 3] {
+        let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        transposed(units.map(|unit| self.turned(unit)))
     }
 
     /// Returns these axes, each reversed.

@@ -26,7 +26,7 @@ use cannonpile::{Interrupt, Packing};
 /// let comparison = Comparison::new(&packing, measured)?;
 ///
 /// assert_eq!((comparison.matched(), comparison.missing(), comparison.extra(0.0)), (2, 1, 0));
-/// assert!((0.08..0.09).contains(&comparison.largest_error()));
+/// assert!((0.08..0.09).contains(&comparison.largest_error().unwrap()));
 /// assert_eq!(
 ///     comparison.worst().unwrap().to_string(),
 ///     "contact of sphere 1 (k=0, i=0, j=0) with sphere 3 along beta: measured 0.5 N, exact 0.46225016352102427 N",
@@ -44,8 +44,9 @@ impl Comparison {
     /// Memory grows with the number of measured forces. The exact forces are computed row by row.
     ///
     /// # Errors
-    /// [`Refusal::Entry`] for a sphere number outside the pile, a sphere paired with itself, a repeated pair, or a
-    /// force that is not finite. [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile
+    /// [`Refusal::Entry`] for a sphere number outside the pile, unless the other sphere is at the bottom and touches a
+    /// wall of that number. Also for a sphere paired with itself, for a third entry of a pair, for a second one in the
+    /// same order with another force, and for a force that is not finite. [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile
     /// with too many contacts. [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`.
     ///
     /// # Examples
@@ -59,8 +60,9 @@ impl Comparison {
     /// let [one, other] = [Measured::new([1, 2], 0.46), Measured::new([3, 1], 0.47)];
     /// let comparison = Comparison::new(&packing, [one, other])?;
     /// assert_eq!(Comparison::new(&packing, [other.reversed(), one.reversed()])?, comparison);
-    /// // Each pair is listed once, in either order.
-    /// assert!(Comparison::new(&packing, [one, one.reversed()]).is_err());
+    /// // Each pair is listed once, or once in each order.
+    /// assert_eq!(Comparison::new(&packing, [one, one.reversed()])?.repeated(), 1);
+    /// assert!(Comparison::new(&packing, [one, one, one]).is_err());
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     pub fn new(
@@ -73,7 +75,7 @@ impl Comparison {
             let admitted = ledger.admit(&measured, entry);
             admitted.map_err(|fault| Refusal::Entry { entry, fault })?;
         }
-        let (judged, _) = ledger.judge(false)?;
+        let (judged, _) = ledger.judge(false).map_err(of_entry)?;
         Ok(Self(judged))
     }
 
@@ -111,14 +113,103 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // Not counted: a force of 0 at a loaded contact, and a pair without a contact.
+    /// // A force of 0 is a measurement. The last pair has no contact.
     /// let measured = [([1, 2], 0.46), ([1, 3], 0.0), ([2, 3], 0.1)].map(|(ids, force)| Measured::new(ids, force));
-    /// assert_eq!(Comparison::new(&packing, measured)?.matched(), 1);
+    /// assert_eq!(Comparison::new(&packing, measured)?.matched(), 2);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
     pub fn matched(&self) -> u64 {
         self.0.matched()
+    }
+
+    /// Returns the number of entries that list a pair a second time.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile_dem::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let measured = [[1, 2], [2, 1], [1, 3], [4, 1], [1, 4]].map(|ids| Measured::new(ids, 0.46));
+    /// let comparison = Comparison::new(&packing, measured)?;
+    /// assert_eq!((comparison.matched(), comparison.repeated()), (3, 2));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn repeated(&self) -> u64 {
+        self.0.repeated
+    }
+
+    /// Returns the number of pairs with two entries whose forces differ by more than `tolerance` times the exact force.
+    /// The worse of the two forces is judged.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile_dem::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let measured = [([1, 2], 0.46), ([2, 1], 0.47), ([1, 3], 0.46), ([1, 4], 0.46)];
+    /// let comparison = Comparison::new(&packing, measured.map(|(ids, force)| Measured::new(ids, force)))?;
+    /// assert_eq!([0.01, 0.1].map(|tolerance| comparison.contradictory(tolerance)), [1, 0]);
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn contradictory(&self, tolerance: f64) -> u64 {
+        Judged::over(&self.0.contradictions, tolerance)
+    }
+
+    /// Returns the number of contacts with the floor whose normal forces were judged.
+    ///
+    /// A number outside the pile is that of the floor or of a wall, if the other sphere is at the bottom. The vertical
+    /// forces on a bottom sphere are added up. They are not judged if several walls push it and only the magnitudes of
+    /// their forces were measured.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile_dem::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Sphere 0 is the floor. Each bottom sphere carries its own weight and a third of the top sphere.
+    /// let measured = [2, 3, 4].map(|id| Measured::new([id, 0], 4.0 / 3.0));
+    /// let comparison = Comparison::new(&packing, measured)?;
+    /// assert_eq!((comparison.floor(), comparison.floor_error()), (3, Some(0.0)));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn floor(&self) -> u64 {
+        self.0.floor
+    }
+
+    /// Returns the largest relative error of the normal force of the floor on a bottom sphere. `None` if no such force
+    /// was judged.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile_dem::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let on_floor = |force| Comparison::new(&packing, [Measured::new([0, 3], force)]);
+    /// assert_eq!(on_floor(8.0 / 3.0)?.floor_error(), Some(1.0));
+    /// // Vectors act on the first sphere. This one pushes the floor down.
+    /// let pushed = Measured::of_vector([0, 3], [0.1, 0.0, -4.0 / 3.0]);
+    /// assert_eq!(Comparison::new(&packing, [pushed])?.floor_error(), Some(0.0));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn floor_error(&self) -> Option<f64> {
+        self.0.floor_errors.first().copied()
     }
 
     /// Returns the number of contacts with a force that were not measured.
@@ -268,7 +359,7 @@ impl Comparison {
     }
 
     /// Returns the largest relative error of the measured contacts. It is infinite if a force was measured in a pile
-    /// without any force.
+    /// without any force. `None` if no contact was measured.
     ///
     /// # Examples
     /// ```
@@ -280,12 +371,13 @@ impl Comparison {
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// // No contact of this pile has a force.
     /// let compare = |force| Comparison::new(&packing, [Measured::new([1, 2], force)]);
-    /// assert_eq!([compare(0.0)?, compare(1e-9)?].map(|compared| compared.largest_error()), [0.0, f64::INFINITY]);
+    /// assert_eq!(compare(0.0)?.largest_error(), Some(0.0));
+    /// assert_eq!(compare(1e-9)?.largest_error(), Some(f64::INFINITY));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
-    pub fn largest_error(&self) -> f64 {
-        self.0.worst.as_ref().map_or(0.0, |worst| worst.error)
+    pub fn largest_error(&self) -> Option<f64> {
+        self.0.errors.first().copied()
     }
 
     /// Returns the number of measured contacts whose relative error exceeds `tolerance`.
@@ -309,8 +401,8 @@ impl Comparison {
     }
 
     /// Returns the common factor between measured and exact forces, if it differs from 1. Each measured force equals
-    /// this factor times the exact one, within a relative error of `tolerance`. `None` for fewer than two contacts with
-    /// a force.
+    /// this factor times the exact one, within a relative error of `tolerance`. Forces of 0 are left out. `None` for fewer
+    /// than two contacts with a force.
     ///
     /// # Examples
     /// ```
@@ -353,11 +445,22 @@ impl Comparison {
         if self.accepted(tolerance) {
             return Vec::new();
         }
-        self.0.symptoms.findings(tolerance)
+        let mut findings = self.0.symptoms.findings(tolerance);
+        let pairs = self.contradictory(tolerance);
+        findings.extend((pairs > 0).then_some(Finding::Contradiction { pairs }));
+        let is_factor = |finding: &Finding| matches!(finding, Finding::Factor(_));
+        let has_factor = findings.iter().any(is_factor);
+        // A common factor explains the forces of the floor too.
+        let error = self.floor_error().filter(|error| *error > tolerance);
+        findings.extend(error.filter(|_| !has_factor).map(|error| Finding::Floor {
+            spheres: Judged::over(&self.0.floor_errors, tolerance),
+            error,
+        }));
+        findings
     }
 
     /// Returns the root mean square of the relative errors of the measured contacts, accurate to about 1e-8 of its
-    /// value.
+    /// value. `None` if no contact was measured.
     ///
     /// # Examples
     /// ```
@@ -370,11 +473,12 @@ impl Comparison {
     /// // One force is correct, and the other is twice the exact one.
     /// let measured = [([1, 2], 0.46225016352102427), ([1, 3], 2.0 * 0.46225016352102427)];
     /// let comparison = Comparison::new(&packing, measured.map(|(ids, force)| Measured::new(ids, force)))?;
-    /// assert!((comparison.rms_error() - 0.5_f64.sqrt()).abs() < 1e-8);
+    /// assert!((comparison.rms_error().unwrap() - 0.5_f64.sqrt()).abs() < 1e-8);
+    /// assert_eq!(Comparison::new(&packing, [])?.rms_error(), None);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
-    pub fn rms_error(&self) -> f64 {
+    pub fn rms_error(&self) -> Option<f64> {
         self.0.rms_error()
     }
 
@@ -400,7 +504,8 @@ impl Comparison {
         self.0.worst.as_ref()
     }
 
-    /// Returns whether no contact is missing, no pair is extra, and every relative error is at most `tolerance`.
+    /// Returns whether no contact is missing, no pair is extra or contradictory, and every relative error is at most
+    /// `tolerance`, also that of the floor.
     ///
     /// # Examples
     /// ```
@@ -417,7 +522,19 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn accepted(&self, tolerance: f64) -> bool {
-        self.missing() == 0 && self.extra(tolerance) == 0 && self.largest_error() <= tolerance
+        let errors = [self.largest_error(), self.floor_error()];
+        self.missing() == 0
+            && self.extra(tolerance) == 0
+            && self.contradictory(tolerance) == 0
+            && errors.into_iter().flatten().all(|error| error <= tolerance)
+    }
+}
+
+/// Converts the line of an error to the number of an entry.
+pub(super) fn of_entry(refusal: Refusal) -> Refusal {
+    match refusal {
+        Refusal::Line { line, fault } => Refusal::Entry { entry: line, fault },
+        other => other,
     }
 }
 
@@ -427,13 +544,17 @@ impl fmt::Display for Comparison {
         let Judged {
             contacts, missing, ..
         } = self.0;
-        let (matched, rms) = (self.matched(), self.rms_error());
-        let (extra, largest) = (self.0.strays.len(), self.largest_error());
+        let (matched, extra) = (self.matched(), self.0.strays.len());
         write!(
             f,
-            "{matched} of {contacts} contacts measured, {missing} missing, {extra} pairs besides them; \
-             largest error {largest:e}, rms {rms:e}"
+            "{matched} of {contacts} contacts measured, {missing} missing, {extra} pairs besides them"
         )?;
+        if let (Some(largest), Some(rms)) = (self.largest_error(), self.rms_error()) {
+            write!(f, "; largest error {largest:e}, rms {rms:e}")?;
+        }
+        if let Some(error) = self.floor_error().filter(|error| *error > 0.0) {
+            write!(f, "; of the floor {error:e}")?;
+        }
         if let Some(worst) = self.worst() {
             write!(f, "; worst: {worst}")?;
         }

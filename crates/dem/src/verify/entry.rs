@@ -1,7 +1,9 @@
 //! A row of a table: the force between two spheres, which are known by number or by position.
 
+use core::slice;
+
 use super::measured::Measured;
-use super::refusal::Refusal;
+use super::refusal::{Fault, Refusal};
 use crate::Error;
 use crate::error::bug;
 
@@ -15,8 +17,9 @@ pub(super) struct Entry {
 /// The identification of the two spheres of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spheres {
-    /// The numbers of the spheres, from 1.
-    Numbers([u64; 2]),
+    /// The numbers of the spheres, counted from 1. A number outside the pile may belong to the floor or to a wall, as
+    /// 0, a negative number, or one beyond the last sphere.
+    Numbers([i64; 2]),
     /// The position of the contact.
     Places(Place),
 }
@@ -50,11 +53,32 @@ pub enum Force {
 }
 
 impl Entry {
-    /// Returns the force between the two numbered spheres of the row.
-    pub(super) fn named(&self) -> Result<Measured, Error> {
+    /// Returns the numbers of the two spheres.
+    pub(super) fn numbers(&self) -> Result<[i64; 2], Error> {
         match self.spheres {
-            Spheres::Numbers(ids) => Ok(self.force.between(ids)),
+            Spheres::Numbers(ids) => Ok(ids),
             Spheres::Places(_) => Err(bug("a table is read by numbers, or by place")),
+        }
+    }
+
+    /// Returns the force between the two numbered spheres of the row. No number may be negative.
+    pub(super) fn named(&self) -> Result<Measured, Fault> {
+        let ids = self.numbers().map_err(|error| Fault::Bug {
+            error: Box::new(error),
+        })?;
+        match ids.map(u64::try_from) {
+            [Ok(one), Ok(other)] => Ok(self.force.between([one, other])),
+            [first, _] => {
+                let (column, id) = match (first, ids) {
+                    (Err(_), [id, _]) => ("id1", id),
+                    (Ok(_), [_, id]) => ("id2", id),
+                };
+                let error = Error::syntax(&id.to_string(), "a number of at least 0");
+                Err(Fault::Field {
+                    column,
+                    error: Box::new(error),
+                })
+            }
         }
     }
 
@@ -67,7 +91,43 @@ impl Entry {
     }
 }
 
+impl Place {
+    /// Returns the coordinates: both centres, or the contact point.
+    pub(super) fn points(&self) -> &[[f64; 3]] {
+        match self {
+            Self::Centres(centres) => centres,
+            Self::Point(point) => slice::from_ref(point),
+        }
+    }
+
+    /// Returns the contact point.
+    pub(super) fn point(&self) -> [f64; 3] {
+        match self {
+            Self::Centres([[x, y, z], [u, v, w]]) => {
+                [x.midpoint(*u), y.midpoint(*v), z.midpoint(*w)]
+            }
+            Self::Point(point) => *point,
+        }
+    }
+
+    /// Returns the position with each of its points changed.
+    pub(super) fn map(self, change: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        match self {
+            Self::Centres(centres) => Self::Centres(centres.map(change)),
+            Self::Point(point) => Self::Point(change(point)),
+        }
+    }
+}
+
 impl Force {
+    /// Returns the measured force on the first sphere.
+    pub(super) fn of(measured: &Measured) -> Self {
+        match measured.vector {
+            Some(vector) => Self::Both(measured.force, vector),
+            None => Self::Along(measured.force),
+        }
+    }
+
     /// Returns the force as a measurement between two numbered spheres. A vector acts on the first.
     pub(super) fn between(self, ids: [u64; 2]) -> Measured {
         match self {
@@ -100,8 +160,8 @@ impl Force {
 
 /// A receiver for the rows of a file.
 pub(super) trait Sink {
-    /// Begins a new snapshot, and discards the rows of the previous one.
-    fn begin_snapshot(&mut self, timestep: Option<i64>);
+    /// Begins another step, and discards the rows of the previous one.
+    fn begin_step(&mut self);
 
     /// Receives the row of a line.
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal>;

@@ -10,7 +10,35 @@ use super::axes::Axes;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// All measured forces equal the exact ones times one factor.
+    /// Contacts with a force were measured as 0.
+    Zero {
+        /// The number of these contacts.
+        contacts: u64,
+        /// True if all measured contacts with a force are among them.
+        are_all: bool,
+    },
+    /// Forces differ from the lengths of their vectors.
+    Disagreement {
+        /// The number of these contacts.
+        contacts: u64,
+        /// True if all forces are exact.
+        forces_are_exact: bool,
+        /// True if all vectors are exact.
+        vectors_are_exact: bool,
+    },
+    /// Two rows of one pair have different forces.
+    Contradiction {
+        /// The number of these pairs.
+        pairs: u64,
+    },
+    /// The measured normal forces of the floor differ from the exact ones.
+    Floor {
+        /// The number of bottom spheres with a wrong force.
+        spheres: u64,
+        /// The largest relative error.
+        error: f64,
+    },
+    /// All measured forces equal the exact ones times one factor. Forces of 0 are left out.
     Factor(f64),
     /// All vectors are the forces on the second sphere of the pair instead of the first.
     SecondSphere,
@@ -32,6 +60,38 @@ pub enum Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Zero {
+                contacts,
+                are_all: true,
+            } => write!(
+                f,
+                "all measured forces are 0, at {contacts} of the contacts with a force: does the simulation store its forces?"
+            ),
+            Self::Zero {
+                contacts,
+                are_all: false,
+            } => write!(f, "a force of 0 was measured at {contacts} of the contacts with a force"),
+            Self::Disagreement {
+                contacts,
+                forces_are_exact,
+                vectors_are_exact,
+            } => {
+                write!(f, "force and vector disagree at {contacts} of the contacts: ")?;
+                f.write_str(match (forces_are_exact, vectors_are_exact) {
+                    (true, _) => "all forces are the exact ones",
+                    (_, true) => "all vectors are the exact ones",
+                    _ => "neither are the exact ones at all contacts",
+                })
+            }
+            Self::Contradiction { pairs } => write!(
+                f,
+                "two rows disagree on the force of {pairs} of the pairs: does the table hold several steps?"
+            ),
+            Self::Floor { spheres, error } => write!(
+                f,
+                "the normal force of the floor is wrong at {spheres} of the bottom spheres, by up to {error:.1e} of the exact \
+                 force: are they held in place by other means?"
+            ),
             Self::Factor(factor) => write!(
                 f,
                 "all forces are {factor:?} times the exact ones: {}",

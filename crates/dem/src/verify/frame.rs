@@ -3,11 +3,12 @@
 use core::fmt;
 
 use super::axes::Axes;
+use crate::vector::{cross, dot, plus};
 
-/// A rigid transformation from positions in a table to positions in the scene: a permutation of the axes, a rotation
-/// about the vertical, and a translation.
+/// A rigid transformation from positions in a table to positions in the scene: a rotation about any axis or a mirror
+/// image, and a translation.
 ///
-/// With the axes A, the angle φ and the shift **s**, a position **x** of the table is **s** + R(φ)·A**x** in the scene.
+/// With the orthogonal matrix M and the shift **s**, a position **x** of the table is M**x** + **s** in the scene.
 ///
 /// # Examples
 /// ```
@@ -29,10 +30,8 @@ use super::axes::Axes;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// The axes of the table that are x, y and z of the scene, before the rotation.
-    pub axes: Axes,
-    /// The angle φ of the rotation about z, in radians from −π to π.
-    pub angle: f64,
+    /// The orthogonal matrix M. Its rows are x, y and z of the scene in the axes of the table.
+    pub rotation: [[f64; 3]; 3],
     /// The shift **s**, in m.
     pub shift: [f64; 3],
 }
@@ -40,83 +39,130 @@ pub struct Frame {
 impl Frame {
     /// The identity: the frame of the scene.
     pub(super) const OWN: Self = Self {
-        axes: Axes::OWN,
-        angle: 0.0,
+        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         shift: [0.0; 3],
     };
+
+    /// Returns the frame that permutes the axes, turns about z by an angle in radians, and then shifts.
+    pub(super) fn upright(axes: Axes, angle: f64, shift: [f64; 3]) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        // The floats nearest to multiples of 30° have sines and cosines that are not quite 0, 1/2 and 1.
+        let [sin, cos] = [sin, cos].map(|x| {
+            let halves = (2.0 * x).round() / 2.0;
+            if (x - halves).abs() < 1e-15 {
+                halves
+            } else {
+                x
+            }
+        });
+        let [x, y, z] = axes.matrix();
+        let mix = |a: f64, b: f64| [0, 1, 2].map(|n| a * x[n] + b * y[n]);
+        Self {
+            rotation: [mix(cos, -sin), mix(sin, cos), z],
+            shift,
+        }
+    }
+
+    /// Returns the nearest axes of the table, up to a turn about z.
+    pub(super) fn axes(&self) -> Axes {
+        let [_, _, up] = self.rotation;
+        Axes::upright(up, self.is_mirrored())
+    }
+
+    /// Returns the angle of the turn about z that follows the permutation of the axes, in radians from −π to π.
+    pub(super) fn angle(&self) -> f64 {
+        let [x, _, _] = self.axes().matrix();
+        let [cos, sin, _] = self.turned(x);
+        sin.atan2(cos)
+    }
 
     /// Returns a vector of the table in the axes of the scene.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Axes, Frame};
-    /// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+    /// use cannonpile_dem::verify::Frame;
     ///
-    /// let axes = Axes::new([Z.into(), X.into(), Y.into()]).unwrap();
-    /// let frame = Frame { axes, angle: 0.0, shift: [1.0, 0.0, 0.0] };
+    /// let rotation = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let frame = Frame { rotation, shift: [1.0, 0.0, 0.0] };
     /// assert_eq!(frame.turned([0.0, 2.0, 3.0]), [3.0, 0.0, 2.0]);
     /// ```
     #[must_use]
     pub fn turned(&self, vector: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = self.axes.turned(vector);
-        // Without a rotation, no rounding error may occur.
-        if self.angle == 0.0 {
-            return [x, y, z];
-        }
-        let (sin, cos) = self.angle.sin_cos();
-        [cos * x - sin * y, sin * x + cos * y, z]
+        self.rotation.map(|row| dot(row, vector))
     }
 
     /// Returns the position in the scene of a point of the table.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Axes, Frame};
-    /// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+    /// use cannonpile_dem::verify::Frame;
     ///
-    /// let axes = Axes::new([Z.into(), X.into(), Y.into()]).unwrap();
-    /// let frame = Frame { axes, angle: 0.0, shift: [1.0, 0.0, 0.0] };
+    /// let rotation = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let frame = Frame { rotation, shift: [1.0, 0.0, 0.0] };
     /// assert_eq!(frame.place([0.0, 2.0, 3.0]), [4.0, 0.0, 2.0]);
     /// ```
     #[must_use]
     pub fn place(&self, point: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = self.turned(point);
-        let [a, b, c] = self.shift;
-        [x + a, y + b, z + c]
+        plus(self.turned(point), self.shift)
     }
 
     /// Returns whether the table is a mirror image of the scene.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile_dem::verify::{Axes, Frame};
-    /// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+    /// use cannonpile_dem::verify::Frame;
     ///
-    /// let axes = Axes::new([Y.into(), X.into(), Z.into()]).unwrap();
-    /// assert!(Frame { axes, angle: 0.0, shift: [0.0; 3] }.is_mirrored());
+    /// let rotation = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    /// assert!(Frame { rotation, shift: [0.0; 3] }.is_mirrored());
     /// ```
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
-        self.axes.is_mirrored()
+        let [x, y, z] = self.rotation;
+        dot(x, cross(y, z)) < 0.0
     }
 }
 
 impl fmt::Display for Frame {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, _, up] = self.rotation;
         let mut parts = Vec::new();
-        if self.axes != Axes::OWN {
-            parts.push(self.axes.to_string());
-        }
-        if self.angle != 0.0 {
+        if up.iter().filter(|component| **component == 0.0).count() == 2 {
+            let permuted = Axes::all().find(|axes| axes.matrix() == self.rotation);
+            let (axes, angle) = match permuted {
+                // Turns about z by right angles are no permutations.
+                Some(axes) if self.axes() != Axes::OWN => (axes, 0.0),
+                _ => (self.axes(), self.angle()),
+            };
+            if axes != Axes::OWN {
+                parts.push(axes.to_string());
+            }
+            if angle != 0.0 {
+                parts.push(format!(
+                    "turned about z by {:.6} degrees",
+                    angle.to_degrees()
+                ));
+            }
+        } else {
+            let mirrored = if self.is_mirrored() {
+                ", a mirror image"
+            } else {
+                ""
+            };
             parts.push(format!(
-                "turned about z by {:.6} degrees",
-                self.angle.to_degrees()
+                "gravity is along {} of the table, and x of the scene along {}{mirrored}",
+                text(up.map(|component| -component)),
+                text(x)
             ));
         }
         if self.shift.iter().any(|x| *x != 0.0) {
-            let [x, y, z] = self.shift;
-            parts.push(format!("moved by ({x:.6}, {y:.6}, {z:.6}) m"));
+            parts.push(format!("moved by {} m", text(self.shift)));
         }
         f.write_str(&parts.join("; "))
     }
+}
+
+/// Returns a vector with six decimals, without negative zeros.
+fn text(vector: [f64; 3]) -> String {
+    let [x, y, z] = vector.map(|x| if x.abs() < 5e-7 { 0.0 } else { x });
+    format!("({x:.6}, {y:.6}, {z:.6})")
 }

@@ -5,9 +5,11 @@ use num_traits::ToPrimitive;
 use super::entry::{Entry, Force, Place, Sink};
 use super::frame::Frame;
 use super::ledger::Ledger;
-use super::places::{Places, loaded_points};
+use super::loaded::LoadedContacts;
+use super::places::{Found, Places};
 use super::refusal::Refusal;
-use super::registration::{self, Exact, moved};
+use super::registration;
+use super::rows::{Row, Rows};
 use cannonpile::Interrupt;
 
 /// The number of rows that suffices to decide that the table is in the frame of the scene, if all rows match contacts
@@ -20,15 +22,9 @@ pub(super) struct Gathering<'p> {
     places: Places,
     radius: f64,
     within: f64,
-    kept: Vec<Row>,
+    kept: Rows,
     /// True if the frame of the table is that of the scene.
     is_own: bool,
-}
-
-struct Row {
-    place: Place,
-    force: Force,
-    line: u64,
 }
 
 impl<'p> Gathering<'p> {
@@ -41,7 +37,7 @@ impl<'p> Gathering<'p> {
             ledger,
             radius,
             within: within * radius,
-            kept: Vec::new(),
+            kept: Rows::default(),
             is_own: false,
         })
     }
@@ -49,69 +45,84 @@ impl<'p> Gathering<'p> {
     /// Finds the frame, and passes all rows to the ledger.
     pub(super) fn settle(mut self) -> Result<(Ledger<'p>, Frame), Refusal> {
         let kept = core::mem::take(&mut self.kept);
-        if self.is_own || kept.is_empty() {
+        if self.is_own || kept.len() == 0 {
             return Ok((self.ledger, Frame::OWN));
         }
         let frame = self.frame(&kept)?;
-        for row in &kept {
+        for row in kept.iter() {
             Interrupt::check()?;
-            self.give(row, &frame)?;
+            self.give(&row, &frame)?;
         }
         Ok((self.ledger, frame))
     }
 
-    fn frame(&self, kept: &[Row]) -> Result<Frame, Refusal> {
-        let table: Vec<_> = kept
-            .iter()
-            .map(|row| (row.place, row.force.magnitude()))
-            .collect();
-        let (points, forces) = loaded_points(self.ledger.numbered())?;
-        let exact = Exact {
-            points: &points,
-            places: &self.places,
-            force: &|ids| {
-                let slot = self.ledger.slot(ids);
-                let force = slot.and_then(|slot| forces.get(slot));
-                // Not a default: spheres without a contact have no force.
-                force.copied().unwrap_or(0.0)
-            },
-        };
-        let fit = registration::find(&table, &exact, self.radius, self.within);
-        if 2 * fit.found < fit.sample {
-            let (found, sample) = (fit.found, fit.sample);
+    fn frame(&self, kept: &Rows) -> Result<Frame, Refusal> {
+        let loaded = LoadedContacts::new(&self.ledger, &self.places, self.radius)?;
+        let fit = registration::find(kept, &loaded, self.radius, self.within)?;
+        let (found, sample) = (fit.found, fit.sample);
+        if 2 * found < sample {
             return Err(Refusal::Elsewhere { found, sample });
         }
         Ok(fit.frame)
     }
 
     fn give(&mut self, row: &Row, frame: &Frame) -> Result<(), Refusal> {
-        let ids = match self.places.find(&moved(&row.place, frame), self.within) {
-            Ok([one, other]) if one != other => [one, other],
+        let place = row.place.map(|point| frame.place(point));
+        let found = match self.places.find(&place, self.within) {
+            Ok(found) => found,
             // A row that matches no contact is ignored if its force is 0.
-            _ if row.force.magnitude() == 0.0 => return Ok(()),
-            Ok(ids) => ids,
+            Err(_) if row.force.magnitude() == 0.0 => return Ok(()),
             Err(fault) => return Err(fault.at(row.line)),
         };
         let force = row.force.map(|vector| frame.turned(vector));
-        let measured = match row.place {
-            Place::Centres(_) => self.places.on_first(force, ids)?,
-            Place::Point(_) => self.places.on_either(force, ids)?,
+        let admitted = match found {
+            Found::Floor { sphere, is_second } => {
+                let on_sphere = match place {
+                    Place::Centres(_) if is_second => force.map(|vector| vector.map(|x| 0.0 - x)),
+                    Place::Centres(_) => force,
+                    Place::Point(_) => upwards(force),
+                };
+                self.ledger.admit_floor(sphere, on_sphere, row.line)
+            }
+            Found::Spheres([one, other]) if one == other && row.force.magnitude() == 0.0 => Ok(()),
+            Found::Spheres(ids) => match place {
+                Place::Centres(_) => {
+                    let measured = self.places.on_first(force, ids)?;
+                    self.ledger.admit(&measured, row.line)
+                }
+                // A contact point does not tell which sphere is the first.
+                Place::Point(_) => {
+                    let measured = self.places.on_either(force, ids)?;
+                    self.ledger.admit_unordered(&measured, row.line)
+                }
+            },
         };
-        let admitted = self.ledger.admit(&measured, row.line);
         admitted.map_err(|fault| fault.at(row.line))
     }
 
     fn all_fit(&self) -> bool {
         let mut kept = self.kept.iter();
-        kept.all(|row| self.places.find(&row.place, self.within).is_ok())
+        kept.all(|row| {
+            row.force.magnitude() == 0.0 || self.places.find(&row.place, self.within).is_ok()
+        })
     }
 }
 
+/// Returns the force on a bottom sphere at its contact with the floor. There, a vector may be the force on the floor.
+fn upwards(force: Force) -> Force {
+    let is_tensile = matches!(force, Force::Both(force, _) if force < 0.0);
+    force.map(|vector| {
+        let [_, _, z] = vector;
+        let is_reversed = (z < 0.0) != is_tensile;
+        vector.map(|x| if is_reversed { 0.0 - x } else { x })
+    })
+}
+
 impl Sink for Gathering<'_> {
-    fn begin_snapshot(&mut self, timestep: Option<i64>) {
+    fn begin_step(&mut self) {
         self.kept.clear();
         self.is_own = false;
-        self.ledger.begin_snapshot(timestep);
+        self.ledger.begin_step();
     }
 
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
@@ -123,10 +134,10 @@ impl Sink for Gathering<'_> {
         if self.is_own {
             return self.give(&row, &Frame::OWN);
         }
-        self.kept.push(row);
+        self.kept.push(&row);
         if self.kept.len() == ENOUGH && self.all_fit() {
             self.is_own = true;
-            for row in core::mem::take(&mut self.kept) {
+            for row in core::mem::take(&mut self.kept).iter() {
                 self.give(&row, &Frame::OWN)?;
             }
         }

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::entry::{Entry, Sink};
+use super::entry::{Entry, Force, Sink};
+use super::floor::{Floor, Normal};
+use super::listed::{Forces, Listed, Order};
 use super::measured::{MAX_ENTRIES, Measured};
 use super::refusal::{Fault, Refusal};
 use super::slots::Slots;
@@ -12,32 +14,43 @@ use crate::NumberedPile;
 use cannonpile::Packing;
 use cannonpile::engine::refuse_beyond_memory;
 
-/// The largest number of pairs without a contact, for each sphere. At most twelve spheres touch a sphere, and each pair
-/// is listed once. The limit leaves room for neighbours that do not touch.
+/// The largest number of pairs without a contact, and of contacts with walls, for each sphere. At most twelve spheres
+/// touch a sphere. The limit leaves room for neighbours that do not touch.
 const PAIRS_A_SPHERE: u64 = 20;
 
-/// The memory of a force and a vector.
-const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>();
+/// The memory of a force, a vector, and the count of its rows.
+const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>() + size_of::<Listed>();
 
 /// The largest number of runs of lines. Beyond it, messages about repeated pairs omit the line.
-const MAX_RUNS: usize = 1 << 20;
+const MAX_RUNS: usize = 1 << 16;
 
-/// The measured forces of a pile. A contact takes eight bytes, and 24 more if vectors were measured.
+/// The measured forces of a pile. A contact takes nine bytes, and 24 more if vectors were measured. It takes as much
+/// again if pairs are listed twice with different forces.
 pub(super) struct Ledger<'p> {
     numbered: NumberedPile<'p>,
     slots: Slots,
     spheres: u64,
-    /// The force of each contact: 0 if it was not measured, and −0 if the measured force is 0. The memory starts as
-    /// zeros, so the system allocates only the pages that are written.
-    forces: Vec<f64>,
-    /// The vector on the sphere with the smaller number; NaN if none was measured.
-    vectors: Vec<[f64; 3]>,
-    /// Pairs without a contact, with their lines.
-    strays: BTreeMap<[u64; 2], (Measured, u64)>,
+    first_on_floor: u64,
+    listed: Vec<Listed>,
+    forces: Forces,
+    /// The forces of second rows that differ from the first.
+    seconds: Forces,
+    /// Pairs without a contact.
+    strays: BTreeMap<[u64; 2], Stray>,
+    floor: Floor,
+    /// The number of rows that list a pair a second time.
+    repeated: u64,
     lines: Lines,
-    snapshots: u64,
-    timestep: Option<i64>,
     walls: u64,
+}
+
+/// A pair without a contact. Of two rows with different forces, the greater force counts.
+struct Stray {
+    measured: Measured,
+    line: u64,
+    listed: Listed,
+    /// The difference between the forces of two rows.
+    contradiction: f64,
 }
 
 impl<'p> Ledger<'p> {
@@ -52,12 +65,14 @@ impl<'p> Ledger<'p> {
         let slots = Slots::new(&numbered)?;
         Ok(Self {
             spheres: numbered.numbering().sphere_count(),
-            forces: vec![0.0; slots.len()],
-            vectors: Vec::new(),
+            first_on_floor: numbered.numbering().first_on_floor(),
+            listed: vec![Listed::Never; slots.len()],
+            forces: Forces::default(),
+            seconds: Forces::default(),
             strays: BTreeMap::new(),
+            floor: Floor::default(),
+            repeated: 0,
             lines: Lines::default(),
-            snapshots: 0,
-            timestep: None,
             walls: 0,
             numbered,
             slots,
@@ -73,80 +88,162 @@ impl<'p> Ledger<'p> {
         self.slots.find([one.min(other), one.max(other)])
     }
 
-    pub(super) fn snapshots(&self) -> u64 {
-        self.snapshots
-    }
-
-    pub(super) fn timestep(&self) -> Option<i64> {
-        self.timestep
-    }
-
+    /// Returns the number of rows that are contacts with walls and are not judged.
     pub(super) fn walls(&self) -> u64 {
-        self.walls
+        self.walls + self.floor.unjudged()
     }
 
-    /// Stores the measurement of a line. Both spheres must be in the pile, the force must be finite, and the pair must
-    /// be new.
+    /// Stores the measurement of a line. A number outside the pile is that of a wall, if the other sphere is at the
+    /// bottom.
+    ///
+    /// The force must be finite. A pair may be in two rows: in both orders, or with the same force.
     pub(super) fn admit(&mut self, measured: &Measured, line: u64) -> Result<(), Fault> {
-        let spheres = self.spheres;
         let [first, second] = measured.ids;
-        let mut ids = measured.ids.into_iter();
-        if let Some(id) = ids.find(|id| *id == 0 || *id > spheres) {
-            return Err(Fault::NoSuchSphere { id, spheres });
+        let order = if first < second {
+            Order::Forward
+        } else {
+            Order::Backward
+        };
+        self.admit_in(order, measured, line)
+    }
+
+    /// Stores the measurement of a line that does not tell the order of its spheres.
+    pub(super) fn admit_unordered(&mut self, measured: &Measured, line: u64) -> Result<(), Fault> {
+        self.admit_in(Order::Unknown, measured, line)
+    }
+
+    /// Stores the contact of a bottom sphere with the floor below it.
+    pub(super) fn admit_floor(
+        &mut self,
+        sphere: u64,
+        on_sphere: Force,
+        line: u64,
+    ) -> Result<(), Fault> {
+        if !self.is_at_bottom(sphere) {
+            return Err(Fault::of_bug("the floor touches bottom spheres only"));
+        }
+        refuse_infinite(on_sphere)?;
+        let is_repeated = self.floor.add_below(sphere, Normal::of(on_sphere), line);
+        self.repeated += u64::from(is_repeated);
+        Ok(())
+    }
+
+    fn is_at_bottom(&self, sphere: u64) -> bool {
+        (self.first_on_floor..=self.spheres).contains(&sphere)
+    }
+
+    fn admit_in(&mut self, order: Order, measured: &Measured, line: u64) -> Result<(), Fault> {
+        let [first, second] = measured.ids;
+        let spheres = 1..=self.spheres;
+        if !spheres.contains(&first) || !spheres.contains(&second) {
+            return self.admit_wall([first.into(), second.into()], Force::of(measured), line);
         }
         if first == second {
             return Err(Fault::OneSphere { id: first });
         }
-        let [x, y, z] = measured.vector.unwrap_or([0.0; 3]);
-        let numbers = [("force", measured.force), ("fx", x), ("fy", y), ("fz", z)];
-        if let Some((column, value)) = numbers.into_iter().find(|(_, x)| !x.is_finite()) {
-            return Err(Fault::NotFinite { column, value });
-        }
+        refuse_infinite(Force::of(measured))?;
         let measured = if first < second {
             *measured
         } else {
             measured.reversed()
         };
         match self.slots.find(measured.ids) {
-            Some(slot) => self.fill(slot, &measured, line),
-            None => self.stray(measured, line),
+            Some(slot) => self.fill(slot, order, &measured, line),
+            None => self.stray(order, measured, line),
         }
     }
 
-    fn fill(&mut self, slot: usize, measured: &Measured, line: u64) -> Result<(), Fault> {
-        let force = self.forces.get_mut(slot);
-        let force = force.ok_or_else(|| Fault::of_bug("every contact has a slot"))?;
-        if force.to_bits() != 0 {
-            let (ids, first) = (measured.ids, self.lines.of(slot));
-            return Err(Fault::Twice { ids, first });
-        }
-        *force = if measured.force == 0.0 {
-            -0.0
-        } else {
-            measured.force
+    /// Stores the contact of a bottom sphere with a wall, whose number is outside the pile.
+    fn admit_wall(&mut self, ids: [i128; 2], on_first: Force, line: u64) -> Result<(), Fault> {
+        let (first, spheres) = (1, self.spheres);
+        let no_sphere = |id| Err(Fault::NoSuchSphere { id, first, spheres });
+        let sphere = |id| {
+            u64::try_from(id)
+                .ok()
+                .filter(|id| (1..=spheres).contains(id))
         };
-        self.lines.note(slot, line);
-        if measured.vector.is_some() && self.vectors.is_empty() {
-            self.vectors = vec![[f64::NAN; 3]; self.forces.len()];
+        let ([one, other], is_second) = (ids, sphere(ids[0]).is_none());
+        let (wall, sphere) = if is_second {
+            (one, sphere(other))
+        } else {
+            (other, sphere(one))
+        };
+        let Some(sphere) = sphere.filter(|sphere| self.is_at_bottom(*sphere)) else {
+            return no_sphere(wall);
+        };
+        refuse_infinite(on_first)?;
+        let limit = self.limit();
+        if self.floor.len() >= limit {
+            return Err(Fault::TooMany { limit });
         }
-        if let Some(vector) = measured.vector {
-            let place = self.vectors.get_mut(slot);
-            *place.ok_or_else(|| Fault::of_bug("every contact has a slot"))? = vector;
-        }
+        let on_sphere = if is_second {
+            on_first.map(|vector| vector.map(|x| 0.0 - x))
+        } else {
+            on_first
+        };
+        let normal = Normal::of(on_sphere);
+        let is_repeated = self.floor.add((sphere, wall), is_second, normal, line);
+        self.repeated += u64::from(is_repeated);
         Ok(())
     }
 
-    fn stray(&mut self, measured: Measured, line: u64) -> Result<(), Fault> {
-        let limit = self.spheres.saturating_mul(PAIRS_A_SPHERE).min(MAX_ENTRIES);
-        if let Some((_, first)) = self.strays.get(&measured.ids) {
-            let (ids, first) = (measured.ids, Some(*first));
+    fn fill(
+        &mut self,
+        slot: usize,
+        order: Order,
+        measured: &Measured,
+        line: u64,
+    ) -> Result<(), Fault> {
+        let (ids, contacts) = (measured.ids, self.slots.len());
+        let listed = self.listed.get_mut(slot);
+        let listed = listed.ok_or_else(|| Fault::of_bug("every contact has a slot"))?;
+        let is_first = *listed == Listed::Never;
+        let agrees = !is_first && self.forces.get(slot, ids) == Some(*measured);
+        let Some(after) = listed.after(order, agrees) else {
+            let first = self.lines.of(slot);
             return Err(Fault::Twice { ids, first });
+        };
+        *listed = after;
+        if is_first {
+            self.lines.note(slot, line);
+            return self.forces.set(slot, contacts, measured);
+        }
+        self.repeated += 1;
+        if agrees {
+            return Ok(());
+        }
+        self.seconds.set(slot, contacts, measured)
+    }
+
+    fn stray(&mut self, order: Order, measured: Measured, line: u64) -> Result<(), Fault> {
+        let (ids, limit) = (measured.ids, self.limit());
+        if let Some(stray) = self.strays.get_mut(&ids) {
+            let after = stray.listed.after(order, stray.measured == measured);
+            let first = Some(stray.line);
+            stray.listed = after.ok_or(Fault::Twice { ids, first })?;
+            stray.contradiction = stray.measured.difference(&measured);
+            if measured.magnitude() > stray.measured.magnitude() {
+                stray.measured = measured;
+            }
+            self.repeated += 1;
+            return Ok(());
         }
         if self.strays.len() as u64 >= limit {
             return Err(Fault::TooMany { limit });
         }
-        self.strays.insert(measured.ids, (measured, line));
+        let stray = Stray {
+            measured,
+            line,
+            listed: Listed::Once(order),
+            contradiction: 0.0,
+        };
+        self.strays.insert(ids, stray);
         Ok(())
+    }
+
+    /// Returns the largest number of pairs without a contact.
+    fn limit(&self) -> u64 {
+        self.spheres.saturating_mul(PAIRS_A_SPHERE).min(MAX_ENTRIES)
     }
 
     /// Compares all measured forces with the exact ones.
@@ -156,9 +253,14 @@ impl<'p> Ledger<'p> {
         mut self,
         with_balance: bool,
     ) -> Result<(Judged, Option<Unbalanced>), Refusal> {
-        let strays = self.strays.values();
+        let directions = self.numbered.pile().dimension().directions().len();
+        if let Some((id, line)) = self.floor.sphere_below(self.spheres, directions) {
+            let (first, spheres) = (1, self.spheres);
+            return Err(Fault::NoSuchSphere { id, first, spheres }.at(line));
+        }
+        let mut strays = self.strays.values().map(|stray| &stray.measured);
         let with_vectors =
-            !self.vectors.is_empty() || strays.clone().any(|(stray, _)| stray.vector.is_some());
+            !self.forces.vectors.is_empty() || strays.any(|stray| stray.vector.is_some());
         let mut tally = Tally::new(&self.numbered, with_vectors);
         let balance = with_balance.then(|| Balance::new(&self.numbered));
         let mut balance = balance.transpose()?;
@@ -167,53 +269,72 @@ impl<'p> Ledger<'p> {
         let mut errors = 0;
         for (slot, contact) in contacts.enumerate() {
             let contact = contact.map_err(Refusal::of_forces)?.in_order();
-            let force = self.forces.get(slot).copied();
-            let vector = self.vectors.get(slot).copied();
-            let vector = vector.filter(|[x, ..]| !x.is_nan());
-            let measured = force.filter(|force| force.to_bits() != 0);
-            let measured = measured.map(|force| Measured {
-                ids: contact.ids,
-                force: force + 0.0,
-                vector,
-            });
+            let listed = self.listed.get(slot).copied();
+            let listed = listed.filter(|listed| *listed != Listed::Never);
+            let measured = listed.and_then(|_| self.forces.get(slot, contact.ids));
+            let second = listed.filter(|listed| *listed == Listed::Differently);
+            let second = second.and_then(|_| self.seconds.get(slot, contact.ids));
             if let (Some(balance), Some(measured)) = (&mut balance, &measured) {
                 balance.add(&contact, measured)?;
             }
-            if let Some(error) = tally.add(&contact, measured)
-                && let Some(place) = self.forces.get_mut(errors)
+            if let Some(error) = tally.add(&contact, measured, second)
+                && let Some(place) = self.forces.along.get_mut(errors)
             {
                 *place = error;
                 errors += 1;
             }
         }
-        self.forces.truncate(errors);
-        let strays = self.strays.values().map(|(stray, _)| stray);
+        let mut relative_errors = self.forces.along;
+        relative_errors.truncate(errors);
         if let Some(balance) = &mut balance {
-            for stray in strays.clone() {
-                balance.add_stray(stray)?;
+            for stray in self.strays.values() {
+                balance.add_stray(&stray.measured)?;
             }
         }
-        let judged = tally.close(self.forces, strays, self.numbered.numbering());
+        let floor = self.floor.judge(&self.numbered, tally.largest_force())?;
+        let strays = self.strays.values();
+        let strays = strays.map(|stray| (&stray.measured, stray.contradiction));
+        let mut judged = tally.close(relative_errors, strays, self.numbered.numbering());
+        judged.add_floor(floor);
+        judged.repeated = self.repeated;
         Ok((judged, balance.map(Balance::close)))
     }
 }
 
+/// Refuses a force that is infinite or NaN.
+fn refuse_infinite(force: Force) -> Result<(), Fault> {
+    let (along, vector) = match force {
+        Force::Along(along) => (along, [0.0; 3]),
+        Force::Vector(vector) => (0.0, vector),
+        Force::Both(along, vector) => (along, vector),
+    };
+    let [x, y, z] = vector;
+    let mut numbers = [("force", along), ("fx", x), ("fy", y), ("fz", z)].into_iter();
+    match numbers.find(|(_, x)| !x.is_finite()) {
+        Some((column, value)) => Err(Fault::NotFinite { column, value }),
+        None => Ok(()),
+    }
+}
+
 impl Sink for Ledger<'_> {
-    fn begin_snapshot(&mut self, timestep: Option<i64>) {
-        if self.snapshots > 0 {
-            self.forces.fill(0.0);
-            self.vectors.clear();
-            self.strays.clear();
-            self.lines = Lines::default();
-            self.walls = 0;
-        }
-        self.snapshots += 1;
-        self.timestep = timestep;
+    fn begin_step(&mut self) {
+        self.listed.fill(Listed::Never);
+        self.forces.vectors.clear();
+        self.seconds = Forces::default();
+        self.strays.clear();
+        self.floor = Floor::default();
+        self.repeated = 0;
+        self.lines = Lines::default();
+        self.walls = 0;
     }
 
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
-        self.admit(&entry.named()?, line)
-            .map_err(|fault| fault.at(line))
+        let ids = entry.numbers()?;
+        let admitted = match ids.map(u64::try_from) {
+            [Ok(one), Ok(other)] => self.admit(&entry.force.between([one, other]), line),
+            _ => self.admit_wall(ids.map(Into::into), entry.force, line),
+        };
+        admitted.map_err(|fault| fault.at(line))
     }
 
     fn pass_over(&mut self) {
@@ -252,5 +373,41 @@ impl Lines {
         let (first, (line, length)) = self.runs.range(..=slot).next_back()?;
         let along = slot - first;
         (along < *length).then(|| line + along as u64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use cannonpile::Pile;
+
+    use super::*;
+
+    #[test]
+    fn the_floor_below_a_sphere_is_judged() {
+        let pile = Pile::triangular(2).unwrap();
+        let packing = Packing::new(&pile, &"1.2".parse().unwrap()).unwrap();
+        let judged = |rows: &[(u64, Force)]| {
+            let mut ledger = Ledger::new(&packing).unwrap();
+            for (sphere, force) in rows {
+                ledger.admit_floor(*sphere, *force, 1).unwrap();
+            }
+            ledger.judge(false).unwrap().0
+        };
+        let normal = 4.0 / 3.0;
+        let right = [2, 3, 4].map(|sphere| (sphere, Force::Along(normal)));
+        let floor = judged(&right);
+        assert_eq!((floor.floor, floor.floor_errors), (3, vec![0.0; 3]));
+        // A second row repeats the contact. The worse of two forces is judged.
+        let vector = (3, Force::Vector([0.1, 0.2, 2.0 * normal]));
+        for rows in [[right[1], vector], [vector, right[1]]] {
+            let floor = judged(&rows);
+            assert_eq!((floor.floor, floor.repeated), (1, 1));
+            assert_eq!(floor.floor_errors, [1.0]);
+            assert_eq!(floor.contradictions, [1.0]);
+        }
+        assert_eq!(judged(&[right[0], right[0], right[0]]).repeated, 2);
+        let mut ledger = Ledger::new(&packing).unwrap();
+        let infinite = Force::Along(f64::INFINITY);
+        assert!(ledger.admit_floor(2, infinite, 1).is_err());
     }
 }

@@ -102,7 +102,14 @@ impl Measured {
         }
     }
 
-    /// Returns whether the force and the vector are 0, so that the two spheres do not touch.
+    /// Returns the greater of |f − g| and |**F** − **G**|, for another measurement of the same pair.
+    pub(super) fn difference(&self, other: &Self) -> f64 {
+        let vectors = self.vector.zip(other.vector);
+        let apart = vectors.map_or(0.0, |(one, other)| distance(one, other));
+        apart.max((self.force - other.force).abs())
+    }
+
+    /// Returns whether the force and the vector are 0.
     pub(super) fn is_zero(&self) -> bool {
         self.magnitude() == 0.0
     }
@@ -111,6 +118,15 @@ impl Measured {
     pub(super) fn magnitude(&self) -> f64 {
         let vector = self.vector.map_or(0.0, norm);
         self.force.abs().max(vector)
+    }
+}
+
+/// Returns a difference relative to a force. Only a difference of 0 gives 0.
+pub(super) fn relative(difference: f64, force: f64) -> f64 {
+    if difference == 0.0 {
+        0.0
+    } else {
+        (difference / force).max(f64::from_bits(1))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The measured force of a contact that is known by its position.
 
-use super::comparison::Comparison;
+use super::comparison::{Comparison, of_entry};
 use super::entry::{Entry, Force, Place, Sink, Spheres};
 use super::frame::Frame;
 use super::gathering::Gathering;
@@ -68,10 +68,7 @@ impl Placed {
 
     /// Returns the measurement as a row of a table, if all its numbers are finite.
     fn entry(&self) -> Result<Entry, Fault> {
-        let points = match &self.place {
-            Place::Centres(centres) => centres.as_slice(),
-            Place::Point(point) => core::slice::from_ref(point),
-        };
+        let points = self.place.points();
         let (force, vector) = match self.force {
             Force::Along(force) => (Some(force), None),
             Force::Vector(vector) => (None, Some(vector)),
@@ -127,16 +124,8 @@ impl Comparison {
                 .map_err(of_entry)?;
         }
         let (ledger, frame) = gathering.settle().map_err(of_entry)?;
-        let (judged, _) = ledger.judge(false)?;
+        let (judged, _) = ledger.judge(false).map_err(of_entry)?;
         let frame = Some(frame).filter(|frame| *frame != Frame::OWN);
         Ok((Self::of(judged), frame))
-    }
-}
-
-/// Converts the line of an error to the number of an entry.
-fn of_entry(refusal: Refusal) -> Refusal {
-    match refusal {
-        Refusal::Line { line, fault } => Refusal::Entry { entry: line, fault },
-        other => other,
     }
 }

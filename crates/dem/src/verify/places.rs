@@ -10,13 +10,28 @@ use super::refusal::{Fault, Refusal};
 use crate::Error;
 use crate::NumberedPile;
 use crate::error::bug;
+use crate::vector::{dot, minus};
 use cannonpile::engine::refuse_beyond_memory;
 
 /// The centres of all spheres of a pile, in a k-d tree.
 pub(super) struct Places {
     tree: ImmutableKdTree<f64, 3>,
     centres: Vec<[f64; 3]>,
+    first_on_floor: u64,
     radius: f64,
+}
+
+/// A contact that was found by its position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Found {
+    /// The contact of two spheres with these numbers.
+    Spheres([u64; 2]),
+    /// The contact of a bottom sphere with the floor.
+    Floor {
+        sphere: u64,
+        /// True if the row names the floor first, and the sphere second.
+        is_second: bool,
+    },
 }
 
 /// The memory of a centre, its copy in the tree, and its index there.
@@ -41,52 +56,77 @@ impl Places {
         Ok(Self {
             tree,
             centres,
+            first_on_floor: pile.numbering().first_on_floor(),
             radius,
         })
     }
 
-    /// Returns the numbers of the two spheres that touch at a position. Each must be within this distance of its exact
-    /// position.
-    pub(super) fn find(&self, place: &Place, within: f64) -> Result<[u64; 2], Fault> {
-        let (ids, off) = self.nearest(place);
-        match ids {
-            Some(ids) if off <= within => Ok(ids),
-            _ => Err(Fault::NoSphereAt {
-                point: match place {
-                    Place::Centres(centres) => middle(centres),
-                    Place::Point(point) => *point,
-                },
-                within: within / self.radius,
-                nearest: off / self.radius,
-            }),
-        }
+    /// Returns the contact at a position. Each sphere must be within this distance of its exact position.
+    pub(super) fn find(&self, place: &Place, within: f64) -> Result<Found, Fault> {
+        let (found, off) = self.nearest(place, within);
+        found.ok_or_else(|| Fault::NoSphereAt {
+            point: place.point(),
+            within: within / self.radius,
+            nearest: off / self.radius,
+        })
     }
 
-    /// Returns the two spheres nearest to a position, and their greatest distance from their exact positions.
-    pub(super) fn nearest(&self, place: &Place) -> (Option<[u64; 2]>, f64) {
+    /// Returns the contact at a position, if its spheres are within a distance of their exact positions, and the
+    /// distance of the one that is farther off.
+    pub(super) fn nearest(&self, place: &Place, within: f64) -> (Option<Found>, f64) {
         match place {
-            Place::Centres(centres) => {
-                let nearest = centres.map(|centre| {
-                    let nearest = self.tree.nearest_one::<SquaredEuclidean>(&centre);
-                    (nearest.item + 1, nearest.distance.sqrt())
-                });
-                let [(one, off), (other, more)] = nearest;
-                (Some([one, other]), off.max(more))
+            Place::Centres([first, second]) => {
+                let [one, other] = [first, second].map(|centre| self.sphere(*centre));
+                let off = one.1.max(other.1);
+                if off <= within {
+                    return (Some(Found::Spheres([one.0, other.0])), off);
+                }
+                let floor = |is_second, (sphere, off): (u64, f64), below| {
+                    let depths = [self.radius, 2.0 * self.radius];
+                    let off = off.max(self.off_floor(sphere, below, depths)?);
+                    (off <= within).then_some((Some(Found::Floor { sphere, is_second }), off))
+                };
+                let found = floor(false, one, *second).or_else(|| floor(true, other, *first));
+                // Without a contact, the distance is that from the nearest spheres.
+                found.unwrap_or((None, off))
             }
             Place::Point(point) => {
                 let two = self.tree.nearest_n::<SquaredEuclidean>(point, TWO);
                 // The centres are one radius from the contact point.
                 let off = |distance: f64| (distance.sqrt() - self.radius).abs();
-                match two[..] {
-                    [one, other] => {
-                        let [a, b] = [one.item + 1, other.item + 1];
-                        let off = off(one.distance).max(off(other.distance));
-                        (Some([a.min(b), a.max(b)]), off)
+                let [one, other] = two[..] else {
+                    return (None, f64::INFINITY);
+                };
+                let [sphere, second] = [one.item + 1, other.item + 1];
+                let off = off(one.distance).max(off(other.distance));
+                if off <= within {
+                    let ids = [sphere.min(second), sphere.max(second)];
+                    return (Some(Found::Spheres(ids)), off);
+                }
+                match self.off_floor(sphere, *point, [self.radius; 2]) {
+                    Some(off) if off <= within => {
+                        let is_second = false;
+                        (Some(Found::Floor { sphere, is_second }), off)
                     }
-                    _ => (None, f64::INFINITY),
+                    _ => (None, off),
                 }
             }
         }
+    }
+
+    /// Returns the number of the sphere nearest to a point, and the distance of its centre.
+    fn sphere(&self, point: [f64; 3]) -> (u64, f64) {
+        let nearest = self.tree.nearest_one::<SquaredEuclidean>(&point);
+        (nearest.item + 1, nearest.distance.sqrt())
+    }
+
+    /// Returns the distance of a point from the vertical line between two depths below the centre of a bottom sphere.
+    fn off_floor(&self, sphere: u64, point: [f64; 3], [least, most]: [f64; 2]) -> Option<f64> {
+        if sphere < self.first_on_floor {
+            return None;
+        }
+        let [x, y, depth] = minus(self.centre(sphere).ok()?, point);
+        Some(norm([x, y, depth - depth.max(least).min(most)]))
     }
 }
 
@@ -122,54 +162,23 @@ impl Places {
     /// Returns the component of a vector from the second of two spheres towards the first, times their distance.
     fn along(&self, vector: [f64; 3], ids: [u64; 2]) -> Result<f64, Error> {
         let [first, second] = self.centres_of(ids)?;
-        let apart = minus(first, second);
-        Ok(vector.iter().zip(apart).map(|(f, n)| f * n).sum())
+        Ok(dot(vector, minus(first, second)))
     }
 
-    fn centres_of(&self, ids: [u64; 2]) -> Result<[[f64; 3]; 2], Error> {
-        let centre = |id: u64| {
-            let place = id.checked_sub(1).and_then(|id| usize::try_from(id).ok());
-            let centre = place.and_then(|place| self.centres.get(place)).copied();
-            centre.ok_or_else(|| bug("a sphere that was found is one of the pile"))
-        };
+    /// Returns the exact centres of two spheres.
+    pub(super) fn centres_of(&self, ids: [u64; 2]) -> Result<[[f64; 3]; 2], Error> {
         let [one, other] = ids;
-        Ok([centre(one)?, centre(other)?])
+        Ok([self.centre(one)?, self.centre(other)?])
     }
 
-    /// Returns the exact point halfway between the two spheres that touch at a position.
-    pub(super) fn point_of(&self, place: &Place, within: f64) -> Option<[f64; 3]> {
-        let ids = self.find(place, within).ok()?;
-        self.centres_of(ids).as_ref().map(middle).ok()
+    pub(super) fn centre(&self, id: u64) -> Result<[f64; 3], Error> {
+        let place = id.checked_sub(1).and_then(|id| usize::try_from(id).ok());
+        let centre = place.and_then(|place| self.centres.get(place)).copied();
+        centre.ok_or_else(|| bug("a sphere that was found is one of the pile"))
     }
-}
 
-/// Returns the points of all contacts with a force, halfway between their centres, and the magnitudes of all forces.
-pub(super) fn loaded_points(pile: &NumberedPile<'_>) -> Result<(Vec<[f64; 3]>, Vec<f64>), Refusal> {
-    let (mut points, mut forces) = (Vec::new(), Vec::new());
-    for contact in pile.contacts().map_err(Refusal::of_forces)? {
-        forces.push(contact.map_err(Refusal::of_forces)?.force.abs());
+    /// Returns the numbers of the bottom spheres.
+    pub(super) fn on_floor(&self) -> impl Iterator<Item = u64> {
+        (self.first_on_floor..).take_while(|id| *id <= self.centres.len() as u64)
     }
-    let greatest = forces.iter().copied().fold(0.0, f64::max);
-    for (centres, force) in pile.links()?.zip(&forces) {
-        if is_loaded(*force, greatest) {
-            points.push(middle(&centres?));
-        }
-    }
-    Ok((points, forces))
-}
-
-/// Returns whether a force is large enough to mark the position of a contact. If the greatest force is 0, every contact
-/// counts.
-pub(super) fn is_loaded(force: f64, greatest: f64) -> bool {
-    force >= greatest * 1e-9
-}
-
-/// Returns the point halfway between two points.
-pub(super) fn middle([[x, y, z], [u, v, w]]: &[[f64; 3]; 2]) -> [f64; 3] {
-    [x.midpoint(*u), y.midpoint(*v), z.midpoint(*w)]
-}
-
-/// Returns a − b.
-pub(super) fn minus([x, y, z]: [f64; 3], [u, v, w]: [f64; 3]) -> [f64; 3] {
-    [x - u, y - v, z - w]
 }

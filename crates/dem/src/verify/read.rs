@@ -1,43 +1,41 @@
 //! Files of any supported format.
 
-use std::io::BufRead;
+use std::fs;
+use std::io::Read;
+use std::path::PathBuf;
 
-use super::columns::Columns;
 use super::comparison::Comparison;
-use super::csv_file::{Format, read_rows};
-use super::dump::{ITEM, read_snapshots};
 use super::entry::Sink;
+use super::format::{
+    Columns, Counted, Dialect, DialectOptions, Format, Identity, Preset, Rows, Source, Steps,
+    TextEncoding, dump, text,
+};
 use super::frame::Frame;
 use super::gathering::Gathering;
-use super::header::Identity;
+use super::kind::FileKind;
 use super::ledger::Ledger;
-use super::lines::Lines;
-use super::preset::Preset;
 use super::reading::Reading;
 use super::refusal::Refusal;
 use super::unbalanced::Unbalanced;
-use super::vtk_file;
+use super::vtk;
 use cannonpile::Packing;
 
-/// Reads measured forces from a file: a LAMMPS dump if its first line begins with `ITEM:`, otherwise a csv table.
-///
-/// This function does not know the scene. A [`Reader`] compares while it reads, so it rejects rows that do not match
-/// the pile earlier.
+/// Reads measured forces from a file of any kind, without a pile to compare them with.
 ///
 /// # Errors
-/// Those of [`read_csv`](super::read_csv) and [`read_dump`](super::read_dump).
+/// Those of [`Reader::compare`] that do not depend on a pile.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_dem::verify;
 ///
 /// let reading = verify::read(&b"id1,id2,force\n1,2,0.5\n"[..])?;
-/// assert_eq!((reading.entries().len(), reading.snapshots()), (1, 0));
+/// assert_eq!(reading.entries().len(), 1);
 /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
 /// ```
-pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
+pub fn read(input: impl Read) -> Result<Reading, Refusal> {
     let mut reading = Reading::default();
-    read_any(input, &Format::default(), &mut reading)?;
+    Reader::new().read(input, &mut reading)?;
     Ok(reading)
 }
 
@@ -63,7 +61,11 @@ pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reader {
-    columns: Columns,
+    format: Format,
+    /// The step that is read, if it is not the last.
+    step: Option<String>,
+    /// The folder of the file, where the files are that it names.
+    folder: Option<PathBuf>,
     /// The largest distance of a sphere from its exact position, in radii, if contacts are matched by position.
     within: Option<f64>,
     with_balance: bool,
@@ -77,11 +79,17 @@ pub struct Compared {
     pub comparison: Comparison,
     /// The residual force on each sphere, if the reader was asked for it.
     pub unbalanced: Option<Unbalanced>,
-    /// The number of snapshots of a dump; 0 for other files. The last snapshot was kept.
-    pub snapshots: u64,
-    /// The time step of the kept snapshot.
-    pub timestep: Option<i64>,
-    /// The number of rows that are contacts with walls.
+    /// The kind of the file.
+    pub kind: FileKind,
+    /// The dialect, if the file is a text table.
+    pub dialect: Option<Dialect>,
+    /// How many rows were read, used and left out.
+    pub rows: Rows,
+    /// The number of steps of the file; 0 if it names none.
+    pub steps: u64,
+    /// The step that was read.
+    pub step: Option<String>,
+    /// The number of rows that are contacts with walls and are not judged.
     pub walls: u64,
     /// The frame of the table, if contacts were matched by position and the frame differs from that of the scene.
     pub frame: Option<Frame>,
@@ -112,10 +120,10 @@ impl Reader {
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let repeated = [&b"id1,id2,force\n1,2,0.5\n2,1,0.5\n"[..], &[b'1'; 1 << 20]].concat();
+    /// let wrong = [&b"id1,id2,force\n1,2,0.5\n1,1,0.5\n"[..], &[b'1'; 1 << 20]].concat();
     /// assert_eq!(
-    ///     Reader::new().compare(&packing, &*repeated).unwrap_err().to_string(),
-    ///     "line 3: spheres 1 and 2 are already on line 2: list each pair once",
+    ///     Reader::new().compare(&packing, &*wrong).unwrap_err().to_string(),
+    ///     "line 3: sphere 1 is paired with itself: name two different spheres",
     /// );
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
@@ -134,10 +142,20 @@ impl Reader {
     /// ```
     #[must_use]
     pub fn of(preset: Preset) -> Self {
-        Self {
-            columns: preset.columns(),
-            within: preset.is_by_place().then_some(Self::WITHIN),
+        let reader = Self {
+            format: Format {
+                columns: preset.columns(),
+                ..Format::default()
+            },
+            step: None,
+            folder: None,
+            within: None,
             with_balance: false,
+        };
+        if preset.is_by_place() {
+            reader.matched_within(Self::WITHIN)
+        } else {
+            reader
         }
     }
 
@@ -158,13 +176,62 @@ impl Reader {
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
-    pub fn with_columns(self, columns: Columns) -> Self {
-        Self { columns, ..self }
+    pub fn with_columns(mut self, columns: Columns) -> Self {
+        self.format.columns = columns;
+        self
+    }
+
+    /// Returns this reader for text tables of a dialect. Without it, the first lines decide the dialect.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::verify::{DialectOptions, Reader};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let table = "id1,id2,force\n#1,2,0.46\n#1,3,0.46\n#1,4,0.46\n";
+    /// let error = Reader::new().compare(&packing, table.as_bytes()).unwrap_err();
+    /// assert!(error.to_string().ends_with("3 lines are comments that look like rows: --comment none reads them"));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn with_dialect(mut self, dialect: DialectOptions) -> Self {
+        self.format.dialect = dialect;
+        self
+    }
+
+    /// Returns this reader for one step of a file with several. Without it, the last step is read.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::verify::Reader;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let row = |step, id, force| format!("{step},1,{id},{force}\n");
+    /// let rows = |step, force| [2, 3, 4].map(|id| row(step, id, force)).concat();
+    /// let table = ["step,id1,id2,force\n".to_owned(), rows(100, 0.46), rows(200, 9.0)].concat();
+    /// let read = |reader: Reader| reader.compare(&packing, table.as_bytes());
+    /// assert!(!read(Reader::new())?.comparison.accepted(0.01));
+    /// let early = read(Reader::new().with_step("100".into()))?;
+    /// assert!(early.comparison.accepted(0.01));
+    /// assert_eq!((early.steps, early.rows.other_steps), (2, 3));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn with_step(self, step: String) -> Self {
+        Self {
+            step: Some(step),
+            ..self
+        }
     }
 
     /// Returns this reader for tables with the positions of contacts: both centres, or the contact point. Each sphere
-    /// must be closer to its exact position than `within` times the radius. The reader finds translations and rotations
-    /// of the whole table, renamed axes and mirror images, and returns them as the [`Frame`].
+    /// must be closer to its exact position than `within` times the radius. The reader finds any rotation, mirror image and
+    /// translation of the whole table, and returns it as the [`Frame`]. A row with one bottom sphere, and with a point
+    /// straight below it, is a contact with the floor.
     ///
     /// # Errors
     /// [`Refusal::Within`] unless 0 < `within` < 1/2.
@@ -176,9 +243,14 @@ impl Reader {
     /// assert!(Reader::new().by_place(0.1).is_ok());
     /// assert!(Reader::new().by_place(1.0).is_err());
     /// ```
-    pub fn by_place(mut self, within: f64) -> Result<Self, Refusal> {
-        self.within = Some(checked_within(within)?);
-        Ok(self)
+    pub fn by_place(self, within: f64) -> Result<Self, Refusal> {
+        Ok(self.matched_within(checked_within(within)?))
+    }
+
+    fn matched_within(mut self, within: f64) -> Self {
+        self.within = Some(within);
+        self.format.identity = Identity::Places;
+        self
     }
 
     /// Returns this reader for tables with the numbers of the spheres.
@@ -193,6 +265,7 @@ impl Reader {
     #[must_use]
     pub fn by_numbers(mut self) -> Self {
         self.within = None;
+        self.format.identity = Identity::Numbers;
         self
     }
 
@@ -220,19 +293,49 @@ impl Reader {
         }
     }
 
-    /// Reads a file, and compares it with the exact forces of a packing. The first line determines the format: `ITEM:`
-    /// begins a LAMMPS dump, and `<` begins an XML file of VTK with lines and data. Any other file is a table with
-    /// commas, semicolons, tabs or blanks as separators.
+    /// Returns this reader for a file in this folder. Files of ParaView such as `.pvtp` and `.pvd` name others beside
+    /// them.
     ///
-    /// Memory is eight bytes for each contact of the pile, and 24 more if there are vectors. Matching by position takes
-    /// about 60 more bytes for each sphere. If the frame differs from that of the scene, it also takes 250 bytes for each
-    /// row. A table is read line by line, whatever its length, but a VTK file is kept in memory as a whole.
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::verify::Reader;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let whole = "<VTKFile type='PPolyData'><PPolyData><Piece Source='a.vtp'/></PPolyData></VTKFile>";
+    /// let read = |reader: Reader| reader.compare(&packing, whole.as_bytes()).unwrap_err().to_string();
+    /// assert!(read(Reader::new()).starts_with("the contacts are in other files: give a.vtp"));
+    /// assert!(read(Reader::new().in_folder("nowhere".into())).starts_with("a.vtp: "));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn in_folder(self, folder: PathBuf) -> Self {
+        Self {
+            folder: Some(folder),
+            ..self
+        }
+    }
+
+    /// Reads a file, and compares it with the exact forces of a packing. The first bytes determine its
+    /// [kind](FileKind). It may be compressed by gzip or zstd.
+    ///
+    /// A text table may have cells between commas, semicolons, tabs, blanks or vertical bars, quotes, comments, lines
+    /// above and below it, a row of units, and decimal commas: its [`Dialect`]. Columns that are not needed may hold
+    /// anything.
+    ///
+    /// Memory is nine bytes for each contact of the pile, and 24 more if there are vectors. It is twice as much if pairs
+    /// are in two rows with different forces. Matching by position takes about 60 more bytes for each sphere. If the
+    /// frame differs from that of the scene, it also takes eight bytes for each contact and for each number of a row. A
+    /// table is read line by line, whatever its length, but a VTK file is kept in memory as a whole.
     ///
     /// # Errors
-    /// [`Refusal::Line`] for a line that cannot be read, an unknown sphere number, a repeated pair, or a position where
-    /// no spheres touch. [`Refusal::Elsewhere`] if no frame matches the positions to the pile. [`Refusal::Scene`] with
-    /// [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with too many contacts. [`Refusal::OutOfRange`] for
-    /// exact forces outside the normal range of `f64`. [`Refusal::Io`] for errors of the input.
+    /// [`Refusal::Kind`] for a file that is no table. [`Refusal::NoRows`] if no row is a contact of the pile.
+    /// [`Refusal::Line`] for a line that cannot be read, an unknown sphere number, a third row of a pair, a second one in
+    /// the same order with another force, or a position where no spheres touch. [`Refusal::Elsewhere`] if no frame matches
+    /// the positions to the pile. [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with
+    /// too many contacts. [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`. [`Refusal::Io`] for
+    /// errors of the input.
     ///
     /// # Examples
     /// ```
@@ -247,54 +350,99 @@ impl Reader {
     /// assert_eq!(read.comparison.beyond(1e-3), 1);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
-    pub fn compare(&self, packing: &Packing<'_>, input: impl BufRead) -> Result<Compared, Refusal> {
-        let format = Format {
-            columns: self.columns.clone(),
-            identity: match self.within {
-                Some(_) => Identity::Places,
-                None => Identity::Numbers,
-            },
-        };
+    pub fn compare(&self, packing: &Packing<'_>, input: impl Read) -> Result<Compared, Refusal> {
+        let compared = self.compare_from_one(packing, input);
+        compared.map_err(|refusal| refusal.renumbered(self.format.columns.first_id()))
+    }
+
+    /// Compares a file. An error numbers the spheres from 1.
+    fn compare_from_one(
+        &self,
+        packing: &Packing<'_>,
+        input: impl Read,
+    ) -> Result<Compared, Refusal> {
         let mut ledger = Ledger::new(packing)?;
         let mut frame = None;
+        let found;
         if let Some(within) = self.within {
             let mut gathering = Gathering::new(ledger, within)?;
-            read_any(input, &format, &mut gathering)?;
-            let (filled, found) = gathering.settle()?;
-            frame = Some(found).filter(|frame| *frame != Frame::OWN);
+            found = self.read(input, &mut gathering)?;
+            let (filled, fit) = gathering.settle()?;
+            frame = Some(fit).filter(|frame| *frame != Frame::OWN);
             ledger = filled;
         } else {
-            read_any(input, &format, &mut ledger)?;
+            found = self.read(input, &mut ledger)?;
         }
-        let (snapshots, timestep) = (ledger.snapshots(), ledger.timestep());
         let walls = ledger.walls();
         let (judged, unbalanced) = ledger.judge(self.with_balance)?;
+        let comparison = Comparison::of(judged);
+        if comparison.contacts() > 0 && comparison.matched() == 0 {
+            let reason = found.rows.reason(self.within.is_some());
+            return Err(Refusal::NoRows { reason });
+        }
         Ok(Compared {
-            comparison: Comparison::of(judged),
+            comparison,
             unbalanced,
-            snapshots,
-            timestep,
+            kind: found.kind,
+            dialect: found.dialect,
+            rows: found.rows,
+            steps: found.steps,
+            step: found.step,
             walls,
             frame,
         })
     }
+
+    /// Passes the rows of a file to a sink.
+    fn read(&self, input: impl Read, sink: &mut impl Sink) -> Result<Found, Refusal> {
+        let format = &self.format;
+        let encoding = format.dialect.encoding.map(TextEncoding::get);
+        let source = Source::open(input, encoding)?;
+        let kind = FileKind::of(&source.sample);
+        let mut steps = Steps::new(self.step.as_deref());
+        let mut sink = Counted::new(sink);
+        let mut dialect = None;
+        match kind {
+            FileKind::Table => dialect = Some(text::read(source, format, &mut steps, &mut sink)?),
+            FileKind::Dump => dump::read(source.all(), format, &mut steps, &mut sink)?,
+            FileKind::VtkXml | FileKind::VtkLegacy => {
+                let mut bytes = Vec::new();
+                source.all().read_to_end(&mut bytes)?;
+                let folder = self.folder.as_deref();
+                let open = folder.map(|folder| move |name: &str| Ok(fs::read(folder.join(name))?));
+                let open = open.as_ref().map(|open| open as vtk::Open<'_>);
+                let (steps, step) =
+                    vtk::read(&bytes, format, self.step.as_deref(), open, &mut sink)?;
+                let rows = sink.rows;
+                return Ok(Found {
+                    kind,
+                    dialect,
+                    rows,
+                    steps,
+                    step,
+                });
+            }
+            FileKind::Other { .. } => return Err(Refusal::Kind(kind)),
+        }
+        let rows = sink.rows;
+        let (steps, step) = steps.close()?;
+        Ok(Found {
+            kind,
+            dialect,
+            rows,
+            steps,
+            step,
+        })
+    }
 }
 
-fn read_any(mut input: impl BufRead, format: &Format, sink: &mut impl Sink) -> Result<(), Refusal> {
-    if input.fill_buf()?.first() == Some(&b'<') {
-        let mut bytes = Vec::new();
-        input.read_to_end(&mut bytes)?;
-        return vtk_file::read_lines(&bytes, format, sink);
-    }
-    let mut lines = Lines::new(input);
-    let first = lines.next()?;
-    let is_dump = first.is_some_and(|line| line.text.starts_with(ITEM));
-    lines.put_back();
-    if is_dump {
-        read_snapshots(lines, format, sink)
-    } else {
-        read_rows(lines, format, sink)
-    }
+/// What was found in a file.
+struct Found {
+    kind: FileKind,
+    dialect: Option<Dialect>,
+    rows: Rows,
+    steps: u64,
+    step: Option<String>,
 }
 
 /// Returns this fraction of the radius, if it is small enough to distinguish spheres.

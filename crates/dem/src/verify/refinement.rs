@@ -148,9 +148,9 @@ pub struct Level {
     pub missing: u64,
     /// The number of pairs without a contact whose force is more than noise.
     pub extra: u64,
-    /// The largest relative error.
+    /// The largest relative error. Infinite if no contact was measured.
     pub largest_error: f64,
-    /// The root mean square of the relative errors.
+    /// The root mean square of the relative errors. Infinite if no contact was measured.
     pub rms_error: f64,
     /// The largest relative error that theory predicts, if there is a prediction.
     pub predicted_error: Option<f64>,
@@ -182,8 +182,9 @@ impl Level {
             matched: comparison.matched(),
             missing: comparison.missing(),
             extra: comparison.extra(tolerance),
-            largest_error: comparison.largest_error(),
-            rms_error: comparison.rms_error(),
+            // An error of nothing has no bound.
+            largest_error: comparison.largest_error().unwrap_or(f64::INFINITY),
+            rms_error: comparison.rms_error().unwrap_or(f64::INFINITY),
             predicted_error: None,
         }
     }

@@ -3,6 +3,7 @@
 use core::fmt;
 use std::io;
 
+use super::kind::FileKind;
 use crate::Error;
 use crate::error::bug;
 
@@ -45,7 +46,21 @@ pub enum Refusal {
     },
     /// A distance, in radii, that is not between 0 and 1/2.
     Within(f64),
-    /// A VTK file that is not valid XML with lines and data.
+    /// A file of a kind that is not read.
+    Kind(FileKind),
+    /// No row was read, or none was of the kind that is asked for.
+    NoRows {
+        /// The reason, with a remedy.
+        reason: String,
+    },
+    /// The step that the user asked for is not in the file.
+    NoStep {
+        /// The step.
+        wanted: String,
+        /// The steps that were found.
+        found: String,
+    },
+    /// A VTK file whose contacts cannot be read, or XML of another kind.
     Vtk(String),
     /// The file could not be read.
     Io(io::Error),
@@ -73,6 +88,22 @@ pub enum Fault {
         /// The columns that were found.
         found: String,
     },
+    /// The table has no header, and the columns were not given by number.
+    NoHeader {
+        /// The number of columns.
+        columns: usize,
+    },
+    /// A numbered column is missing.
+    NoNumberedColumn {
+        /// The quantity of the column.
+        column: &'static str,
+        /// The number that the user gave.
+        number: usize,
+        /// The number of columns.
+        columns: usize,
+        /// Whether the table has a header.
+        has_names: bool,
+    },
     /// Two columns match one quantity.
     TwoColumns {
         /// The quantity.
@@ -82,12 +113,19 @@ pub enum Fault {
         /// The second column.
         second: String,
     },
-    /// A line has another number of fields than the header.
+    /// A line has another number of cells than the header, or than the rows of a table without header.
     Fields {
-        /// The number of columns in the header.
+        /// The number of columns.
         columns: usize,
-        /// The number of fields in the line.
+        /// The number of cells in the line.
         fields: usize,
+        /// Whether the table has a header.
+        has_names: bool,
+    },
+    /// A step occurs again after another step.
+    StepAgain {
+        /// The step.
+        step: String,
     },
     /// A field does not match the quantity of its column.
     Field {
@@ -106,7 +144,9 @@ pub enum Fault {
     /// The number of a sphere is not in the pile.
     NoSuchSphere {
         /// The number.
-        id: u64,
+        id: i128,
+        /// The number of the first sphere of the pile.
+        first: u64,
         /// The number of spheres of the pile.
         spheres: u64,
     },
@@ -115,7 +155,7 @@ pub enum Fault {
         /// The number of the sphere.
         id: u64,
     },
-    /// A pair occurs twice, in the same or in reverse order.
+    /// A pair is in three rows, or in two rows of the same order with different forces.
     Twice {
         /// The numbers of the two spheres.
         ids: [u64; 2],
@@ -133,8 +173,6 @@ pub enum Fault {
     },
     /// A quoted field does not end on its line, or its quote is followed by other text.
     Quote,
-    /// A line is not UTF-8 text.
-    Encoding,
     /// A line is too long for a row of a table.
     LongLine {
         /// The largest accepted length, in bytes.
@@ -177,7 +215,7 @@ impl fmt::Display for Refusal {
                 },
             } => write!(
                 f,
-                "line {line}: spheres {a} and {b} are already on line {first}: list each pair once"
+                "line {line}: spheres {a} and {b} are already on line {first}: {ONCE}{STEPS}"
             ),
             Self::Line { line, fault } => write!(f, "line {line}: {fault}"),
             Self::Entry { entry, fault } => write!(f, "entry {entry}: {fault}"),
@@ -194,7 +232,17 @@ impl fmt::Display for Refusal {
                 f,
                 "{share} radii are not between 0 and 0.5: 0.1 is usual"
             ),
-            Self::Vtk(reason) => f.write_str(reason),
+            Self::Kind(kind) => write!(f, "this is {kind}{}", kind.remedy()),
+            Self::NoStep { wanted, found } => write!(
+                f,
+                "no step {wanted}: {}",
+                if found.is_empty() {
+                    "the file has no steps, so leave out --step, or name their column by step=COLUMN".to_owned()
+                } else {
+                    format!("the steps are {found}")
+                }
+            ),
+            Self::NoRows { reason } | Self::Vtk(reason) => f.write_str(reason),
             Self::Io(error) => error.fmt(f),
         }
     }
@@ -203,21 +251,14 @@ impl fmt::Display for Refusal {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NoColumn { .. }
+            | Self::NoNamedColumn { .. }
+            | Self::NoHeader { .. }
+            | Self::NoNumberedColumn { .. }
+            | Self::TwoColumns { .. }
+            | Self::Fields { .. } => self.fmt_columns(f),
             Self::Empty => f.write_str(
                 "the table is empty: begin with a header such as id1,id2,force, or with ITEM: TIMESTEP",
-            ),
-            Self::NoColumn { column, found } => write!(
-                f,
-                "no column {column}, only {found}: name the columns id1, id2, force, and fx, fy, fz if there are vectors \
-                 (in LAMMPS with dump_modify colname)"
-            ),
-            Self::NoNamedColumn {
-                column,
-                name,
-                found,
-            } => write!(
-                f,
-                "no column {name} for {column}, only {found}: name one of these"
             ),
             Self::NoSphereAt {
                 point: [x, y, z],
@@ -227,26 +268,26 @@ impl fmt::Display for Fault {
                 f,
                 "no contact at ({x:.6}, {y:.6}, {z:.6}) m: the nearest sphere is {nearest:.4} R off, but only {within} R is allowed"
             ),
-            Self::TwoColumns {
-                column,
-                first,
-                second,
-            } => write!(
+            Self::StepAgain { step } => write!(
                 f,
-                "two columns, {first} and {second}, for {column}: leave one out"
-            ),
-            Self::Fields { columns, fields } => write!(
-                f,
-                "{fields} fields, but the header has {columns}: give every column a value"
+                "step {step} again, after another step: --step reads one of them"
             ),
             Self::Field { column, error } => write!(f, "{column} {error}"),
             Self::NotFinite { column, value } => {
                 write!(f, "{column} is {value}: forces and positions must be finite")
             }
-            Self::NoSuchSphere { id, spheres } => write!(
-                f,
-                "no sphere {id}: the spheres of this scene are numbered 1 to {spheres}, from the top"
-            ),
+            Self::NoSuchSphere { id, first, spheres } => {
+                let first = i128::from(*first);
+                let last = first + i128::from(*spheres) - 1;
+                write!(
+                    f,
+                    "no sphere {id}: the spheres of this scene are numbered {first} to {last}, from the top"
+                )?;
+                if *id >= 0 && *id == first - 1 {
+                    write!(f, "; if the table counts from {id}, use --first-id {id}")?;
+                }
+                Ok(())
+            }
             Self::OneSphere { id } => {
                 write!(f, "sphere {id} is paired with itself: name two different spheres")
             }
@@ -255,14 +296,13 @@ impl fmt::Display for Fault {
                 first: Some(first),
             } => write!(
                 f,
-                "spheres {a} and {b} are already in entry {first}: list each pair once"
+                "spheres {a} and {b} are already in entry {first}: {ONCE}"
             ),
             Self::Twice {
                 ids: [a, b],
                 first: None,
-            } => write!(f, "spheres {a} and {b} are listed twice: list each pair once"),
-            Self::Quote => f.write_str("a quoted field must end on its line, before a comma"),
-            Self::Encoding => f.write_str("not UTF-8 text: save the file in UTF-8"),
+            } => write!(f, "spheres {a} and {b} are already listed: {ONCE}{STEPS}"),
+            Self::Quote => f.write_str("a quote does not end on its line: close it, or use --quote none"),
             Self::LongLine { limit } => write!(
                 f,
                 "longer than {limit} bytes: is this a table with one contact per line?"
@@ -280,6 +320,84 @@ impl fmt::Display for Fault {
         }
     }
 }
+
+impl Fault {
+    /// Writes a fault in the columns of a table.
+    fn fmt_columns(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoColumn { column, found } => write!(
+                f,
+                "no column {column}, only {found}: name the columns id1, id2, force, and fx, fy, fz if there are vectors \
+                 (in LAMMPS with dump_modify colname)"
+            ),
+            Self::NoNamedColumn {
+                column,
+                name,
+                found,
+            } => write!(
+                f,
+                "no column {name} for {column}, only {found}: name one of these"
+            ),
+            Self::TwoColumns {
+                column,
+                first,
+                second,
+            } => write!(
+                f,
+                "two columns, {first} and {second}, for {column}: leave one out"
+            ),
+            Self::NoHeader { columns } => write!(
+                f,
+                "there is no header above the {columns} columns: name them by number, such as id1=#1,id2=#2,force=#3"
+            ),
+            Self::NoNumberedColumn {
+                column,
+                number,
+                columns,
+                has_names,
+            } => {
+                let header = if *has_names {
+                    ""
+                } else {
+                    ", and there is no header"
+                };
+                write!(
+                    f,
+                    "no column #{number} for {column}: the rows have {columns} columns{header}; does the table have another form?"
+                )
+            }
+            Self::Fields {
+                columns,
+                fields,
+                has_names: false,
+            } => write!(
+                f,
+                "{fields} cells, but most rows have {columns}: give every column a value"
+            ),
+            Self::Fields {
+                columns, fields, ..
+            } if *fields == columns + 1 => write!(
+                f,
+                "{fields} cells, but the header has {columns}: does the header lack the name of the first column, as for \
+                 the row names of R, or does a cell contain the separator?"
+            ),
+            Self::Fields {
+                columns, fields, ..
+            } => write!(
+                f,
+                "{fields} cells, but the header has {columns}: give every column a value"
+            ),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The remedy for a repeated pair.
+const ONCE: &str = "list each pair once, or once in each order";
+
+/// The remedy for a table with several steps.
+const STEPS: &str =
+    "; if the table holds several steps, name their column with step=COLUMN in --columns";
 
 impl std::error::Error for Refusal {
     /// Returns the cause of the inner error. The text of the inner error is part of this message.
@@ -311,6 +429,28 @@ impl From<io::Error> for Refusal {
 }
 
 impl Refusal {
+    /// Returns this refusal for a table that numbers its spheres from `first_id`, if it is one for numbers from 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Fault, Refusal};
+    ///
+    /// let refusal = Refusal::Line { line: 7, fault: Fault::OneSphere { id: 4 } };
+    /// let said = "line 7: sphere 3 is paired with itself: name two different spheres";
+    /// assert_eq!(refusal.renumbered(0).to_string(), said);
+    /// ```
+    #[must_use]
+    pub fn renumbered(self, first_id: u64) -> Self {
+        match self {
+            Self::Line { line, fault } => fault.renumbered(first_id).at(line),
+            Self::Entry { entry, fault } => Self::Entry {
+                entry,
+                fault: fault.renumbered(first_id),
+            },
+            other => other,
+        }
+    }
+
     /// Converts an error in the exact forces.
     pub(super) fn of_forces(error: impl Into<Error>) -> Self {
         match error.into() {
@@ -325,6 +465,34 @@ impl Fault {
     pub(super) fn of_bug(invariant: &'static str) -> Self {
         Self::Bug {
             error: Box::new(bug(invariant)),
+        }
+    }
+
+    /// Returns this fault for a table that numbers its spheres from `first_id`, if it is one for numbers from 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Fault;
+    ///
+    /// let fault = Fault::NoSuchSphere { id: 11, first: 1, spheres: 10 };
+    /// let said = "no sphere 10: the spheres of this scene are numbered 0 to 9, from the top";
+    /// assert_eq!(fault.renumbered(0).to_string(), said);
+    /// ```
+    #[must_use]
+    pub fn renumbered(self, first_id: u64) -> Self {
+        let shifted = |id: u64| id.saturating_sub(1).saturating_add(first_id);
+        match self {
+            Self::NoSuchSphere { id, first, spheres } => Self::NoSuchSphere {
+                id: id.saturating_add(i128::from(first_id) - 1),
+                first: shifted(first),
+                spheres,
+            },
+            Self::OneSphere { id } => Self::OneSphere { id: shifted(id) },
+            Self::Twice { ids, first } => Self::Twice {
+                ids: ids.map(shifted),
+                first,
+            },
+            other => other,
         }
     }
 

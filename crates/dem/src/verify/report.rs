@@ -16,9 +16,10 @@ const SHOWN: usize = 5;
 
 /// The report of a comparison at an accepted error.
 ///
-/// Text and csv have one row: `accepted, accept, contacts, matched, missing, extra, noise, fixed, largest_error,
-/// rms_error, worst, beyond, factor, walls, frame, unbalanced, findings`. The text adds the meaning of each count. It
-/// also lists the first missing contacts, and the extra pairs with the greatest forces.
+/// Text and csv have one row: `accepted, accept, contacts, matched, repeated, missing, extra, noise, fixed,
+/// largest_error, rms_error, worst, beyond, factor, walls, floor, floor_error, frame, unbalanced, findings,
+/// rows, left_out, table, step`. An error of nothing is missing, in json `null`. The text adds the meaning of each
+/// count. It also lists the first missing contacts, and the extra pairs with the greatest forces.
 ///
 /// The json is an array of one object with the same keys and `largest_force`. Its entry `worst` is an object, and the
 /// arrays `missing_contacts` and `extra_pairs` have at most a thousand entries. An infinite error is `inf`, in json
@@ -39,7 +40,7 @@ const SHOWN: usize = 5;
 /// let mut csv = Vec::new();
 /// Report::new(&comparison, 0.0).write(FileFormat::Csv, &mut csv)?;
 /// let csv = String::from_utf8(csv)?;
-/// assert!(csv.lines().nth(1).unwrap().starts_with("yes,0.0,3,3,0,0,0,0,0.0,0.0,\"contact of sphere 1"));
+/// assert!(csv.lines().nth(1).unwrap().starts_with("yes,0.0,3,3,0,0,0,0,0,0.0,0.0,\"contact of sphere 1"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -135,11 +136,11 @@ impl<'c> Report<'c> {
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let read = Reader::new().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// let read = Reader::new().compare(&packing, &b"id1,id2,force\n1,2,1\n"[..])?;
     /// let source = Source {
     ///     scene: "layers = 2\n".into(),
     ///     file: "forces.csv".into(),
-    ///     bytes: 14,
+    ///     bytes: 20,
     ///     sha256: "23ae".into(),
     /// };
     /// let mut json = Vec::new();
@@ -204,15 +205,21 @@ impl<'c> Report<'c> {
         let worst = comparison.worst().map(ToString::to_string);
         let worst = worst.map_or(Cell::Missing, |words| Cell::Word(words.into()));
         let count = |name, count: u64, meaning| (said(name, meaning), Cell::Integer(count.into()));
-        let error = |name, error: f64, meaning| (Column::measured(name, meaning), float(error));
+        let error = |name, error: Option<f64>, meaning| {
+            let error = error.map_or(Cell::Missing, float);
+            (Column::measured(name, meaning), error)
+        };
         let measured = "contacts that were measured";
         let not_measured = "contacts with a force that were not";
+        let repeated = "rows that list a pair a second time";
         let other = "other pairs with a force over accept times the largest";
         let lesser = "other pairs with a lesser force";
         let fixed = "pairs of the bottom layer, which are not judged";
         let relative = "of the exact force, of the largest one where that is 0";
         let beyond = "contacts with an error over accept";
         let times = "times the exact force is every one that was measured";
+        let floor = "contacts with the floor whose normal forces are judged";
+        let of_floor = "of the exact normal force of the floor";
         let factor = comparison.common_factor(accept);
         let factor = factor.map_or(Cell::Missing, float);
         let words = |words: Option<String>| match words {
@@ -228,9 +235,10 @@ impl<'c> Report<'c> {
                 Column::plain("accepted"),
                 if accepted { "yes" } else { "no" }.into(),
             ),
-            error("accept", accept, ""),
+            error("accept", Some(accept), ""),
             count("contacts", comparison.contacts(), ""),
             count("matched", comparison.matched(), measured),
+            count("repeated", comparison.repeated(), repeated),
             count("missing", comparison.missing(), not_measured),
             count("extra", comparison.extra(accept), other),
             count("noise", comparison.noise(accept), lesser),
@@ -241,10 +249,42 @@ impl<'c> Report<'c> {
             count("beyond", comparison.beyond(accept), beyond),
             (Column::measured("factor", times), factor),
             count("walls", walls, "contacts with walls, which are not judged"),
+            count("floor", comparison.floor(), floor),
+            error("floor_error", comparison.floor_error(), of_floor),
             (Column::plain("frame"), words(self.frame())),
             (Column::plain("unbalanced"), words(self.unbalanced())),
             (Column::plain("findings"), words(findings)),
+            (said("rows", "rows that were compared"), self.rows()),
+            (Column::plain("left_out"), words(self.left_out())),
+            (Column::plain("table"), words(self.kind())),
+            (Column::plain("step"), words(self.step())),
         ])
+    }
+
+    /// Returns the number of rows that were compared.
+    fn rows(self) -> Cell {
+        let rows = self.file.map(|file| Cell::Integer(file.rows.used.into()));
+        rows.unwrap_or(Cell::Missing)
+    }
+
+    /// Returns the rows that were left out, and why.
+    fn left_out(self) -> Option<String> {
+        let words = self.file?.rows.to_string();
+        Some(words).filter(|words| !words.is_empty())
+    }
+
+    /// Returns the kind of the file and the dialect of a text table.
+    fn kind(self) -> Option<String> {
+        let file = self.file?;
+        Some(match &file.dialect {
+            Some(dialect) => dialect.to_string(),
+            None => file.kind.to_string(),
+        })
+    }
+
+    /// Returns the step that was read.
+    fn step(self) -> Option<String> {
+        self.file?.step.clone()
     }
 
     /// Returns the frame of the table, if it differs from that of the scene.
@@ -269,6 +309,7 @@ impl<'c> Report<'c> {
             "accept": accept,
             "contacts": comparison.contacts(),
             "matched": comparison.matched(),
+            "repeated": comparison.repeated(),
             "missing": comparison.missing(),
             "extra": comparison.extra(accept),
             "noise": comparison.noise(accept),
@@ -280,9 +321,15 @@ impl<'c> Report<'c> {
             "beyond": comparison.beyond(accept),
             "factor": comparison.common_factor(accept),
             "walls": self.file.map_or(0, |file| file.walls),
+            "floor": comparison.floor(),
+            "floor_error": comparison.floor_error(),
             "frame": self.frame(),
             "unbalanced": self.unbalanced(),
             "findings": findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "rows": self.file.map(|file| file.rows.used),
+            "left_out": self.left_out(),
+            "table": self.kind(),
+            "step": self.step(),
             "missing_contacts": missing.iter().map(contact).collect::<Vec<_>>(),
             "extra_pairs": self.extra_pairs().iter().map(pair).collect::<Vec<_>>(),
         });

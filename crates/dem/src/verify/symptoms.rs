@@ -17,10 +17,18 @@ const ROUNDED: f64 = 1e-14;
 /// The patterns in the contacts with a force so far.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Symptoms {
-    /// The smallest and the greatest ratio of a measured to an exact force, and the number of ratios.
+    /// The smallest and the greatest ratio of a measured to an exact force, and the number of ratios. Contacts that were
+    /// measured as 0 are left out, here and below.
     ratios: Option<([f64; 2], u64)>,
+    /// The number of contacts that were measured as 0.
+    zeros: u64,
     /// The number of measured vectors.
     vectors: u64,
+    /// The differences between a force and its vector that no rotation and no friction explains, relative to the exact
+    /// force.
+    disagreements: Vec<f64>,
+    /// The greatest errors of the forces that have a vector, and of the vectors.
+    separate_errors: [f64; 2],
     /// The permutations of the axes that may explain the vectors, each with its greatest error.
     axes: Vec<(Axes, f64)>,
     /// The greatest tangential force, relative to the exact force.
@@ -33,7 +41,10 @@ impl Default for Symptoms {
     fn default() -> Self {
         Self {
             ratios: None,
+            zeros: 0,
             vectors: 0,
+            disagreements: Vec::new(),
+            separate_errors: [0.0; 2],
             axes: Axes::all().map(|axes| (axes, 0.0)).collect(),
             tangential: 0.0,
             layers: BTreeMap::new(),
@@ -50,6 +61,10 @@ impl Symptoms {
     /// Adds a contact with a force that was measured.
     pub(super) fn see(&mut self, exact: &NumberedContact, measured: &Measured) {
         self.count(exact, 0);
+        if measured.is_zero() {
+            self.zeros += 1;
+            return;
+        }
         let ratio = measured.force / exact.force;
         let ([least, greatest], count) = self.ratios.unwrap_or(([ratio; 2], 0));
         self.ratios = Some(([least.min(ratio), greatest.max(ratio)], count + 1));
@@ -70,6 +85,19 @@ impl Symptoms {
             _ => 0.0,
         });
         self.tangential = self.tangential.max(norm(across) / magnitude);
+        // The force may be the length of the vector, or its normal part.
+        let lengths = (norm(vector) - measured.force.abs()).abs();
+        let disagreement = lengths.min((along * exact.force.signum() - measured.force).abs());
+        if disagreement > ROUNDED * magnitude {
+            self.disagreements.push(disagreement / magnitude);
+        }
+        let errors = [
+            (measured.force - exact.force).abs(),
+            distance(vector, exact.vector),
+        ];
+        for (greatest, error) in self.separate_errors.iter_mut().zip(errors) {
+            *greatest = greatest.max(error / magnitude);
+        }
     }
 
     /// Counts a contact with a force between a layer and the next one. The number of missing contacts increases by
@@ -82,7 +110,7 @@ impl Symptoms {
         }
     }
 
-    /// Returns the common factor of all measured forces, if it differs from 1.
+    /// Returns the common factor of all measured forces other than 0, if it differs from 1.
     pub(super) fn factor(&self, tolerance: f64) -> Option<f64> {
         let ([least, greatest], count) = self.ratios?;
         let factor = least + (greatest - least) / 2.0;
@@ -93,7 +121,12 @@ impl Symptoms {
 
     /// Returns all explanations at an accepted error.
     pub(super) fn findings(&self, tolerance: f64) -> Vec<Finding> {
-        let factor = self.factor(tolerance);
+        let zero = (self.zeros > 0).then_some(Finding::Zero {
+            contacts: self.zeros,
+            are_all: self.ratios.is_none(),
+        });
+        let disagreement = self.disagreement(tolerance);
+        let factor = self.factor(tolerance).filter(|_| disagreement.is_none());
         let turned = self.turned(tolerance);
         let turned = turned.map(|axes| {
             if axes == Axes::OWN.reversed() {
@@ -114,14 +147,26 @@ impl Symptoms {
             })
         });
         // An empty list does not count as a missing layer.
-        let has_some = self.ratios.is_some();
-        factor
-            .map(Finding::Factor)
-            .into_iter()
+        let has_some = self.ratios.is_some() || self.zeros > 0;
+        zero.into_iter()
+            .chain(disagreement)
+            .chain(factor.map(Finding::Factor))
             .chain(turned)
             .chain(tangential)
             .chain(missing.filter(|_| has_some))
             .collect()
+    }
+
+    /// Returns the contacts whose force and vector disagree.
+    fn disagreement(&self, tolerance: f64) -> Option<Finding> {
+        let disagree = |apart: &&f64| **apart > tolerance;
+        let contacts = self.disagreements.iter().filter(disagree).count() as u64;
+        let [forces, vectors] = self.separate_errors.map(|error| error <= tolerance);
+        (contacts > 0).then_some(Finding::Disagreement {
+            contacts,
+            forces_are_exact: forces,
+            vectors_are_exact: vectors,
+        })
     }
 
     /// Returns the axes in which all vectors agree, if they disagree in the axes of the scene.

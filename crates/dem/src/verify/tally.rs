@@ -1,7 +1,8 @@
 //! A running count of the contacts, with their errors.
 
 use super::difference::{Difference, Extra};
-use super::measured::{Measured, distance};
+use super::floor::OnFloor;
+use super::measured::{Measured, distance, relative};
 use super::symptoms::Symptoms;
 use crate::{NumberedContact, NumberedPile};
 use cannonpile::lattice::Dimension;
@@ -17,6 +18,8 @@ pub(super) struct Tally {
     judged: Judged,
     /// The errors of contacts without a force. They are relative to the largest force, which is known only at the end.
     idle: Vec<f64>,
+    /// The differences between two rows of one contact without a force.
+    idle_contradictions: Vec<f64>,
     worst_idle: Option<Difference>,
 }
 
@@ -28,12 +31,19 @@ pub(super) struct Judged {
     pub(super) first_missing: Vec<Difference>,
     pub(super) fixed: u64,
     pub(super) largest_force: f64,
+    /// The number of rows that list a pair a second time.
+    pub(super) repeated: u64,
     /// The relative errors of the measured contacts, in decreasing order.
     pub(super) errors: Vec<f64>,
     /// The forces of pairs without a contact, relative to the largest force, in decreasing order.
     pub(super) strays: Vec<f64>,
     pub(super) greatest_strays: Vec<Extra>,
     pub(super) worst: Option<Difference>,
+    /// The differences between two rows of one contact, relative to its force, in decreasing order.
+    pub(super) contradictions: Vec<f64>,
+    /// The number of contacts with the floor that are judged, and the relative errors of the bottom spheres.
+    pub(super) floor: u64,
+    pub(super) floor_errors: Vec<f64>,
     /// The patterns in the contacts with a force.
     pub(super) symptoms: Symptoms,
 }
@@ -45,23 +55,30 @@ impl Tally {
             with_vectors,
             judged: Judged::default(),
             idle: Vec::new(),
+            idle_contradictions: Vec::new(),
             worst_idle: None,
         }
     }
 
-    /// Adds a contact of the pile with its measured force. Returns the relative error, if the contact has a force and
-    /// was measured.
+    /// Returns the largest exact force so far.
+    pub(super) fn largest_force(&self) -> f64 {
+        self.judged.largest_force
+    }
+
+    /// Adds a contact of the pile with its measured force, and the different force of a second row. Returns the relative
+    /// error of the worse one, if the contact has a force and was measured.
     pub(super) fn add(
         &mut self,
         exact: &NumberedContact,
         measured: Option<Measured>,
+        second: Option<Measured>,
     ) -> Option<f64> {
         let judged = &mut self.judged;
         judged.contacts += 1;
         judged.largest_force = judged.largest_force.max(exact.force.abs());
         let difference = || Difference::missing(exact, self.with_vectors, self.dimension);
         let loaded = exact.force != 0.0;
-        let Some(measured) = measured.filter(|measured| !(loaded && measured.is_zero())) else {
+        let Some(mut measured) = measured else {
             if loaded {
                 judged.symptoms.miss(exact);
                 judged.missing += 1;
@@ -71,10 +88,20 @@ impl Tally {
             }
             return None;
         };
-        let vector = measured.vector.map(|vector| distance(vector, exact.vector));
-        let apart = vector
-            .unwrap_or(0.0)
-            .max((measured.force - exact.force).abs());
+        let mut apart = difference_from(exact, &measured);
+        if let Some(second) = second {
+            let contradiction = measured.difference(&second);
+            if loaded {
+                let contradiction = relative(contradiction, exact.force.abs());
+                judged.contradictions.push(contradiction);
+            } else {
+                self.idle_contradictions.push(contradiction);
+            }
+            let other = difference_from(exact, &second);
+            if other > apart {
+                (measured, apart) = (second, other);
+            }
+        }
         let (error, worst) = if loaded {
             judged.symptoms.see(exact, &measured);
             (relative(apart, exact.force.abs()), &mut judged.worst)
@@ -95,11 +122,12 @@ impl Tally {
         None
     }
 
-    /// Finishes the comparison after the last contact, and judges the pairs without a contact.
+    /// Finishes the comparison after the last contact, and judges the pairs without a contact. Each pair has the
+    /// difference between its two rows.
     pub(super) fn close<'m>(
         self,
         errors: Vec<f64>,
-        pairs: impl Iterator<Item = &'m Measured>,
+        pairs: impl Iterator<Item = (&'m Measured, f64)>,
         numbering: &Numbering<'_>,
     ) -> Judged {
         let mut judged = self.judged;
@@ -121,13 +149,21 @@ impl Tally {
         let first_fixed = numbering.first_on_floor();
         let is_fixed = |stray: &Measured| stray.ids.iter().all(|id| *id >= first_fixed);
         let mut strays = Vec::new();
-        for stray in pairs {
+        let mut contradictions = self.idle_contradictions;
+        for (stray, contradiction) in pairs {
             if is_fixed(stray) {
                 judged.fixed += 1;
             } else if !stray.is_zero() {
                 strays.push((relative(stray.magnitude(), largest), stray));
+                contradictions.extend(Some(contradiction).filter(|apart| *apart > 0.0));
             }
         }
+        let contradictions = contradictions.into_iter();
+        let contradictions = contradictions.map(|apart| relative(apart, largest));
+        judged.contradictions.extend(contradictions);
+        judged
+            .contradictions
+            .sort_unstable_by(|a, b| b.total_cmp(a));
         // Decreasing forces. Among equals, the pair with the smaller numbers comes first.
         strays.sort_by(|(a, one), (b, other)| b.total_cmp(a).then(one.ids.cmp(&other.ids)));
         let kept = strays.iter().take(KEPT);
@@ -148,6 +184,14 @@ impl Tally {
 }
 
 impl Judged {
+    /// Adds the result for the floor.
+    pub(super) fn add_floor(&mut self, floor: OnFloor) {
+        self.floor = floor.judged;
+        self.floor_errors = floor.errors;
+        self.contradictions.extend(floor.contradictions);
+        self.contradictions.sort_unstable_by(|a, b| b.total_cmp(a));
+    }
+
     /// Returns how many numbers exceed a limit, in a list in decreasing order.
     pub(super) fn over(sorted: &[f64], limit: f64) -> u64 {
         sorted.partition_point(|error| *error > limit) as u64
@@ -159,24 +203,22 @@ impl Judged {
 
     /// Returns the root mean square of the errors.
     #[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
-    pub(super) fn rms_error(&self) -> f64 {
+    pub(super) fn rms_error(&self) -> Option<f64> {
         // Errors are divided by the greatest one, so that no square overflows.
-        match self.errors.first() {
-            None | Some(0.0) => 0.0,
-            Some(greatest) if greatest.is_infinite() => *greatest,
-            Some(greatest) => {
-                let squares = self.errors.iter().map(|x| (x / greatest) * (x / greatest));
-                greatest * (squares.sum::<f64>() / self.errors.len() as f64).sqrt()
-            }
+        let greatest = *self.errors.first()?;
+        if greatest == 0.0 || greatest.is_infinite() {
+            return Some(greatest);
         }
+        let squares = self.errors.iter().map(|x| (x / greatest) * (x / greatest));
+        Some(greatest * (squares.sum::<f64>() / self.errors.len() as f64).sqrt())
     }
 }
 
-/// Returns a difference relative to a force. Only a difference of 0 gives 0.
-fn relative(difference: f64, force: f64) -> f64 {
-    if difference == 0.0 {
-        0.0
-    } else {
-        (difference / force).max(f64::from_bits(1))
+/// Returns the absolute error of a measured force. If nothing was measured but 0, it is the exact force.
+fn difference_from(exact: &NumberedContact, measured: &Measured) -> f64 {
+    let along = (measured.force - exact.force).abs();
+    match measured.vector {
+        Some(vector) if !measured.is_zero() => along.max(distance(vector, exact.vector)),
+        _ => along,
     }
 }

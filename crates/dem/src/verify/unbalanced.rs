@@ -7,12 +7,12 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use super::measured::{Measured, norm};
-use super::places::minus;
 use super::refusal::Refusal;
 use crate::Error;
 use crate::error::bug;
 use crate::numbered::rounded;
 use crate::table::{Cell, Column, Table, indices, places};
+use crate::vector::minus;
 use crate::weights::ordinary_weight;
 use crate::{NumberedContact, NumberedPile};
 use cannonpile::Packing;
@@ -57,7 +57,7 @@ impl Unbalanced {
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// // No force supports the sphere.
-    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n1,2,0\n"[..])?;
     /// assert_eq!(read.unbalanced.unwrap().forces(), [[0.0, 0.0, -1.0]]);
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
@@ -76,7 +76,7 @@ impl Unbalanced {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n1,2,0\n"[..])?;
     /// assert_eq!(read.unbalanced.unwrap().greatest(), Some((1, 1.0)));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
@@ -100,7 +100,7 @@ impl Unbalanced {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n1,2,0\n"[..])?;
     /// let mut csv = Vec::new();
     /// read.unbalanced.unwrap().table(&packing)?.write(FileFormat::Csv, NumberFormat::F64, &mut csv)?;
     /// assert_eq!(String::from_utf8(csv)?, "id,k,i,j,x,y,z,unbalanced\n1,0,0,0,0.0,0.0,-1.0,1.0\n");

@@ -32,7 +32,9 @@
 //! | `growth` | dilation and erosion of a region of any size, and the lines through its layers |
 //! | `numbered` | the sphere numbers of any pile have no gap |
 //! | `measured` | measured forces are read as written, and an injected fault is found (feature `dem`) |
+//! | `dialect` | a table of exact forces is read whole in any dialect, and a planted fault is found (feature `dem`) |
 //! | `refinement` | a refinement study finds a given order of accuracy and survives a round trip (feature `dem`) |
+//! | `vtk` | contacts in files of VTK are read as written, or rejected (feature `dem`) |
 //! | `engine` | every way to compute the forces of a mixed pile solves the equations of equilibrium |
 //! | `disorder` | the mean over random stackings equals a plain average over all stackings (feature `disorder`) |
 //! | `ensemble` | tallies equal a plain enumeration, and parts merge into the whole (feature `disorder`) |
@@ -44,6 +46,8 @@
 pub mod bases;
 #[cfg(feature = "horizontal")]
 pub mod certificates;
+#[cfg(feature = "dem")]
+pub mod dialect;
 #[cfg(feature = "disorder")]
 pub mod disorder;
 pub mod engine;
@@ -83,6 +87,8 @@ pub mod sites;
 pub mod slices;
 pub mod stackings;
 pub mod standing;
+#[cfg(feature = "dem")]
+pub mod vtk;
 
 use core::fmt::{self, Debug, Display};
 

@@ -17,6 +17,7 @@
 //! | `scene` | scenes that can be written down; files of them, valid and damaged (feature `dem`) |
 //! | `stacking` | signs, runs, stackings as text |
 //! | `text` | numbers and sites as text: valid, with their values, and damaged |
+//! | `vtk` | files of VTK, of every kind and encoding (feature `dem`) |
 
 #[cfg(feature = "disorder")]
 pub mod disorder;
@@ -29,5 +30,7 @@ pub mod region;
 pub mod scene;
 pub mod stacking;
 pub mod text;
+#[cfg(feature = "dem")]
+pub mod vtk;
 
 pub use cannonpile::arbitrary::draw::rarely;

@@ -271,7 +271,10 @@ fn a_spacing_may_be_a_root() {
         let options = format!("{command} --layers 4 --spacing sqrt(8/3)");
         assert_eq!(file.output(command), stdout(&options), "{command}");
     }
-    assert!(file.output("scene").contains("\nspacing = \"2/3*sqrt(6)\"\n"));
+    assert!(
+        file.output("scene")
+            .contains("\nspacing = \"2/3*sqrt(6)\"\n")
+    );
     // A root may be rational.
     let spheres = |spacing| stdout(&format!("spheres --layers 3 --spacing {spacing}"));
     assert_eq!(spheres("sqrt(1.44)"), spheres("1.2"));
@@ -283,6 +286,9 @@ fn a_spacing_may_be_a_root() {
         ("sqrt(0)", "spacing must be positive, not 0"),
     ] {
         let text = refusal(&format!("base --spacing={spacing}"));
-        assert!(text.contains("--spacing") && text.contains(reason), "{text}");
+        assert!(
+            text.contains("--spacing") && text.contains(reason),
+            "{text}"
+        );
     }
 }

@@ -95,12 +95,12 @@ fn record_contains_scene_and_hash() {
     assert_eq!(source["bytes"], bytes.len());
     // The program `sha256sum` computed the expected digest.
     let header = exported.path("header.csv");
-    fs::write(&header, "id1,id2,force\n").expect("written");
+    fs::write(&header, "id1,id2,force\n1,2,1\n").expect("written");
     let json = cannonpile(&format!("verify {header} {SCENE} --format json")).stdout;
     let other: Value = serde_json::from_slice(&json).expect("json");
     assert_eq!(
         other[0]["source"]["sha256"],
-        "f240a2d4d8d755751b83394f840fc2133d881f0e2afa14ad5f5b3ba3e1c3547c"
+        "d7d1f779ebeb0e29bfc61d26069ec90ea5f96c47c9edcb9eb89a3bf3d95aaa80"
     );
     let scene = exported.path("again.toml");
     fs::write(&scene, source["scene"].as_str().expect("text")).expect("written");

@@ -91,19 +91,18 @@ fn simulation_is_accepted_within_the_error_of_its_springs() {
     } = cannonpile(&format!("verify {LAMMPS} --layers 4 --format csv"));
     assert_eq!(status.code(), Some(0));
     let csv = String::from_utf8(stdout).expect("text");
-    let header = "accepted,accept,contacts,matched,missing,extra,noise,fixed,largest_error,rms_error,worst,beyond,factor,walls,frame,\
-                  unbalanced,findings";
+    let header = "accepted,accept,contacts,matched,repeated,missing,extra,noise,fixed,largest_error,rms_error,worst,beyond,factor,\
+                  walls,floor,floor_error,frame,unbalanced,findings,rows,left_out,table,step";
     assert_eq!(csv.lines().next(), Some(header));
     assert!(
         csv.lines()
             .nth(1)
             .unwrap()
-            .starts_with("yes,1e-6,30,30,0,0,0,0,1.1978"),
+            .starts_with("yes,1e-6,30,30,0,0,0,0,0,1.1978"),
         "{csv}"
     );
     let note = String::from_utf8(stderr).expect("text");
-    let want =
-        format!("note: {LAMMPS} has 2 snapshots; this report is about the last, time step 40000\n");
+    let want = format!("note: {LAMMPS} has 2 steps; this report is about step 40000\n");
     assert_eq!(note, want);
     let strict = cannonpile(&format!("verify {LAMMPS} --layers 4 --accept 1e-7"));
     assert_eq!(strict.status.code(), Some(1));
@@ -165,7 +164,7 @@ fn wrong_gravity_is_reported_as_a_factor() {
 }
 
 #[test]
-fn infinite_table_is_rejected_at_the_first_repeated_pair() {
+fn infinite_table_is_rejected_at_the_third_row_of_a_pair() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
         .args(["verify", "-"])
         .stdin(Stdio::piped())
@@ -180,16 +179,33 @@ fn infinite_table_is_rejected_at_the_first_repeated_pair() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(
         String::from_utf8(output.stderr).expect("text"),
-        "error: FILE: stdin, line 3: spheres 1 and 2 are already on line 2: list each pair once\n"
+        "error: FILE: stdin, line 4: spheres 1 and 2 are already on line 2: list each pair once, or once in each order; if the \
+         table holds several steps, name their column with step=COLUMN in --columns\n"
     );
 }
 
 #[test]
-fn empty_table_misses_all_contacts() {
-    let file = Temporary::new("none.csv", "id1,id2,force\n");
+fn missing_contacts_are_counted_and_the_first_are_named() {
+    let file = Temporary::new("one.csv", "id1,id2,force\n1,2,0.46225016352102427\n");
     let table = no(&format!("verify {} --layers 5", file.path()));
-    assert_eq!(value(&table, "missing "), "60");
-    assert!(table.ends_with("missing: 55 more\n"));
+    assert_eq!(value(&table, "missing "), "59");
+    assert!(table.ends_with("missing: 54 more\n"));
+}
+
+#[test]
+fn a_table_without_contacts_has_no_verdict() {
+    let none = Temporary::new("none.csv", "id1,id2,force\n");
+    let floor = Temporary::new("floor.csv", "id1,id2,force\n8,9,1\n");
+    for (file, reason) in [
+        (
+            &none,
+            "the file has no rows: did the simulation write any contact?",
+        ),
+        (&floor, "1 row was read, but none is a contact of the scene"),
+    ] {
+        let line = refusal(&format!("verify {} --layers 3", file.path()));
+        assert!(line.contains(reason), "{line}");
+    }
 }
 
 #[test]
@@ -250,7 +266,7 @@ fn usage_errors_are_one_line() {
 
 #[test]
 fn unstable_pile_is_compared_with_a_note() {
-    let file = Temporary::new("falls.csv", "id1,id2,force\n");
+    let file = Temporary::new("falls.csv", "id1,id2,force\n1,2,1\n");
     let scene = "--stacking hcp --layers 12";
     let Output { status, stderr, .. } = cannonpile(&format!("verify {} {scene}", file.path()));
     assert_eq!(status.code(), Some(1));

@@ -162,14 +162,15 @@ impl<'l> RefinementReport<'l> {
         let places = self.0.places(Norm::Largest);
         let row = |((level, order), place): ((&Level, Option<f64>), super::LevelPlace)| {
             let count = |count: u64| Cell::Integer(count.into());
+            let has_errors = level.matched > 0;
             vec![
                 Cell::F64(level.parameter),
                 count(level.contacts),
                 count(level.matched),
                 count(level.missing),
                 count(level.extra),
-                Cell::F64(level.largest_error),
-                Cell::F64(level.rms_error),
+                number(has_errors.then_some(level.largest_error)),
+                number(has_errors.then_some(level.rms_error)),
                 number(order),
                 number(level.predicted_error),
                 place.name().into(),

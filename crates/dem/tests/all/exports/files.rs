@@ -1,5 +1,7 @@
 //! The files contain the numbers of the tables, each correctly rounded.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use cannonpile::Pile;
 use cannonpile::lattice::{Axis, Dimension, Site};
 use cannonpile::shape::Selection;
@@ -125,24 +127,33 @@ fn every_column_is_described() {
 
 /// Returns the arrays of a ParaView file: name, components, numbers. Bytes become numbers too.
 fn arrays(file: &[u8]) -> Vec<(String, Vec<f64>)> {
-    let start = file.windows(2).position(|two| two == b"\n_").expect("data") + 2;
-    let head = std::str::from_utf8(&file[..start]).expect("a head");
-    let attribute = |line: &str, name: &str| {
-        let from = line.find(&format!(" {name}=\"")).expect("an attribute") + name.len() + 3;
-        line[from..].split('"').next().expect("a value").to_owned()
+    let text = std::str::from_utf8(file).expect("text");
+    let document = roxmltree::Document::parse(text).expect("XML");
+    let element = |name: &str| {
+        document
+            .descendants()
+            .filter(move |it| it.has_tag_name(name))
+            .collect::<Vec<_>>()
     };
+    let appended = element("AppendedData")[0];
+    assert_eq!(appended.attribute("encoding"), Some("base64"));
+    let encoded = appended.text().expect("data").trim();
+    let encoded = encoded.strip_prefix('_').expect("an underscore");
+    let decoded = |text: &str| STANDARD.decode(text).expect("base64");
     let mut arrays = Vec::new();
-    let mut end = start;
-    for line in head.lines().filter(|line| line.starts_with("<DataArray")) {
-        let offset: usize = attribute(line, "offset").parse().expect("an offset");
+    let mut end = 0;
+    for array in element("DataArray") {
+        let attribute = |name: &str| array.attribute(name).expect("an attribute");
+        let offset: usize = attribute("offset").parse().expect("an offset");
         // The arrays are contiguous.
-        assert_eq!(start + offset, end);
-        let data = &file[end..];
-        let size = u64::from_le_bytes(data[..8].try_into().expect("eight bytes"));
+        assert_eq!(offset, end);
+        let rest = &encoded[offset..];
+        let size = u64::from_le_bytes(decoded(&rest[..12])[..8].try_into().expect("eight bytes"));
         let size = usize::try_from(size).expect("a size");
-        let data = &data[8..8 + size];
+        let length = (8 + size).div_ceil(3) * 4;
+        let data = &decoded(&rest[..length])[8..];
         let eight = |n: &[u8]| <[u8; 8]>::try_from(n).expect("eight bytes");
-        let numbers = match &*attribute(line, "type") {
+        let numbers = match attribute("type") {
             "Float64" => data
                 .chunks(8)
                 .map(|n| f64::from_le_bytes(eight(n)))
@@ -155,10 +166,10 @@ fn arrays(file: &[u8]) -> Vec<(String, Vec<f64>)> {
             "UInt8" => data.iter().map(|n| f64::from(*n)).collect(),
             other => panic!("{other}"),
         };
-        arrays.push((attribute(line, "Name"), numbers));
-        end += 8 + size;
+        arrays.push((attribute("Name").to_owned(), numbers));
+        end += length;
     }
-    assert_eq!(&file[end..], b"\n</AppendedData>\n</VTKFile>\n");
+    assert_eq!(end, encoded.len());
     arrays
 }
 

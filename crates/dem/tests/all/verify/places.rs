@@ -12,17 +12,56 @@ use cannonpile_dem::verify::{
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use super::{packing, perfect, ratio};
+use super::contacts::on_floor;
+use super::{packing, perfect, ratio, site};
+
+/// The frame of the scene.
+const OWN: Frame = Frame {
+    rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    shift: [0.0; 3],
+};
 
 fn own_axes() -> Axes {
     Axes::new([X, Y, Z].map(TableAxis::from)).unwrap()
 }
 
+/// Returns the frame that permutes the axes, turns about z by an angle in radians, and then shifts.
+fn upright(axes: Axes, angle: f64, shift: [f64; 3]) -> Frame {
+    let (sin, cos) = angle.sin_cos();
+    let columns = OWN.rotation.map(|unit| {
+        let [x, y, z] = axes.turned(unit);
+        [cos * x - sin * y, sin * x + cos * y, z]
+    });
+    let rotation = [0, 1, 2].map(|row| columns.map(|column| column[row]));
+    Frame { rotation, shift }
+}
+
+/// Returns the frame that turns about x by an angle in degrees, and then as another one.
+fn tilted(degrees: f64, then: Frame) -> Frame {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let rotation = then
+        .rotation
+        .map(|[x, y, z]| [x, cos * y + sin * z, cos * z - sin * y]);
+    Frame { rotation, ..then }
+}
+
 /// Returns a table of centres or of contact points, as seen from another frame. Every `left_out`-th contact is missing.
 fn table(packing: &Packing<'_>, seen: &Frame, by_point: bool, left_out: usize) -> String {
+    let keeps = |n: usize, _: &Measured| left_out == 0 || !n.is_multiple_of(left_out);
+    table_of(packing, seen, by_point, keeps, |centre| centre)
+}
+
+/// Returns a table of some contacts, with displaced centres.
+fn table_of(
+    packing: &Packing<'_>,
+    seen: &Frame,
+    by_point: bool,
+    keeps: impl Fn(usize, &Measured) -> bool,
+    displaced: impl Fn([f64; 3]) -> [f64; 3],
+) -> String {
     let places = packing.positions(Selection::All).unwrap();
     let centres: Vec<[f64; 3]> = places
-        .map(|place| place.unwrap().map(|x| x.nearest::<f64>().unwrap()))
+        .map(|place| displaced(place.unwrap().map(|x| x.nearest::<f64>().unwrap())))
         .collect();
     let mut rows: Vec<Measured> = perfect(packing);
     // The rows are in a pseudo-random order, and name either sphere first.
@@ -33,7 +72,7 @@ fn table(packing: &Packing<'_>, seen: &Frame, by_point: bool, left_out: usize) -
         "x1,y1,z1,x2,y2,z2,fx,fy,fz,force\n"
     });
     for (n, row) in rows.into_iter().enumerate() {
-        if left_out > 0 && n % left_out == 0 {
+        if !keeps(n, &row) {
             continue;
         }
         let row = if n % 3 == 0 { row.reversed() } else { row };
@@ -41,17 +80,20 @@ fn table(packing: &Packing<'_>, seen: &Frame, by_point: bool, left_out: usize) -
             .ids
             .map(|id| seen.place(centres[usize::try_from(id - 1).unwrap()]));
         let force = seen.turned(row.vector.unwrap());
-        let middle = [0, 1, 2].map(|x: usize| a[x].midpoint(b[x]));
-        let numbers = if by_point {
-            [&middle[..], &force, &[row.force]].concat()
-        } else {
-            [&a[..], &b, &force, &[row.force]].concat()
-        };
-        let texts: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
-        text += &texts.join(",");
-        text.push('\n');
+        text += &line(by_point, [a, b], force, row.force);
     }
     text
+}
+
+fn line(by_point: bool, [a, b]: [[f64; 3]; 2], vector: [f64; 3], force: f64) -> String {
+    let middle = [0, 1, 2].map(|x: usize| a[x].midpoint(b[x]));
+    let numbers = if by_point {
+        [&middle[..], &vector, &[force]].concat()
+    } else {
+        [&a[..], &b, &vector, &[force]].concat()
+    };
+    let texts: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
+    texts.join(",") + "\n"
 }
 
 fn read(packing: &Packing<'_>, table: &str) -> Result<Compared, Refusal> {
@@ -100,7 +142,7 @@ fn a_table_in_any_frame_is_accepted_and_its_frame_is_reported() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
         for (axes, angle, shift) in frames {
-            let seen = Frame { axes, angle, shift };
+            let seen = upright(axes, angle, shift);
             for by_point in [false, true] {
                 let read = read(&packing, &table(&packing, &seen, by_point, 0)).unwrap();
                 assert!(
@@ -110,14 +152,7 @@ fn a_table_in_any_frame_is_accepted_and_its_frame_is_reported() {
                     read.comparison
                 );
                 assert_eq!(read.comparison.missing(), 0);
-                assert_eq!(
-                    read.frame.is_none(),
-                    seen == Frame {
-                        axes: own_axes(),
-                        angle: 0.0,
-                        shift: [0.0; 3]
-                    }
-                );
+                assert_eq!(read.frame.is_none(), seen == OWN);
                 assert!(read.frame.is_none_or(|frame| !frame.is_mirrored()));
             }
         }
@@ -137,11 +172,7 @@ fn rounding_moves_no_position_beyond_the_accepted_distance() {
     ] {
         let packing = packing(pile, ratio(11, 10));
         let radius = packing.radius().to_f64().unwrap();
-        let seen = Frame {
-            axes: own_axes(),
-            angle,
-            shift: [shift * radius, 0.0, 0.0],
-        };
+        let seen = upright(own_axes(), angle, [shift * radius, 0.0, 0.0]);
         let reader = Reader::new().by_place(within).unwrap();
         let table = table(&packing, &seen, false, 0);
         let read = reader.compare(&packing, table.as_bytes()).unwrap();
@@ -154,18 +185,13 @@ fn rounding_moves_no_position_beyond_the_accepted_distance() {
 fn missing_contacts_are_counted_in_any_frame() {
     let pile = Pile::triangular(7).unwrap();
     let packing = packing(&pile, ratio(11, 10));
-    let (angle, shift) = (0.7, [4.0, 4.0, 4.0]);
-    let seen = Frame {
-        axes: own_axes(),
-        angle,
-        shift,
-    };
+    let seen = upright(own_axes(), 0.7, [4.0; 3]);
     for left_out in [3, 10, 60] {
         let read = read(&packing, &table(&packing, &seen, false, left_out)).unwrap();
         let count = read.comparison.contacts();
         assert_eq!(read.comparison.missing(), count.div_ceil(left_out as u64));
         assert!(
-            read.comparison.largest_error() < 1e-9,
+            read.comparison.largest_error().unwrap() < 1e-9,
             "{}",
             read.comparison
         );
@@ -179,11 +205,8 @@ fn a_mirror_image_is_reported() {
     let pile = pile.with_load(Site { i: 1, j: 0, k: 2 }, one(3)).unwrap();
     let pile = pile.with_load(Site { i: 0, j: 1, k: 3 }, one(7)).unwrap();
     let packing = packing(&pile, ratio(11, 10));
-    let seen = Frame {
-        axes: Axes::new([Y, X, Z].map(TableAxis::from)).unwrap(),
-        angle: 0.0,
-        shift: [0.0; 3],
-    };
+    let axes = Axes::new([Y, X, Z].map(TableAxis::from)).unwrap();
+    let seen = upright(axes, 0.0, [0.0; 3]);
     let read = read(&packing, &table(&packing, &seen, false, 0)).unwrap();
     // A rotation also matches all positions, so only the forces show the mirror image.
     assert!(read.frame.unwrap().is_mirrored());
@@ -211,12 +234,7 @@ fn packing_of(pile: &Pile) -> Packing<'_> {
 fn a_table_of_another_pile_is_rejected() {
     let (small, other) = (Pile::triangular(6).unwrap(), Pile::triangular(6).unwrap());
     let (small, other) = (packing(&small, ratio(11, 10)), packing(&other, ratio(1, 1)));
-    let own = Frame {
-        axes: own_axes(),
-        angle: 0.0,
-        shift: [0.0; 3],
-    };
-    let text = table(&small, &own, false, 0);
+    let text = table(&small, &OWN, false, 0);
     let line = read(&other, &text).unwrap_err().to_string();
     assert!(
         line.starts_with(
@@ -292,8 +310,7 @@ fn rows_in_memory_give_the_same_result_as_a_file() {
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
         for (angle, shift) in [(0.0, [0.0; 3]), (-2.5, [1.0, 1.0, 1.0])] {
-            let axes = own_axes();
-            let seen = Frame { axes, angle, shift };
+            let seen = upright(own_axes(), angle, shift);
             for (by_point, left_out) in [(false, 0), (true, 0), (true, 10)] {
                 let table = table(&packing, &seen, by_point, left_out);
                 let of_file = read(&packing, &table).unwrap();
@@ -309,12 +326,7 @@ fn rows_in_memory_give_the_same_result_as_a_file() {
 fn a_magnitude_or_a_vector_alone_suffices() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(11, 10));
-    let own = Frame {
-        axes: own_axes(),
-        angle: 0.0,
-        shift: [0.0; 3],
-    };
-    let table = table(&packing, &own, true, 0);
+    let table = table(&packing, &OWN, true, 0);
     for row in table.lines().skip(1).map(|line| line.split(',')) {
         let x: Vec<f64> = row.map(|x| x.parse().unwrap()).collect();
         let (point, vector) = ([x[0], x[1], x[2]], [x[3], x[4], x[5]]);
@@ -322,12 +334,12 @@ fn a_magnitude_or_a_vector_alone_suffices() {
             let measured = [Placed::at(point, force)];
             let (comparison, _) = Comparison::of_places(&packing, measured, 0.1).unwrap();
             assert_eq!(comparison.matched(), 1);
-            assert!(comparison.largest_error() < 1e-12, "{comparison}");
+            assert!(comparison.largest_error().unwrap() < 1e-12, "{comparison}");
         }
         // With the opposite sign the force is tensile.
         let measured = [Placed::at(point, Force::Along(-x[6]))];
         let (comparison, _) = Comparison::of_places(&packing, measured, 0.1).unwrap();
-        assert!((comparison.largest_error() - 2.0).abs() < 1e-12);
+        assert!((comparison.largest_error().unwrap() - 2.0).abs() < 1e-12);
     }
 }
 
@@ -357,13 +369,212 @@ fn invalid_rows_in_memory_are_rejected_with_their_number() {
             );
         }
     }
-    let said = refused(&[good, good], 0.1);
+    let said = refused(&[good, good, good], 0.1);
     assert!(
-        said.starts_with("entry 2: ") && said.contains("list each pair once"),
+        said.starts_with("entry 3: ") && said.contains("list each pair once"),
         "{said}"
     );
     assert!(refused(&[good], 0.5).contains("0.5 radii are not between 0 and 0.5"));
     let off = Placed::at([0.0, 0.0, 50.0], Force::Along(1.0));
-    let said = refused(&[good, good, off, off, off], 0.1);
+    let said = refused(&[good, off], 0.1);
     assert!(said.contains("no contact at"), "{said}");
+}
+
+#[test]
+fn a_tilted_table_or_its_mirror_image_is_accepted() {
+    let mirrored = Axes::new([Y, X, Z].map(TableAxis::from)).unwrap();
+    for pile in piles() {
+        let packing = packing(&pile, ratio(11, 10));
+        for axes in [own_axes(), mirrored] {
+            for degrees in [0.05, 3.0, 30.0, 61.0, 90.0, 144.0, 180.0] {
+                let seen = tilted(degrees, upright(axes, degrees / 40.0, [7.0, -3.0, 1.0]));
+                for (by_point, left_out) in [(false, 0), (true, 0), (false, 10), (true, 10)] {
+                    let table = table(&packing, &seen, by_point, left_out);
+                    let read = read(&packing, &table).unwrap();
+                    let lost = if left_out > 0 {
+                        read.comparison.contacts().div_ceil(10)
+                    } else {
+                        0
+                    };
+                    let compared = &read.comparison;
+                    let case = format!("{degrees} {by_point} {left_out}: {compared}");
+                    assert_eq!(compared.missing(), lost, "{case}");
+                    assert_eq!(compared.beyond(1e-9), 0, "{case}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_words_for_a_frame_are_those_of_its_kind() {
+    let axes = |axes: [TableAxis; 3]| upright(Axes::new(axes).unwrap(), 0.0, [0.0; 3]);
+    let down = TableAxis {
+        is_reversed: true,
+        ..Z.into()
+    };
+    let third = std::f64::consts::FRAC_PI_3;
+    for (frame, words) in [
+        (OWN, ""),
+        (
+            upright(own_axes(), third, [0.0, -1e-9, 2.0]),
+            "turned about z by 60.000000 degrees; moved by (0.000000, 0.000000, 2.000000) m",
+        ),
+        (
+            axes([Y.into(), Z.into(), X.into()]),
+            "x, y, z of the scene are y, z, x of the table",
+        ),
+        (
+            axes([Y.into(), X.into(), Z.into()]),
+            "x, y, z of the scene are y, x, z of the table, a mirror image",
+        ),
+        (
+            axes([Y.into(), X.into(), down]),
+            "x, y, z of the scene are y, x, -z of the table",
+        ),
+        (
+            upright(
+                Axes::new([Y, Z, X].map(TableAxis::from)).unwrap(),
+                third,
+                [0.0; 3],
+            ),
+            "x, y, z of the scene are y, z, x of the table; turned about z by 60.000000 degrees",
+        ),
+        (
+            tilted(30.0, OWN),
+            "gravity is along (0.000000, -0.500000, -0.866025) of the table, and x of the scene along (1.000000, 0.000000, \
+             0.000000)",
+        ),
+        (
+            tilted(30.0, axes([Y.into(), X.into(), Z.into()])),
+            "gravity is along (0.000000, -0.500000, -0.866025) of the table, and x of the scene along (0.000000, 0.866025, \
+             -0.500000), a mirror image",
+        ),
+    ] {
+        assert_eq!(frame.to_string(), words);
+    }
+}
+
+/// Returns the rows of the contacts of bottom spheres with the floor: each sphere, and a point at a depth below it. At
+/// the depth 2R, the contact point is R below.
+fn floor_rows(packing: &Packing<'_>, seen: &Frame, by_point: bool, depth: f64) -> String {
+    let places = packing.positions(Selection::Base).unwrap();
+    let rows = places.zip(on_floor(packing)).map(|(place, (id, normal))| {
+        let [x, y, z] = place.unwrap().map(|x| x.nearest::<f64>().unwrap());
+        let (mut ends, mut force) = ([[x, y, z], [x, y, z - depth]], [0.0, 0.0, normal]);
+        if id % 2 == 0 {
+            ends.reverse();
+            force = force.map(|x| -x);
+        }
+        let ends = ends.map(|end| seen.place(end));
+        line(by_point, ends, seen.turned(force), normal)
+    });
+    rows.collect()
+}
+
+#[test]
+fn contacts_with_the_floor_are_recognised_in_any_frame() {
+    let pile = Pile::triangular(5).unwrap();
+    let packing = packing(&pile, ratio(11, 10));
+    let shift = [1.0, 2.0, 3.0];
+    for seen in [
+        OWN,
+        upright(own_axes(), 0.4, shift),
+        tilted(25.0, upright(own_axes(), 0.4, shift)),
+    ] {
+        for (by_point, depth) in [(true, 2.0), (false, 1.0), (false, 1.5), (false, 2.0)] {
+            let contacts = table(&packing, &seen, by_point, 0);
+            let floor = floor_rows(&packing, &seen, by_point, depth);
+            let read = read(&packing, &(contacts + &floor)).unwrap();
+            let comparison = &read.comparison;
+            assert_eq!(comparison.beyond(1e-9), 0, "{by_point} {depth}");
+            assert_eq!(comparison.matched(), comparison.contacts());
+            assert_eq!(comparison.floor(), 15, "{by_point} {depth}");
+            assert!(comparison.floor_error().unwrap() < 1e-9);
+            // One force is wrong.
+            let contacts = table(&packing, &seen, by_point, 0);
+            let force = format!("{:?}\n", on_floor(&packing)[4].1);
+            let wrong = floor.replacen(&force, "0.5\n", 1);
+            assert_ne!(floor, wrong);
+            let magnitudes = |text: &str| text.replace("fx,fy,fz,force", "a,b,c,force");
+            let text = magnitudes(&(contacts + &wrong));
+            let read = Reader::new().by_place(0.1).unwrap();
+            let read = read.compare(&packing, text.as_bytes()).unwrap();
+            assert!(read.comparison.floor_error().unwrap() > 0.1);
+        }
+        // Points at other depths are on no contact.
+        for (by_point, depth) in [(true, 2.3), (false, 0.7), (false, 2.3)] {
+            let contacts = table(&packing, &seen, by_point, 0);
+            let floor = floor_rows(&packing, &seen, by_point, depth);
+            let said = read(&packing, &(contacts + &floor))
+                .unwrap_err()
+                .to_string();
+            assert!(said.starts_with("line 62: no contact at"), "{said}");
+        }
+    }
+}
+
+/// The contacts of one layer with the next are missing.
+#[test]
+fn a_missing_layer_does_not_hide_the_frame() {
+    let pile = Pile::triangular(6).unwrap();
+    let packing = packing(&pile, ratio(11, 10));
+    let seen = tilted(25.0, upright(own_axes(), 0.4, [1.0, 2.0, 3.0]));
+    for layer in 0..5_i128 {
+        for by_point in [false, true] {
+            let keeps = |_, measured: &Measured| site(&pile, measured).k != layer;
+            let table = table_of(&packing, &seen, by_point, keeps, |centre| centre);
+            let read = read(&packing, &table).unwrap();
+            let comparison = &read.comparison;
+            let case = format!("{layer} {by_point}: {comparison}");
+            assert_eq!(comparison.beyond(1e-9), 0, "{case}");
+            let spheres = u64::try_from((layer + 1) * (layer + 2) / 2).unwrap();
+            assert_eq!(comparison.missing(), 3 * spheres, "{case}");
+        }
+    }
+}
+
+/// Spheres on springs are displaced, by less than a tenth of R. Neighbours in a layer have no force.
+#[test]
+fn displaced_spheres_and_neighbours_without_force_do_not_hide_the_frame() {
+    for pile in piles() {
+        let packing = packing(&pile, ratio(11, 10));
+        let displaced = |[x, y, z]: [f64; 3]| {
+            let sunk = 0.01 * z + 0.003 * x;
+            [x * 1.004 + 0.01 * (3.0 * z).sin(), y * 1.004, z - sunk]
+        };
+        for degrees in [0.0, 25.0, 90.0, 170.0] {
+            let seen = tilted(degrees, upright(own_axes(), 0.4, [1.0, 2.0, 3.0]));
+            for by_point in [false, true] {
+                let table = table_of(&packing, &seen, by_point, |_, _| true, displaced);
+                let open = line(by_point, [[0.0; 3], [2.2, 0.0, 0.0]], [0.0; 3], 0.0);
+                let read = read(&packing, &(table + &open.repeat(20))).unwrap();
+                let comparison = &read.comparison;
+                let case = format!("{degrees} {by_point} {:?}: {comparison}", read.frame);
+                assert_eq!(comparison.missing(), 0, "{case}");
+                assert_eq!(comparison.beyond(0.03), 0, "{case}");
+                if degrees == 0.0 {
+                    let said = read.frame.unwrap().to_string();
+                    assert!(said.starts_with("turned about z by"), "{said}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tilted_table_of_another_pile_is_rejected() {
+    let [small, other] = [Pile::triangular(6), Pile::discs(9)].map(Result::unwrap);
+    let flat = Pile::on(Region::hexagon(4, 3).unwrap(), "+-".parse().unwrap()).unwrap();
+    let seen = tilted(25.0, upright(own_axes(), 0.4, [1.0, 2.0, 3.0]));
+    let wide = packing(&small, ratio(6, 5));
+    let packings = [&small, &other, &flat].map(|pile| packing(pile, ratio(1, 1)));
+    for (n, one) in packings.iter().enumerate() {
+        for (m, another) in packings.iter().chain([&wide]).enumerate() {
+            for by_point in [false, true] {
+                let read = read(another, &table(one, &seen, by_point, 0));
+                assert_eq!(read.is_err(), n != m, "{n} {m} {by_point} {read:?}");
+            }
+        }
+    }
 }

@@ -95,10 +95,11 @@ fn spheres_may_be_numbered_from_any_first_id() {
         assert!(read(&reader, table).comparison.accepted(1e-5));
     }
     let reader = Reader::new().with_columns(Columns::default().with_first_id(5));
-    let line = refused(&reader, "id1,id2,force\n4,6,0.46\n");
-    assert!(
-        line.starts_with("line 2: id1 '4' is not the number of a sphere"),
-        "{line}"
+    let line = refused(&reader, "id1,id2,force\n4,5,0.46\n");
+    assert_eq!(
+        line,
+        "line 2: no sphere 4: the spheres of this scene are numbered 5 to 8, from the top; if the table counts from 4, use \
+         --first-id 4"
     );
     // YADE counts from 0.
     let yade = Reader::of(Preset::Yade);
@@ -122,7 +123,7 @@ fn invalid_tables_are_rejected_with_a_remedy() {
     let numbered = Reader::new().with_columns(columns("id1=#1,id2=#2,force=#9"));
     assert_eq!(
         refused(&numbered, "1,2,3\n"),
-        "line 1: 3 fields, but the header has 9: give every column a value"
+        "line 1: no column #9 for force: the rows have 3 columns, and there is no header; does the table have another form?"
     );
     for text in [
         "",
@@ -136,7 +137,8 @@ fn invalid_tables_are_rejected_with_a_remedy() {
         "id2=#1+#2",
         "id1=#0",
         "id1=#x",
-        "id1=A,id2=#2",
+        "force=\"A",
+        "force=A\"B",
         "kind=type",
         "force=x*F",
         "force=0*F",
@@ -161,6 +163,30 @@ fn printed_columns_parse_to_themselves() {
         let read = columns(text);
         assert_eq!(read.to_string(), text);
         assert_eq!(read.to_string().parse(), Ok(read));
+    }
+}
+
+/// The presets are not parsed. They are the columns of these texts.
+#[test]
+fn columns_of_presets_are_those_that_a_user_would_write() {
+    for (preset, text) in [
+        (
+            Preset::ExaDem,
+            "kind=#5:0|1|2|3,fx=-#10-#13,fy=-#11-#14,fz=-#12-#15,x1=#16,y1=#17,z1=#18,x2=#19,y2=#20,z2=#21",
+        ),
+        (
+            Preset::ExaDemVtp,
+            "fx=-fn_x+-ft_x,fy=-fn_y+-ft_y,fz=-fn_z+-ft_z",
+        ),
+        (
+            Preset::DemEngine,
+            "kind=contact_type:SS,fx=f_x,fy=f_y,fz=f_z,x=X,y=Y,z=Z",
+        ),
+        (Preset::Kratos, "force=local_contact_force_z"),
+        (Preset::Mddem, "x=cx,y=cy,z=cz,force=overlap"),
+    ] {
+        assert_eq!(preset.columns(), columns(text), "{preset}");
+        assert_eq!(preset.columns().to_string(), text);
     }
 }
 

@@ -1,12 +1,17 @@
-//! Lines with data are read as VTK writes them. The files come from vtkXMLPolyDataWriter and
-//! vtkXMLUnstructuredGridWriter (9.5). Each has the twelve contacts of three layers at a = 6/5 R. The export of this
-//! crate is read too.
+//! Lines with data are read as VTK writes them. The files come from vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter and
+//! the writers of legacy files (9.5). Each has the twelve contacts of three layers at a = 6/5 R. The export of this crate
+//! is read too.
 
 use cannonpile::Pile;
 use cannonpile_dem::verify::{Compared, Preset, Reader, Refusal};
 use cannonpile_dem::{PileExport, PileFile};
 
 use super::{packing, ratio};
+
+/// Files of the kinds in which readers found faults, each with the expected result.
+mod cases;
+/// The rules of VTK, one small file each.
+mod rules;
 
 fn read(reader: &Reader, file: &[u8]) -> Result<Compared, Refusal> {
     let pile = Pile::triangular(3).unwrap();
@@ -32,6 +37,40 @@ const GRIDS: [&[u8]; 2] = [
     include_bytes!("vtk/lines.vtu"),
     include_bytes!("vtk/lines_ascii.vtu"),
 ];
+
+/// Lines among vertices, polygons, strips and triangles, with texts, bits and numbers that are not needed. The versions of
+/// legacy files are 4.2 and 5.1.
+const MIXED: [(&str, &[u8]); 10] = [
+    ("text, 4.2", include_bytes!("vtk/legacy_lines_ascii_42.vtk")),
+    ("text, 5.1", include_bytes!("vtk/legacy_lines_ascii_51.vtk")),
+    ("4.2", include_bytes!("vtk/legacy_lines_binary_42.vtk")),
+    ("5.1", include_bytes!("vtk/legacy_lines_binary_51.vtk")),
+    (
+        "grid in text, 4.2",
+        include_bytes!("vtk/legacy_grid_ascii_42.vtk"),
+    ),
+    (
+        "grid in text, 5.1",
+        include_bytes!("vtk/legacy_grid_ascii_51.vtk"),
+    ),
+    ("grid, 4.2", include_bytes!("vtk/legacy_grid_binary_42.vtk")),
+    ("grid, 5.1", include_bytes!("vtk/legacy_grid_binary_51.vtk")),
+    ("vtp", include_bytes!("vtk/mixed.vtp")),
+    ("vtu", include_bytes!("vtk/mixed.vtu")),
+];
+
+#[test]
+fn lines_among_other_cells_are_read() {
+    for (form, file) in MIXED {
+        // The text of VTK has eleven digits.
+        let accept = if form.contains("text") { 1e-10 } else { 1e-15 };
+        for reader in [Reader::new(), Reader::of(Preset::Lethe)] {
+            let comparison = read(&reader, file).unwrap().comparison;
+            assert_eq!(comparison.matched(), 12, "{form}");
+            assert!(comparison.accepted(accept), "{form}: {comparison}");
+        }
+    }
+}
 
 #[test]
 fn every_encoding_is_read() {
@@ -72,7 +111,7 @@ fn the_export_of_this_crate_is_read_with_its_vectors() {
 #[test]
 fn every_error_is_one_line() {
     let reader = Reader::of(Preset::Lethe);
-    for (_, file) in LINES {
+    for (_, file) in LINES.into_iter().chain(MIXED) {
         let mut cut_short = 0;
         for end in (1..file.len()).step_by(13) {
             let Err(refusal) = read(&reader, &file[..end]) else {
@@ -97,6 +136,11 @@ fn every_error_is_one_line() {
             "\"connectivity\"",
             "\"else\"",
             "a piece has no array connectivity for its lines",
+        ),
+        (
+            "NumberOfLines=\"12\"",
+            "NumberOfLines=\"11\"",
+            "array force: 12 values for 11 cells of 1 component",
         ),
         (
             "\"Float64\" Name=\"force\"",

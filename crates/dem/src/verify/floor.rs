@@ -1,0 +1,244 @@
+//! The measured forces of the floor and of walls on the bottom spheres.
+
+use std::collections::BTreeMap;
+
+use super::entry::Force;
+use super::measured::relative;
+use super::refusal::Refusal;
+use crate::NumberedPile;
+
+/// The measured contacts of the bottom spheres with the floor and with walls.
+#[derive(Default)]
+pub(super) struct Floor {
+    /// The contacts by sphere and wall. A wall has a number, unless it was found by position.
+    contacts: BTreeMap<(u64, Option<i128>), Contact>,
+}
+
+/// The contact of a sphere with the floor or with a wall.
+struct Contact {
+    /// The sum of the normal forces of the rows that name the sphere first, and of those that name it second.
+    sums: [Option<f64>; 2],
+    /// The last normal force of either order.
+    last: [Option<f64>; 2],
+    /// The number of rows that are part of a sum, and of these with a force.
+    rows: u64,
+    loaded: u64,
+    has_vector: bool,
+    line: u64,
+}
+
+/// The component of a force that the floor can be compared with.
+#[derive(Clone, Copy)]
+pub(super) struct Normal {
+    /// The upward force on the sphere.
+    force: f64,
+    has_vector: bool,
+}
+
+/// The result for the floor.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct OnFloor {
+    /// The number of rows whose normal forces were judged.
+    pub(super) judged: u64,
+    /// The relative errors of the judged spheres, in decreasing order.
+    pub(super) errors: Vec<f64>,
+    /// The relative differences between two rows of one contact.
+    pub(super) contradictions: Vec<f64>,
+}
+
+impl Normal {
+    /// Returns the normal component of the force on a sphere. A magnitude is the normal force.
+    pub(super) fn of(on_sphere: Force) -> Self {
+        let (force, has_vector) = match on_sphere {
+            Force::Along(force) => (force, false),
+            Force::Vector([_, _, z]) | Force::Both(_, [_, _, z]) => (z, true),
+        };
+        Self { force, has_vector }
+    }
+}
+
+impl Floor {
+    pub(super) fn is_empty(&self) -> bool {
+        self.contacts.is_empty()
+    }
+
+    /// Returns the number of contacts.
+    pub(super) fn len(&self) -> u64 {
+        self.contacts.len() as u64
+    }
+
+    /// Adds a row between a sphere and a numbered wall. `is_second` tells that the row names the wall first. Returns
+    /// whether the row repeats another one.
+    pub(super) fn add(
+        &mut self,
+        (sphere, wall): (u64, i128),
+        is_second: bool,
+        normal: Normal,
+        line: u64,
+    ) -> bool {
+        let contact = self.contacts.entry((sphere, Some(wall)));
+        let contact = contact.or_insert_with(|| Contact::new(line));
+        let is_repeated = contact.add(is_second, normal.force);
+        contact.count(normal, is_repeated);
+        is_repeated
+    }
+
+    /// Adds a row that was found below a sphere. Returns whether the row repeats another one. The position is that of
+    /// one contact, so the two most different forces are kept instead of a sum.
+    pub(super) fn add_below(&mut self, sphere: u64, normal: Normal, line: u64) -> bool {
+        let contact = self.contacts.entry((sphere, None));
+        let contact = contact.or_insert_with(|| Contact::new(line));
+        let is_repeated = match &mut contact.sums {
+            [Some(first), second] => {
+                let apart = |force: f64| (force - *first).abs();
+                if second.map_or(0.0, apart) < apart(normal.force) {
+                    *second = Some(normal.force);
+                }
+                true
+            }
+            [first, _] => {
+                *first = Some(normal.force);
+                false
+            }
+        };
+        contact.count(normal, is_repeated);
+        is_repeated
+    }
+
+    /// Returns the number of rows that are not judged. If several walls push a sphere, only vectors tell the part of
+    /// each in the vertical force.
+    pub(super) fn unjudged(&self) -> u64 {
+        let mut rows = 0;
+        for (_, contacts) in self.by_sphere() {
+            if !is_judged(&contacts) {
+                rows += contacts.iter().map(|contact| contact.rows).sum::<u64>();
+            }
+        }
+        rows
+    }
+
+    /// Returns the first number beyond the last sphere, with its line, if these numbers are the spheres of a higher
+    /// pile instead of walls. Each of them touches at most `directions` spheres above.
+    pub(super) fn sphere_below(&self, spheres: u64, directions: usize) -> Option<(i128, u64)> {
+        let mut touched = BTreeMap::new();
+        for ((_, wall), contact) in &self.contacts {
+            let wall = (*wall)?;
+            if wall <= 0 {
+                return None;
+            }
+            if wall > i128::from(spheres) {
+                let (count, line) = touched.entry(wall).or_insert((0, contact.line));
+                *count += 1;
+                *line = contact.line.min(*line);
+            }
+        }
+        let is_pile = touched.len() > 1 && touched.values().all(|(count, _)| *count <= directions);
+        let first = touched.into_iter().min_by_key(|(_, (_, line))| *line);
+        let (wall, (_, line)) = first.filter(|_| is_pile)?;
+        Some((wall, line))
+    }
+
+    /// Compares the forces with the exact ones of the floor.
+    pub(super) fn judge(
+        &self,
+        numbered: &NumberedPile<'_>,
+        largest_force: f64,
+    ) -> Result<OnFloor, Refusal> {
+        let mut on_floor = OnFloor::default();
+        if self.is_empty() {
+            return Ok(on_floor);
+        }
+        let mut measured = self.by_sphere().peekable();
+        for exact in numbered.on_floor().map_err(Refusal::of_forces)? {
+            let (id, exact) = exact.map_err(Refusal::of_forces)?;
+            let Some((_, contacts)) = measured.next_if(|(sphere, _)| *sphere == id) else {
+                continue;
+            };
+            if !is_judged(&contacts) {
+                continue;
+            }
+            // A contact that is listed in one order only counts in both sums.
+            let sum = |[one, other]: [usize; 2]| {
+                let sums = contacts.iter().map(|contact| {
+                    let of = |order: usize| contact.sums.get(order).copied().flatten();
+                    of(one).or(of(other))
+                });
+                sums.flatten().sum::<f64>()
+            };
+            if !exact.normal.is_finite() {
+                return Err(Refusal::OutOfRange);
+            }
+            let (one, other) = (sum([0, 1]), sum([1, 0]));
+            let unit = if exact.normal == 0.0 {
+                largest_force
+            } else {
+                exact.normal.abs()
+            };
+            let apart = (one - exact.normal).abs().max((other - exact.normal).abs());
+            on_floor.errors.push(relative(apart, unit));
+            let apart = relative((one - other).abs(), unit);
+            on_floor
+                .contradictions
+                .extend(Some(apart).filter(|apart| *apart > 0.0));
+            on_floor.judged += contacts.iter().map(|contact| contact.rows).sum::<u64>();
+        }
+        on_floor.errors.sort_unstable_by(|a, b| b.total_cmp(a));
+        Ok(on_floor)
+    }
+
+    /// Returns the contacts of each sphere, in the order of the numbers.
+    fn by_sphere(&self) -> impl Iterator<Item = (u64, Vec<&Contact>)> {
+        let mut contacts = self.contacts.iter().peekable();
+        core::iter::from_fn(move || {
+            let ((sphere, _), first) = contacts.next()?;
+            let mut all = vec![first];
+            while let Some((_, contact)) = contacts.next_if(|((next, _), _)| next == sphere) {
+                all.push(contact);
+            }
+            Some((*sphere, all))
+        })
+    }
+}
+
+impl Contact {
+    fn new(line: u64) -> Self {
+        Self {
+            sums: [None; 2],
+            last: [None; 2],
+            rows: 0,
+            loaded: 0,
+            has_vector: true,
+            line,
+        }
+    }
+
+    /// Adds a force to the sum of its order. Returns whether the row repeats another one: in the same order if it
+    /// agrees, or in the other order.
+    fn add(&mut self, is_second: bool, force: f64) -> bool {
+        let ([first, second], [last, other]) = (&mut self.sums, &mut self.last);
+        let (sum, last, reverse) = if is_second {
+            (second, other, first)
+        } else {
+            (first, last, second)
+        };
+        if last.replace(force) == Some(force) {
+            return true;
+        }
+        *sum = Some(sum.map_or(force, |sum| sum + force));
+        reverse.is_some()
+    }
+
+    fn count(&mut self, normal: Normal, is_repeated: bool) {
+        self.has_vector &= normal.has_vector;
+        if !is_repeated {
+            self.rows += 1;
+            self.loaded += u64::from(normal.force != 0.0);
+        }
+    }
+}
+
+/// Returns whether the sum of these forces is the force of the floor: one force, or vectors.
+fn is_judged(contacts: &[&Contact]) -> bool {
+    let loaded = contacts.iter().map(|contact| contact.loaded).sum::<u64>();
+    loaded <= 1 || contacts.iter().all(|contact| contact.has_vector)
+}

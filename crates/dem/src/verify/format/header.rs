@@ -1,0 +1,388 @@
+//! The columns of a table, found by name or by number, and the parser of their cells.
+
+use core::fmt::Write;
+
+use super::columns::{Column, Columns, Quantity, Term};
+use super::number::{number, whole_number};
+use crate::Error;
+use crate::verify::entry::{Entry, Force, Place, Spheres};
+use crate::verify::refusal::Fault;
+
+/// The identification of the two spheres that a table must contain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::verify) enum Identity {
+    #[default]
+    Numbers,
+    Places,
+}
+
+/// The columns that are read. All others may hold anything.
+pub(in crate::verify) struct Header {
+    /// The number of cells in a row.
+    width: usize,
+    has_names: bool,
+    /// For each quantity, its columns, counted from 0, with their factors.
+    sums: [Vec<(usize, f64)>; Quantity::COUNT],
+    kinds: Vec<String>,
+    first_id: u64,
+    identity: Identity,
+    decimal_comma: bool,
+}
+
+/// What the cells of a row say.
+pub(in crate::verify) enum Row {
+    /// A contact.
+    Entry(Entry),
+    /// A contact of another kind than those that are read.
+    OtherKind,
+    /// A line of text: no necessary cell is a number.
+    Text,
+}
+
+impl Header {
+    /// Finds the necessary columns in a table of this width, whose names may be known.
+    pub(in crate::verify) fn find(
+        names: Option<&[&str]>,
+        width: usize,
+        columns: &Columns,
+        identity: Identity,
+    ) -> Result<Self, Fault> {
+        let mut header = Self {
+            width,
+            has_names: names.is_some(),
+            sums: Quantity::ALL.map(|_| Vec::new()),
+            kinds: columns.kinds().to_vec(),
+            first_id: columns.first_id(),
+            identity,
+            decimal_comma: false,
+        };
+        let names = names.unwrap_or(&[]);
+        let is_there = |quantity: &Quantity| {
+            let named = || names.iter().any(|name| quantity.names().contains(name));
+            columns.terms(*quantity).is_some() || named()
+        };
+        for quantity in header.needed(is_there) {
+            let sum = match columns.terms(quantity) {
+                Some(terms) => named(quantity, terms, names, width)?,
+                None => usual(quantity, names)?,
+            };
+            if let Some(place) = header.sums.get_mut(quantity as usize) {
+                *place = sum;
+            }
+        }
+        match header.missing() {
+            None => Ok(header),
+            Some(quantity) => Err(Fault::NoColumn {
+                column: quantity.name(),
+                found: shortened(names),
+            }),
+        }
+    }
+
+    pub(super) fn set_decimal_comma(&mut self, decimal_comma: bool) {
+        self.decimal_comma = decimal_comma;
+    }
+
+    pub(super) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Returns the quantities that are read if they are there.
+    fn needed(&self, is_there: impl Fn(&Quantity) -> bool) -> Vec<Quantity> {
+        use Quantity::{Force, Fx, Fy, Fz, Id1, Id2, Kind, Step, X, X1, X2, Y, Y1, Y2, Z, Z1, Z2};
+        const NUMBERS: &[Quantity] = &[Id1, Id2];
+        const CENTRES: &[Quantity] = &[X1, Y1, Z1, X2, Y2, Z2];
+        const POINT: &[Quantity] = &[X, Y, Z];
+        let identity = match self.identity {
+            Identity::Numbers => NUMBERS,
+            Identity::Places if CENTRES.iter().any(is_there) => CENTRES,
+            Identity::Places => POINT,
+        };
+        [identity, &[Force, Fx, Fy, Fz, Kind, Step]].concat()
+    }
+
+    /// Returns the first necessary quantity without a column.
+    fn missing(&self) -> Option<Quantity> {
+        use Quantity::{Force, Fx, Fy, Fz, Id1, Id2, X, X1, X2, Z, Z1, Z2};
+        let identity: &[Quantity] = match self.identity {
+            Identity::Numbers => &[Id1, Id2],
+            Identity::Places if self.has_centres() => &[X1, Z1, X2, Z2],
+            Identity::Places => &[X, Z],
+        };
+        // With a vector, the magnitude is not necessary.
+        let force: &[Quantity] = if self.has_vector() {
+            &[Fx, Fy, Fz]
+        } else {
+            &[Force]
+        };
+        let lacks = |quantity: &Quantity| !self.has(*quantity);
+        identity.iter().chain(force).copied().find(lacks)
+    }
+
+    fn sum_of(&self, quantity: Quantity) -> &[(usize, f64)] {
+        self.sums.get(quantity as usize).map_or(&[], Vec::as_slice)
+    }
+
+    fn has(&self, quantity: Quantity) -> bool {
+        !self.sum_of(quantity).is_empty()
+    }
+
+    fn has_centres(&self) -> bool {
+        use Quantity::{X1, X2, Y1, Y2, Z1, Z2};
+        [X1, Y1, Z1, X2, Y2, Z2]
+            .into_iter()
+            .any(|quantity| self.has(quantity))
+    }
+
+    fn has_vector(&self) -> bool {
+        use Quantity::{Fx, Fy, Fz};
+        [Fx, Fy, Fz]
+            .into_iter()
+            .any(|component| self.has(component))
+    }
+
+    /// Returns the columns that are read, counted from 0. Some may occur twice.
+    pub(in crate::verify) fn columns(&self) -> impl Iterator<Item = usize> {
+        self.sums.iter().flatten().map(|(column, _)| *column)
+    }
+
+    /// Reads the cells of a line.
+    pub(in crate::verify) fn read(&self, cells: &[&str]) -> Result<Row, Fault> {
+        if cells.len() != self.width {
+            return self.text_or(cells, self.row_of(cells.len()));
+        }
+        if self.has(Quantity::Kind) {
+            let kind = self.cell(Quantity::Kind, cells)?;
+            if !self.kinds.iter().any(|known| known == kind) {
+                return Ok(Row::OtherKind);
+            }
+        }
+        match self.entry(cells) {
+            Ok(entry) => Ok(Row::Entry(entry)),
+            Err(fault) => self.text_or(cells, fault),
+        }
+    }
+
+    /// Returns the step of a row.
+    pub(super) fn step<'c>(&self, cells: &[&'c str]) -> Option<&'c str> {
+        match self.sum_of(Quantity::Step) {
+            [(column, _)] => cells.get(*column).copied(),
+            _ => None,
+        }
+    }
+
+    /// Returns the kind of a row.
+    pub(super) fn kind<'c>(&self, cells: &[&'c str]) -> Option<&'c str> {
+        self.cell(Quantity::Kind, cells).ok()
+    }
+
+    /// Returns the fault of a row with another number of cells.
+    pub(super) fn row_of(&self, cells: usize) -> Fault {
+        Fault::Fields {
+            columns: self.width,
+            fields: cells,
+            has_names: self.has_names,
+        }
+    }
+
+    fn text_or(&self, cells: &[&str], fault: Fault) -> Result<Row, Fault> {
+        if self.is_text(cells) {
+            Ok(Row::Text)
+        } else {
+            Err(fault)
+        }
+    }
+
+    /// Returns whether no necessary cell is a number.
+    pub(super) fn is_text(&self, cells: &[&str]) -> bool {
+        let words = [Quantity::Kind, Quantity::Step];
+        let numbers = Quantity::ALL
+            .into_iter()
+            .filter(|quantity| !words.contains(quantity));
+        let mut columns = numbers.flat_map(|quantity| self.sum_of(quantity));
+        let is_number = |(column, _): &(usize, f64)| {
+            let cell = cells.get(*column);
+            cell.is_some_and(|cell| number(cell, self.decimal_comma).is_some())
+        };
+        !columns.any(is_number)
+    }
+
+    fn entry(&self, cells: &[&str]) -> Result<Entry, Fault> {
+        let number = |quantity| self.number(quantity, cells);
+        let vector = |[x, y, z]: [Quantity; 3]| Ok([number(x)?, number(y)?, number(z)?]);
+        let spheres = match self.identity {
+            Identity::Numbers => Spheres::Numbers([
+                self.id(Quantity::Id1, cells)?,
+                self.id(Quantity::Id2, cells)?,
+            ]),
+            Identity::Places if self.has_centres() => Spheres::Places(Place::Centres([
+                vector([Quantity::X1, Quantity::Y1, Quantity::Z1])?,
+                vector([Quantity::X2, Quantity::Y2, Quantity::Z2])?,
+            ])),
+            Identity::Places => {
+                let point = vector([Quantity::X, Quantity::Y, Quantity::Z])?;
+                Spheres::Places(Place::Point(point))
+            }
+        };
+        let components = [Quantity::Fx, Quantity::Fy, Quantity::Fz];
+        let force = match (self.has(Quantity::Force), self.has_vector()) {
+            (true, true) => Force::Both(number(Quantity::Force)?, vector(components)?),
+            (false, true) => Force::Vector(vector(components)?),
+            // A header without a force and without a vector was rejected before.
+            (_, false) => Force::Along(number(Quantity::Force)?),
+        };
+        Ok(Entry { spheres, force })
+    }
+
+    /// Returns the cell of a quantity that is one column.
+    fn cell<'c>(&self, quantity: Quantity, cells: &[&'c str]) -> Result<&'c str, Fault> {
+        match self.sum_of(quantity) {
+            [(column, _)] => self.at(cells, *column),
+            _ => Err(Fault::of_bug("a header has one column for each sphere")),
+        }
+    }
+
+    fn at<'c>(&self, cells: &[&'c str], column: usize) -> Result<&'c str, Fault> {
+        cells
+            .get(column)
+            .copied()
+            .ok_or_else(|| self.row_of(cells.len()))
+    }
+
+    /// Returns a sum of columns. Without a column it is 0, because discs have no y.
+    fn number(&self, quantity: Quantity, cells: &[&str]) -> Result<f64, Fault> {
+        let value = |column: usize| {
+            let text = self.at(cells, column)?;
+            let value = number(text, self.decimal_comma).ok_or_else(|| Fault::Field {
+                column: quantity.name(),
+                error: Box::new(Error::syntax(text, "a number such as 0.46 or 1e-3")),
+            })?;
+            if value.is_finite() {
+                Ok(value)
+            } else {
+                let column = quantity.name();
+                Err(Fault::NotFinite { column, value })
+            }
+        };
+        match self.sum_of(quantity) {
+            [(column, 1.0)] => value(*column),
+            terms => {
+                let mut sum = 0.0;
+                for (column, factor) in terms {
+                    sum += factor * value(*column)?;
+                }
+                Ok(sum)
+            }
+        }
+    }
+
+    /// Returns the number of a sphere, counted from 1 if it is a sphere of the pile.
+    fn id(&self, quantity: Quantity, cells: &[&str]) -> Result<i64, Fault> {
+        let text = self.cell(quantity, cells)?;
+        let first = i64::try_from(self.first_id).ok();
+        let counted = whole_number(text, self.decimal_comma).zip(first);
+        let counted = counted.and_then(|(id, first)| id.checked_sub(first)?.checked_add(1));
+        counted.ok_or_else(|| Fault::Field {
+            column: quantity.name(),
+            error: Box::new(Error::syntax(text, ID)),
+        })
+    }
+}
+
+/// Finds the columns that the user named.
+fn named(
+    quantity: Quantity,
+    terms: &[Term],
+    names: &[&str],
+    width: usize,
+) -> Result<Vec<(usize, f64)>, Fault> {
+    if let Some(sum) = whole(terms, names) {
+        return Ok(sum);
+    }
+    let mut sum = Vec::new();
+    for term in terms {
+        let place = match &term.column {
+            Column::Numbered(place) if *place < width => *place,
+            Column::Numbered(place) => {
+                return Err(Fault::NoNumberedColumn {
+                    column: quantity.name(),
+                    number: place + 1,
+                    columns: width,
+                    has_names: !names.is_empty(),
+                });
+            }
+            Column::Named(wanted) => {
+                let mut places = (0..).zip(names).filter(|(_, name)| **name == wanted);
+                match (places.next(), places.next()) {
+                    (Some((place, _)), None) => place,
+                    (Some((_, first)), Some((_, second))) => {
+                        return Err(twice(quantity, first, second));
+                    }
+                    (None, _) => {
+                        return Err(Fault::NoNamedColumn {
+                            column: quantity.name(),
+                            name: shortened(&[wanted]),
+                            found: shortened(names),
+                        });
+                    }
+                }
+            }
+        };
+        sum.push((place, term.factor));
+    }
+    Ok(sum)
+}
+
+/// Finds the column whose name contains a +, so that it was parsed as a sum, unless the parts are columns too.
+fn whole(terms: &[Term], names: &[&str]) -> Option<Vec<(usize, f64)>> {
+    let mut parts = Vec::new();
+    for (n, term) in terms.iter().enumerate() {
+        match &term.column {
+            Column::Named(name) if n == 0 || matches!(term.factor, 1.0) => {
+                parts.push(name.as_str());
+            }
+            _ => return None,
+        }
+    }
+    let bare = |name: &str| name.replace(char::is_whitespace, "");
+    let name = bare(&parts.join("+"));
+    let is_sum = parts.len() < 2 || parts.iter().all(|part| names.contains(part));
+    let place = names.iter().position(|known| bare(known) == name)?;
+    (!is_sum).then(|| vec![(place, terms.first().map_or(1.0, |term| term.factor))])
+}
+
+/// Finds the column with one of the usual names of a quantity.
+fn usual(quantity: Quantity, names: &[&str]) -> Result<Vec<(usize, f64)>, Fault> {
+    let known = quantity.names();
+    let mut places = (0..).zip(names).filter(|(_, name)| known.contains(name));
+    match (places.next(), places.next()) {
+        (Some((_, first)), Some((_, second))) => Err(twice(quantity, first, second)),
+        (first, _) => Ok(first.map(|(place, _)| (place, 1.0)).into_iter().collect()),
+    }
+}
+
+fn twice(quantity: Quantity, first: &str, second: &str) -> Fault {
+    Fault::TwoColumns {
+        column: quantity.name(),
+        first: shortened(&[first]),
+        second: shortened(&[second]),
+    }
+}
+
+/// Returns quoted names for a message, shortened if the list is long.
+pub(super) fn shortened(names: &[&str]) -> String {
+    const LONGEST: usize = 120;
+    let mut list = String::new();
+    for name in names {
+        let gap = if list.is_empty() { "" } else { ", " };
+        // Writing to a String never fails.
+        let _ = write!(list, "{gap}'{}'", name.escape_debug());
+        if list.len() > LONGEST {
+            let short: String = list.chars().take(LONGEST).collect();
+            return short + "…";
+        }
+    }
+    list
+}
+
+const ID: &str = "the number of a sphere, such as 17, with all its digits (in LAMMPS by dump_modify format float %.17g)";

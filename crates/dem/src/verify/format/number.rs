@@ -1,0 +1,117 @@
+//! Numbers as tables write them.
+
+/// Returns the value of a number, correctly rounded to `f64`. The value may be infinite or NaN.
+///
+/// The decimal sign is `.` or `,`. Fortran writes exponents as `1.5D-3`, and with three digits as `1.5-103`.
+pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
+    if decimal_comma && text.contains(',') {
+        // A point beside the comma would be a thousands separator, which is not read.
+        let is_plain = !text.contains('.');
+        return is_plain.then(|| number(&text.replacen(',', ".", 1), false))?;
+    }
+    text.parse().ok().or_else(|| fortran(text)?.parse().ok())
+}
+
+/// Returns a number of Fortran with the exponent after `e`.
+fn fortran(text: &str) -> Option<String> {
+    if let Some((digits, exponent)) = text.split_once(['d', 'D']) {
+        let is_decimal = |c: char| c.is_ascii_digit() || "+-.".contains(c);
+        return digits
+            .chars()
+            .all(is_decimal)
+            .then(|| format!("{digits}e{exponent}"));
+    }
+    let sign = text.rfind(['+', '-']).filter(|place| *place > 0)?;
+    let (digits, exponent) = text.split_at_checked(sign)?;
+    let is_cut = digits.contains('.') && exponent.len() == 4;
+    is_cut.then(|| format!("{digits}e{exponent}"))
+}
+
+/// Returns whether a text is a finite number, with either decimal sign.
+pub(super) fn is_number(text: &str) -> bool {
+    let is_digit = |byte: &u8| byte.is_ascii_digit();
+    let begins = text.as_bytes().iter().find(|byte| !b"+-.,".contains(byte));
+    begins.is_some_and(is_digit)
+        && [false, true]
+            .into_iter()
+            .any(|comma| number(text, comma).is_some())
+}
+
+/// Returns the number of a sphere, if all its digits are there. A fraction may consist of zeros only.
+///
+/// An exponent, as `numpy.savetxt` writes it, is accepted only if all digits of the number are present. Otherwise
+/// digits may have been rounded off: by default LAMMPS writes sphere 1234567 as 1.23457e+06.
+pub(super) fn whole_number(text: &str, decimal_comma: bool) -> Option<i64> {
+    if let Ok(id) = text.parse() {
+        return Some(id);
+    }
+    let (negative, text) = match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let (digits, exponent) = text.split_once(['e', 'E', 'd', 'D']).unwrap_or((text, "0"));
+    let decimal = if decimal_comma { ',' } else { '.' };
+    let (whole, fraction) = digits.split_once(decimal).unwrap_or((digits, ""));
+    let (moved, zeros) = fraction.split_at_checked(exponent.parse().ok()?)?;
+    let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let fits = !whole.is_empty() && is_digits(whole) && is_digits(moved);
+    let id: i64 = [whole, moved].concat().parse().ok()?;
+    let exact = fits && zeros.bytes().all(|byte| byte == b'0');
+    exact.then_some(if negative { -id } else { id })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_other_programs() {
+        for (text, value) in [
+            ("0.5", 0.5),
+            ("-1.5D-3", -1.5e-3),
+            ("1.5d+02", 150.0),
+            ("0.25-103", 0.25e-103),
+            ("+1.+100", 1e100),
+        ] {
+            assert_eq!(number(text, false), Some(value), "{text}");
+        }
+        assert_eq!(number("-0,25", true), Some(-0.25));
+        assert_eq!(number("0,5E-3", true), Some(0.5e-3));
+        assert_eq!(number("0.5", true), Some(0.5));
+        for text in [
+            "",
+            "half",
+            "1-2-3",
+            "1-200",
+            "2026-11-25",
+            "d",
+            "1,5",
+            "0x10",
+            "1.5 N",
+            "- 1",
+        ] {
+            assert_eq!(number(text, false), None, "{text}");
+        }
+        for text in ["1.234,5", "1,234,5"] {
+            assert_eq!(number(text, true), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn ids_have_all_their_digits() {
+        for (text, id) in [
+            ("17", 17),
+            ("-1", -1),
+            ("17.000", 17),
+            ("1.7e1", 17),
+            ("1.700000D+01", 17),
+            ("-0.0", 0),
+        ] {
+            assert_eq!(whole_number(text, false), Some(id), "{text}");
+        }
+        assert_eq!(whole_number("17,0", true), Some(17));
+        for text in ["1.5", "1.23457e+06", "", "-", "1e400", "A1", "1,234"] {
+            assert_eq!(whole_number(text, false), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! What became of the lines of a file: how many rows were read, used, and left out.
+
+use core::fmt;
+use std::collections::BTreeSet;
+
+use super::header::{Header, Row, shortened};
+use crate::verify::entry::{Entry, Sink};
+use crate::verify::refusal::Refusal;
+
+/// The number of rows of a file that were read and left out.
+///
+/// # Examples
+/// ```
+/// use cannonpile::{Packing, Pile};
+/// use cannonpile_dem::verify::Reader;
+///
+/// let pile = Pile::triangular(2)?;
+/// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+/// let table = "# a simulation\nid1,id2,force\n1,2,0.46\n1,3,0.46\n#1,4,0.46\nend\n";
+/// let rows = Reader::new().compare(&packing, table.as_bytes())?.rows;
+/// assert_eq!((rows.used, rows.commented), (2, 1));
+/// assert_eq!(rows.to_string(), "1 comment that looks like a row, 1 line of text (line 6)");
+/// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Rows {
+    /// The rows that were compared: contacts of spheres, with the floor and with walls.
+    pub used: u64,
+    /// The rows of another kind than those of `kind=`.
+    pub other_kinds: u64,
+    /// The rows of other steps.
+    pub other_steps: u64,
+    /// The comments that look like rows.
+    pub commented: u64,
+    /// The lines below the first row that have no number where a row has one.
+    pub text: u64,
+    /// The first such line.
+    pub first_text: Option<u64>,
+    /// Some kinds of rows that were left out.
+    pub kinds: BTreeSet<String>,
+}
+
+/// The largest number of kinds that are kept.
+const MAX_KINDS: usize = 5;
+
+impl Rows {
+    /// Counts a row of another kind.
+    pub(super) fn leave_kind(&mut self, kind: &str) {
+        self.other_kinds += 1;
+        if self.kinds.len() < MAX_KINDS && !self.kinds.contains(kind) {
+            self.kinds.insert(kind.chars().take(40).collect());
+        }
+    }
+
+    /// Counts a line of text.
+    pub(super) fn leave_text(&mut self, line: u64) {
+        self.text += 1;
+        self.first_text.get_or_insert(line);
+    }
+
+    /// Forgets the rows of a step, when a later step begins.
+    pub(super) fn begin_step(&mut self) {
+        self.other_steps +=
+            core::mem::take(&mut self.used) + core::mem::take(&mut self.other_kinds);
+        self.kinds.clear();
+    }
+
+    /// Returns why no contact was matched, with the likeliest remedy.
+    pub(in crate::verify) fn reason(&self, by_place: bool) -> String {
+        if self.used > 0 {
+            let remedy = if by_place {
+                "is the table of this scene?"
+            } else {
+                "are the spheres numbered as in spheres.csv of the export? --first-id 0 counts from 0, and --match place \
+                 finds contacts by position"
+            };
+            let rows = match self.used {
+                1 => "1 row was read".to_owned(),
+                rows => format!("{rows} rows were read"),
+            };
+            return format!("{rows}, but none is a contact of the scene: {remedy}");
+        }
+        if self.other_kinds > 0 {
+            let kinds: Vec<&str> = self.kinds.iter().map(String::as_str).collect();
+            return format!(
+                "no row has the kind that is asked for, but {} rows have others, such as {}: name these in kind=COLUMN:VALUE",
+                self.other_kinds,
+                shortened(&kinds)
+            );
+        }
+        if self.commented > 0 {
+            return format!(
+                "no row was read, but {} lines are comments that look like rows: --comment none reads them",
+                self.commented
+            );
+        }
+        if self.other_steps > 0 {
+            return format!(
+                "the step has no rows, but other steps have {}: --step names one of them",
+                self.other_steps
+            );
+        }
+        if let Some(line) = self.first_text {
+            return format!(
+                "no row was read, only text from line {line} on: are the columns those of --columns?"
+            );
+        }
+        "the file has no rows: did the simulation write any contact?".to_owned()
+    }
+}
+
+impl fmt::Display for Rows {
+    /// Writes what was left out.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let plural = |count: u64, one: &str, many: &str| match count {
+            0 => None,
+            1 => Some(format!("1 {one}")),
+            count => Some(format!("{count} {many}")),
+        };
+        let text = plural(self.text, "line of text", "lines of text");
+        let place = self.first_text.map(|line| match self.text {
+            1 => format!(" (line {line})"),
+            _ => format!(" (from line {line} on)"),
+        });
+        let parts = [
+            plural(
+                self.other_kinds,
+                "row of another kind",
+                "rows of other kinds",
+            ),
+            plural(
+                self.other_steps,
+                "row of another step",
+                "rows of other steps",
+            ),
+            plural(
+                self.commented,
+                "comment that looks like a row",
+                "comments that look like rows",
+            ),
+            text.map(|text| text + &place.unwrap_or_default()),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        f.write_str(&parts.join(", "))
+    }
+}
+
+/// A sink with the counts of its rows.
+pub(in crate::verify) struct Counted<'s, S> {
+    sink: &'s mut S,
+    pub(in crate::verify) rows: Rows,
+}
+
+impl<'s, S: Sink> Counted<'s, S> {
+    pub(in crate::verify) fn new(sink: &'s mut S) -> Self {
+        Self {
+            sink,
+            rows: Rows::default(),
+        }
+    }
+}
+
+impl<S: Sink> Counted<'_, S> {
+    /// Reads the cells of a line as a row.
+    pub(in crate::verify) fn row(
+        &mut self,
+        header: &Header,
+        cells: &[&str],
+        line: u64,
+    ) -> Result<(), Refusal> {
+        match header.read(cells).map_err(|fault| fault.at(line))? {
+            Row::Entry(entry) => self.take(&entry, line)?,
+            Row::OtherKind => {
+                self.rows.leave_kind(header.kind(cells).unwrap_or_default());
+                self.pass_over();
+            }
+            Row::Text => self.rows.leave_text(line),
+        }
+        Ok(())
+    }
+}
+
+impl<S: Sink> Sink for Counted<'_, S> {
+    fn begin_step(&mut self) {
+        if self.rows.used + self.rows.other_kinds > 0 {
+            self.rows.begin_step();
+            self.sink.begin_step();
+        }
+    }
+
+    fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
+        self.rows.used += 1;
+        self.sink.take(entry, line)
+    }
+
+    fn pass_over(&mut self) {
+        self.sink.pass_over();
+    }
+}

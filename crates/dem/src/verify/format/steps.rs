@@ -1,0 +1,86 @@
+//! The steps of a file: which one is read.
+
+use std::collections::BTreeSet;
+
+use super::header::shortened;
+use super::number::number;
+use crate::verify::refusal::{Fault, Refusal};
+
+/// The steps that were found so far.
+pub(in crate::verify) struct Steps<'o> {
+    /// The step that the user asked for.
+    wanted: Option<&'o str>,
+    seen: BTreeSet<String>,
+    current: Option<String>,
+}
+
+/// What to do with the rows of a step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::verify) enum Use {
+    /// Reads them with the rows before.
+    Same,
+    /// Reads them, and forgets all rows before.
+    New,
+    /// Leaves them out.
+    Other,
+}
+
+impl<'o> Steps<'o> {
+    pub(in crate::verify) fn new(wanted: Option<&'o str>) -> Self {
+        Self {
+            wanted,
+            seen: BTreeSet::new(),
+            current: None,
+        }
+    }
+
+    /// Returns what to do with the next row, which is of this step. The last step is read, unless another is wanted.
+    pub(in crate::verify) fn next(&mut self, step: &str) -> Result<Use, Fault> {
+        if self.current.as_deref() == Some(step) {
+            return Ok(Use::Same);
+        }
+        let is_new = !self.seen.contains(step);
+        if is_new {
+            self.seen.insert(step.to_owned());
+        }
+        if let Some(wanted) = self.wanted {
+            if !is_same(wanted, step) {
+                return Ok(Use::Other);
+            }
+        } else if !is_new {
+            return Err(Fault::StepAgain {
+                step: shortened(&[step]),
+            });
+        }
+        let is_first = self.current.is_none();
+        self.current = Some(step.to_owned());
+        // Two spellings of the wanted step are one step.
+        Ok(if self.wanted.is_none() || is_first {
+            Use::New
+        } else {
+            Use::Same
+        })
+    }
+
+    /// Returns the number of steps of the file, and the step that was read.
+    ///
+    /// # Errors
+    /// The wanted step was not found.
+    pub(in crate::verify) fn close(self) -> Result<(u64, Option<String>), Refusal> {
+        match (self.wanted, &self.current) {
+            (Some(wanted), None) => {
+                let seen: Vec<&str> = self.seen.iter().map(String::as_str).collect();
+                Err(Refusal::NoStep {
+                    wanted: shortened(&[wanted]),
+                    found: shortened(&seen),
+                })
+            }
+            _ => Ok((self.seen.len() as u64, self.current)),
+        }
+    }
+}
+
+fn is_same(wanted: &str, step: &str) -> bool {
+    let value = |text: &str| number(text, text.contains(','));
+    wanted == step || value(wanted).is_some_and(|wanted| value(step) == Some(wanted))
+}

@@ -1,0 +1,149 @@
+//! The kind of a file, by its first bytes.
+
+use core::fmt;
+
+/// The kind of a file.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify::FileKind;
+///
+/// assert_eq!(FileKind::of(b"ITEM: TIMESTEP\n500\n"), FileKind::Dump);
+/// assert_eq!(FileKind::of(b"<!DOCTYPE html><html>").to_string(), "an HTML page");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FileKind {
+    /// A text with one contact on each line.
+    Table,
+    /// A `dump local` file of LAMMPS.
+    Dump,
+    /// A file of VTK in XML: `.vtp`, `.vtu`, or the `.pvtp`, `.pvtu`, `.pvd` that name such files.
+    VtkXml,
+    /// A file of VTK in the format before XML.
+    VtkLegacy,
+    /// Any other kind, which is not read.
+    Other {
+        /// The kind in words, such as `an HTML page`.
+        is: &'static str,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+}
+
+const AS_CSV: &str = "save the table as CSV";
+const NO_TABLE: &str = "give the table of contacts itself";
+const DECOMPRESSED: &str = "decompress it, or compress it with gzip or zstd";
+
+/// The first bytes of files that are not read.
+const OTHERS: [(&[u8], &str, &str); 10] = [
+    (
+        b"PK\x03\x04",
+        "a spreadsheet or another ZIP archive",
+        AS_CSV,
+    ),
+    (
+        b"\xd0\xcf\x11\xe0",
+        "a spreadsheet of the old Excel format",
+        AS_CSV,
+    ),
+    (b"\x89HDF", "an HDF5 file", AS_CSV),
+    (b"CDF", "a NetCDF file", AS_CSV),
+    (
+        b"\x93NUMPY",
+        "an array of NumPy",
+        "write it with numpy.savetxt",
+    ),
+    (b"SQLite format 3", "a database of SQLite", AS_CSV),
+    (b"BZh", "compressed by bzip2", DECOMPRESSED),
+    (b"\xfd7zXZ", "compressed by xz", DECOMPRESSED),
+    (b"%PDF", "a PDF document", NO_TABLE),
+    (b"\x89PNG", "a picture", NO_TABLE),
+];
+
+impl FileKind {
+    /// Returns the kind of a file that begins with these bytes.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::FileKind;
+    ///
+    /// assert_eq!(FileKind::of(b"id1,id2,force\n1,2,0.5\n"), FileKind::Table);
+    /// assert_eq!(FileKind::of(b"# vtk DataFile Version 3.0\n"), FileKind::VtkLegacy);
+    /// ```
+    #[must_use]
+    pub fn of(begin: &[u8]) -> Self {
+        let begin = begin.strip_prefix(b"\xef\xbb\xbf").unwrap_or(begin);
+        let text = begin.trim_ascii_start();
+        let begins = |words: &[u8]| {
+            let start = text.get(..words.len());
+            start.is_some_and(|start| start.eq_ignore_ascii_case(words))
+        };
+        if let Some((_, is, remedy)) = OTHERS.iter().find(|(magic, ..)| begin.starts_with(magic)) {
+            return Self::Other { is, remedy };
+        }
+        if begins(b"ITEM:") {
+            Self::Dump
+        } else if begins(b"# vtk DataFile") {
+            Self::VtkLegacy
+        } else if begins(b"<!doctype html") || begins(b"<html") {
+            let (is, remedy) = ("an HTML page", NO_TABLE);
+            Self::Other { is, remedy }
+        } else if begins(b"<") {
+            Self::VtkXml
+        } else if begins(b"{") || begins(b"[{") || begins(b"[[") {
+            let (is, remedy) = ("JSON", AS_CSV);
+            Self::Other { is, remedy }
+        } else if begin.contains(&0) {
+            let (is, remedy) = ("a binary file", AS_CSV);
+            Self::Other { is, remedy }
+        } else {
+            Self::Table
+        }
+    }
+}
+
+impl FileKind {
+    /// Returns a remedy after a colon, for a kind that is not read.
+    pub(super) fn remedy(self) -> String {
+        match self {
+            Self::Other { remedy, .. } => format!(": {remedy}"),
+            _ => String::new(),
+        }
+    }
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Table => "a table",
+            Self::Dump => "a LAMMPS dump",
+            Self::VtkXml => "a VTK file (XML)",
+            Self::VtkLegacy => "a VTK file (legacy)",
+            Self::Other { is, .. } => is,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_are_known_by_content() {
+        for (begin, kind) in [
+            (
+                &b"PK\x03\x04..."[..],
+                "a spreadsheet or another ZIP archive",
+            ),
+            (b"\x00\x01\x02", "a binary file"),
+            (b"  {\"a\": 1}", "JSON"),
+            (b"\xef\xbb\xbf<?xml version='1.0'?>", "a VTK file (XML)"),
+            (b"# vtk DataFile Version 2.0", "a VTK file (legacy)"),
+            (b"# a comment", "a table"),
+            (b"", "a table"),
+        ] {
+            assert_eq!(FileKind::of(begin).to_string(), kind);
+        }
+    }
+}

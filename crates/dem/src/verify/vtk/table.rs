@@ -1,0 +1,148 @@
+//! The table that a piece forms, and its rows.
+//!
+//! The columns are the coordinates of the points of a row, and the data of its cell and of its first point. An array with
+//! one component is a column with the name of the array. An array with three components is three columns with `_x`, `_y`
+//! and `_z` after the name. Only arrays of columns that are read are decoded.
+
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::entry::Sink;
+use super::super::format::{Counted, Format, Header};
+use super::super::refusal::Refusal;
+use super::piece::{Piece, Row, Rows, Section, outside};
+use super::values::Values;
+
+/// A column of a table.
+struct Column {
+    name: String,
+    /// The array of the column, by its section and its position there.
+    section: Section,
+    array: usize,
+    component: usize,
+    /// Whether the numbers are those of the second point of a row.
+    is_of_second: bool,
+}
+
+/// Reads the rows of a piece. `line` is the number of rows before and after.
+pub(super) fn read(
+    piece: &Piece<'_>,
+    rows: Rows,
+    format: &Format,
+    line: &mut u64,
+    sink: &mut Counted<'_, impl Sink>,
+) -> Result<(), Refusal> {
+    let columns = columns(piece, rows)?;
+    let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+    let header = Header::find(Some(&names), names.len(), &format.columns, format.identity);
+    let header = header.map_err(|fault| fault.at(1))?;
+    let mut decoded = BTreeMap::new();
+    for column in header.columns().filter_map(|column| columns.get(column)) {
+        if let Entry::Vacant(place) = decoded.entry((column.section, column.array)) {
+            place.insert(values(piece, column)?);
+        }
+    }
+    let array = |column: &Column| decoded.get(&(column.section, column.array));
+    let arrays: Vec<_> = columns.iter().map(array).collect();
+    let (mut text, mut ends) = (String::new(), Vec::new());
+    for row in piece.rows(rows, *line)? {
+        *line += 1;
+        text.clear();
+        ends.clear();
+        for (column, array) in columns.iter().zip(&arrays) {
+            if let Some((values, components)) = array {
+                let place = column.place(&row, *components);
+                let written = place.and_then(|place| values.write(place, &mut text));
+                written.ok_or_else(|| outside(*line))?;
+            }
+            ends.push(text.len());
+        }
+        let mut begin = 0;
+        let fields = ends.iter().map(|end| {
+            let field = text.get(begin..*end);
+            begin = *end;
+            // The ends are those of the fields.
+            field.unwrap_or_default()
+        });
+        let fields: Vec<&str> = fields.collect();
+        sink.row(&header, &fields, *line)?;
+    }
+    Ok(())
+}
+
+impl Column {
+    /// Returns the position of the number of a row in the array of this column.
+    fn place(&self, row: &Row, components: usize) -> Option<usize> {
+        let thing = match self.section {
+            Section::CellData => row.cell,
+            _ if self.is_of_second => row.second,
+            _ => row.first,
+        };
+        thing.checked_mul(components)?.checked_add(self.component)
+    }
+}
+
+/// Returns the columns of a piece. Cell data come before point data of the same name, and coordinates before both.
+fn columns(piece: &Piece<'_>, rows: Rows) -> Result<Vec<Column>, Refusal> {
+    let (mut columns, mut names) = (Vec::new(), BTreeSet::new());
+    let mut push = |name: String, section, array, component, is_of_second| {
+        if names.insert(name.clone()) {
+            columns.push(Column {
+                name,
+                section,
+                array,
+                component,
+                is_of_second,
+            });
+        }
+    };
+    let axes = || ["x", "y", "z"].into_iter().enumerate();
+    let ends: &[_] = match rows {
+        Rows::Points => &[("", false)],
+        _ => &[("1", false), ("2", true)],
+    };
+    for (end, is_second) in ends {
+        for (component, axis) in axes() {
+            push(
+                format!("{axis}{end}"),
+                Section::Points,
+                0,
+                component,
+                *is_second,
+            );
+        }
+    }
+    let of_cells = (piece.cell_count()? > 0).then_some(Section::CellData);
+    for section in of_cells.into_iter().chain([Section::PointData]) {
+        for (place, array) in piece.arrays(section).iter().enumerate() {
+            match array.components {
+                1 => push(array.name.clone(), section, place, 0, false),
+                3 => {
+                    for (component, axis) in axes() {
+                        push(
+                            format!("{}_{axis}", array.name),
+                            section,
+                            place,
+                            component,
+                            false,
+                        );
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    Ok(columns)
+}
+
+/// Returns the numbers of the array of a column, and their number for each point or cell.
+fn values(piece: &Piece<'_>, column: &Column) -> Result<(Values, usize), Refusal> {
+    let array = match column.section {
+        Section::Points => Some(piece.points()?),
+        section => piece.arrays(section).get(column.array),
+    };
+    let array = array.ok_or_else(|| crate::error::bug("a column has an array"))?;
+    let (count, things) = piece.things(column.section)?;
+    let values = array.decode_for(&piece.coding, count, &things)?;
+    Ok((values, array.components))
+}
