@@ -294,6 +294,9 @@ impl Verify {
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
             Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
+            Refusal::Io(error) if error.kind() == io::ErrorKind::InvalidData => {
+                format!("FILE: {name}, {error}: compress it again, or give it as it is")
+            }
             Refusal::Io(error) => return unreadable(name, &error, READABLE_FILE_OR_STDIN),
             refusal @ Refusal::Line {
                 fault: Fault::NoColumn { .. } | Fault::NoNamedColumn { .. },

@@ -36,7 +36,7 @@ const NO_TABLE: &str = "give the table of contacts itself";
 const DECOMPRESSED: &str = "decompress it, or compress it with gzip or zstd";
 
 /// The first bytes of files that are not read.
-const OTHERS: [(&[u8], &str, &str); 10] = [
+const OTHERS: [(&[u8], &str, &str); 15] = [
     (
         b"PK\x03\x04",
         "a spreadsheet or another ZIP archive",
@@ -57,6 +57,11 @@ const OTHERS: [(&[u8], &str, &str); 10] = [
     (b"SQLite format 3", "a database of SQLite", AS_CSV),
     (b"BZh", "compressed by bzip2", DECOMPRESSED),
     (b"\xfd7zXZ", "compressed by xz", DECOMPRESSED),
+    (b"7z\xbc\xaf", "a 7z archive", DECOMPRESSED),
+    (b"\x04\x22\x4d\x18", "compressed by lz4", DECOMPRESSED),
+    (b"\x1f\x9d", "compressed by compress", DECOMPRESSED),
+    (b"PAR1", "a Parquet file", AS_CSV),
+    (b"{\\rtf", "a document of a word processor", AS_CSV),
     (b"%PDF", "a PDF document", NO_TABLE),
     (b"\x89PNG", "a picture", NO_TABLE),
 ];
@@ -82,16 +87,20 @@ impl FileKind {
         if let Some((_, is, remedy)) = OTHERS.iter().find(|(magic, ..)| begin.starts_with(magic)) {
             return Self::Other { is, remedy };
         }
+        let is_list = text.strip_prefix(b"[").is_some_and(|inside| {
+            let inside = inside.trim_ascii_start();
+            inside.starts_with(b"{") || inside.starts_with(b"[")
+        });
         if begins(b"ITEM:") {
             Self::Dump
         } else if begins(b"# vtk DataFile") {
             Self::VtkLegacy
-        } else if begins(b"<!doctype html") || begins(b"<html") {
+        } else if begins(b"<!doctype html") || begins(b"<html") || begins(b"<table") {
             let (is, remedy) = ("an HTML page", NO_TABLE);
             Self::Other { is, remedy }
         } else if begins(b"<") {
             Self::VtkXml
-        } else if begins(b"{") || begins(b"[{") || begins(b"[[") {
+        } else if begins(b"{") || is_list {
             let (is, remedy) = ("JSON", AS_CSV);
             Self::Other { is, remedy }
         } else if begin.contains(&0) {
@@ -138,6 +147,10 @@ mod tests {
             ),
             (b"\x00\x01\x02", "a binary file"),
             (b"  {\"a\": 1}", "JSON"),
+            (b"[\n {\"a\": 1}]", "JSON"),
+            (b"{\\rtf1", "a document of a word processor"),
+            (b"<table>", "an HTML page"),
+            (b"7z\xbc\xaf\x27\x1c", "a 7z archive"),
             (b"\xef\xbb\xbf<?xml version='1.0'?>", "a VTK file (XML)"),
             (b"# vtk DataFile Version 2.0", "a VTK file (legacy)"),
             (b"# a comment", "a table"),

@@ -415,10 +415,13 @@ fn pair(extra: &Extra) -> Value {
     })
 }
 
-/// Returns k, i and j, or `None` for an index beyond `i64`. A pile with few contacts may still have one very wide
-/// layer.
-fn indices(Site { i, j, k }: Site) -> [Option<i64>; 3] {
-    [k, i, j].map(|index| i64::try_from(index).ok())
+/// Returns k, i and j. An index beyond 2^53 is a string, because many readers store numbers as floats: a pile with few
+/// contacts may have one very wide layer.
+fn indices(Site { i, j, k }: Site) -> [Value; 3] {
+    [k, i, j].map(|index| match i64::try_from(index) {
+        Ok(small) if small.unsigned_abs() >> 53 == 0 => small.into(),
+        _ => index.to_string().into(),
+    })
 }
 
 /// Removes j for discs.
@@ -427,4 +430,17 @@ fn without_j(mut place: Value, dimension: Dimension) -> Value {
         entries.shift_remove("j");
     }
     place
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_that_no_float_holds_are_strings() {
+        let (i, j, k) = (1 << 53, 1 - (1 << 53), 1 << 100);
+        let said = Value::from(indices(Site { i, j, k }).to_vec()).to_string();
+        let want = "[\"1267650600228229401496703205376\",\"9007199254740992\",-9007199254740991]";
+        assert_eq!(said, want);
+    }
 }

@@ -253,7 +253,12 @@ impl Columns {
             Identity::Numbers => are_numbered(&[Id1, Id2]),
             Identity::Places => are_numbered(&[X1, Z1, X2, Z2]) || are_numbered(&[X, Z]),
         };
-        spheres && (are_numbered(&[Force]) || are_numbered(&[Fx, Fy, Fz]))
+        let is_named =
+            |quantity: &Quantity| self.terms(*quantity).is_some() && !is_numbered(quantity);
+        let others = [Force, Fx, Fy, Fz, Quantity::Kind, Quantity::Step];
+        spheres
+            && !others.iter().any(is_named)
+            && (are_numbered(&[Force]) || are_numbered(&[Fx, Fy, Fz]))
     }
 
     fn name(&mut self, assignment: &str) -> Result<(), Error> {

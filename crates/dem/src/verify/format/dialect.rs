@@ -234,7 +234,35 @@ impl Dialect {
     }
 
     pub(super) fn cut<'l>(&self, line: &'l str, cells: &mut Vec<&'l str>) -> Result<(), Fault> {
+        let line = uncommented(line, &self.comments);
         cut(line, self.separator, self.quote, cells)
+    }
+
+    /// Returns the text of a row before a comment on the same line.
+    pub(super) fn before_comment<'l>(&self, line: &'l str) -> Option<&'l str> {
+        Some(behind_row(line, &self.comments)?.0)
+    }
+}
+
+/// Splits a line at a comment behind a row, which begins after a blank.
+fn behind_row<'l>(line: &'l str, signs: &[String]) -> Option<(&'l str, &'l str)> {
+    let starts = signs
+        .iter()
+        .flat_map(|sign| line.match_indices(sign.as_str()));
+    let is_behind = |place: &usize| {
+        let before = line.get(..*place).unwrap_or_default();
+        before.ends_with(char::is_whitespace) && !before.trim().is_empty()
+    };
+    let start = starts.map(|(place, _)| place).filter(is_behind).min()?;
+    line.split_at_checked(start)
+}
+
+/// Returns a line to be read. If no line is a comment, rows may still begin with the sign of one.
+fn uncommented<'l>(line: &'l str, comments: &[String]) -> &'l str {
+    if comments.is_empty() {
+        bare(line)
+    } else {
+        line
     }
 }
 
@@ -242,6 +270,16 @@ fn comment<'l>(line: &'l str, signs: &[String]) -> Option<&'l str> {
     let line = line.trim_start();
     let sign = signs.iter().find(|sign| line.starts_with(*sign))?;
     Some(line.trim_start_matches(sign.as_str()).trim())
+}
+
+/// Returns a line without the sign of a comment. An empty first cell remains.
+fn bare(line: &str) -> &str {
+    let text = line.trim_start();
+    if text.starts_with('#') {
+        text.trim_start_matches('#')
+    } else {
+        line
+    }
 }
 
 /// The signs of comments in the tables of common programs.
@@ -267,6 +305,10 @@ struct Sample {
 
 impl Sample {
     fn new(bytes: &[u8], is_whole: bool, options: &DialectOptions) -> Result<Self, Refusal> {
+        let comments = match &options.comment {
+            None => COMMENTS.map(str::to_owned).to_vec(),
+            Some(mark) => mark.get().map(str::to_owned).into_iter().collect(),
+        };
         let mut lines = Lines::new(bytes);
         let mut kept = Vec::new();
         loop {
@@ -279,13 +321,10 @@ impl Sample {
             let is_complete = line.ended || is_whole;
             let is_skipped = options.skip.is_some_and(|skip| line.number <= skip);
             if is_complete && !is_skipped && !line.text.trim().is_empty() {
-                kept.push((line.number, line.text.to_owned()));
+                let text = uncommented(line.text, &comments);
+                kept.push((line.number, text.to_owned()));
             }
         }
-        let comments = match &options.comment {
-            None => COMMENTS.map(str::to_owned).to_vec(),
-            Some(mark) => mark.get().map(str::to_owned).into_iter().collect(),
-        };
         Ok(Self {
             lines: kept,
             comments,
@@ -331,7 +370,6 @@ struct Cutting {
     quoted: usize,
     /// Whether the last cell of all rows is empty.
     is_open: bool,
-    decimal_comma: bool,
 }
 
 /// The cells of a row of a sample.
@@ -339,8 +377,6 @@ struct Counts {
     line: u64,
     cells: usize,
     numbers: usize,
-    commas: usize,
-    points: usize,
     is_open: bool,
 }
 
@@ -349,27 +385,29 @@ impl Cutting {
     #[expect(clippy::cast_precision_loss, reason = "counts of a sample")]
     fn of(sample: &Sample, separator: Separator, quote: Option<char>) -> Option<Self> {
         let (mut rows, mut all, mut cells) = (Vec::new(), 0_usize, Vec::new());
+        let numbers_of = |text: &str| {
+            let mut cells = Vec::new();
+            let cut = cut(text, separator, quote, &mut cells);
+            cut.map_or(0, |()| cells.iter().filter(|cell| is_number(cell)).count())
+        };
         for (line, text) in sample.texts() {
+            let text = match behind_row(text, &sample.comments) {
+                Some((row, comment))
+                    if numbers_of(comment) == 0 && numbers_of(row) >= numbers_of(text) =>
+                {
+                    row
+                }
+                _ => text,
+            };
             if cut(text, separator, quote, &mut cells).is_err() {
                 continue;
             }
             all += cells.iter().filter(|cell| !cell.is_empty()).count();
             let numbers = cells.iter().filter(|cell| is_number(cell));
-            let point = |cell: &&&str| number(cell, false).is_some();
-            let (points, decimals) = (
-                numbers
-                    .clone()
-                    .filter(point)
-                    .filter(|cell| cell.contains('.'))
-                    .count(),
-                numbers.clone().filter(|cell| cell.contains(',')).count(),
-            );
             let row = Counts {
                 line,
                 cells: cells.len(),
                 numbers: numbers.count(),
-                commas: decimals,
-                points,
                 is_open: cells.last().is_some_and(|cell| cell.is_empty()),
             };
             if row.numbers >= LEAST_NUMBERS {
@@ -400,14 +438,47 @@ impl Cutting {
             has_header: header == Some(width),
             quoted,
             is_open: rows.iter().all(|row| row.is_open),
-            decimal_comma: sum(|row| row.commas) > 0 && sum(|row| row.points) == 0,
         })
     }
+}
+
+/// Returns whether a line has enough numbers for a row, and little else.
+pub(super) fn is_of_numbers(cells: &[&str]) -> bool {
+    let numbers = cells.iter().filter(|cell| is_number(cell)).count();
+    numbers >= LEAST_NUMBERS && 2 * numbers > cells.len()
 }
 
 fn is_quoted(cell: &str) -> bool {
     let is_between = |quote| cell.len() > 1 && cell.starts_with(quote) && cell.ends_with(quote);
     is_between('"') || is_between('\'')
+}
+
+impl Cutting {
+    /// Returns the rows from a line on, as far as they have enough numbers.
+    fn rows<'s>(&self, sample: &'s Sample, from: u64) -> impl Iterator<Item = (u64, Vec<&'s str>)> {
+        let (separator, quote, width) = (self.separator, self.quote, self.width);
+        let texts = sample.texts().filter(move |(line, _)| *line >= from);
+        texts.filter_map(move |(line, text)| {
+            let mut cells = Vec::new();
+            cut(text, separator, quote, &mut cells).ok()?;
+            let numbers = cells.iter().filter(|cell| is_number(cell)).count();
+            (cells.len() == width && numbers >= LEAST_NUMBERS).then_some((line, cells))
+        })
+    }
+
+    /// Returns whether the numbers of the columns that are read have decimal commas, and none has a point.
+    fn has_decimal_commas(&self, sample: &Sample, header: &Header) -> bool {
+        let mut has_commas = false;
+        for (_, cells) in self.rows(sample, self.first_row) {
+            for cell in header.numbers(&cells).filter(|cell| is_number(cell)) {
+                if cell.contains('.') && number(cell, false).is_some() {
+                    return false;
+                }
+                has_commas |= cell.contains(',');
+            }
+        }
+        has_commas
+    }
 }
 
 fn most_common(values: impl Iterator<Item = usize>) -> Option<usize> {
@@ -458,8 +529,10 @@ pub(super) fn find(
         Some(cutting) => table.header(cutting)?,
         None => table.without_rows()?,
     };
-    let decimal_comma = options.decimal_comma.unwrap_or(cutting.decimal_comma);
     let (line, mut header) = header;
+    let decimal_comma = options
+        .decimal_comma
+        .unwrap_or_else(|| cutting.has_decimal_commas(&sample, &header));
     header.set_decimal_comma(decimal_comma);
     let dialect = Dialect {
         separator: cutting.separator,
@@ -502,7 +575,7 @@ struct Table<'t> {
 
 impl Table<'_> {
     /// Finds the header above the rows: the nearest line with the necessary names.
-    fn header(&self, mut cutting: Cutting) -> Result<(Cutting, Found), Refusal> {
+    fn header(&self, cutting: Cutting) -> Result<(Cutting, Found), Refusal> {
         let Cutting {
             width, first_row, ..
         } = cutting;
@@ -515,18 +588,29 @@ impl Table<'_> {
         }
         let own = [(cutting.separator, cutting.quote)];
         for (line, text, is_comment) in self.sample.above(first_row) {
-            // A comment may separate the names in another way than the rows.
-            let others = if is_comment { self.candidates } else { &[] };
-            for (separator, quote) in own.iter().chain(others) {
+            // The names may be separated in another way than the rows.
+            for (n, (separator, quote)) in own.iter().chain(self.candidates).enumerate() {
                 let Ok(header) = self.names(text, *separator, *quote) else {
                     continue;
                 };
-                // The rows may end with a separator.
-                let is_open = cutting.is_open && header.width() + 1 == width;
-                if header.width() != width && !is_open {
-                    return Err(header.row_of(width).at(first_row));
+                match header.matched_to(width, cutting.is_open) {
+                    Ok(header) => return Ok((cutting, (Some(line), header))),
+                    Err(fault) if n == 0 || is_comment => return Err(fault.at(first_row)),
+                    Err(_) => {}
                 }
-                cutting.is_open = is_open;
+            }
+        }
+        // The lines above the header may have numbers, too.
+        for (line, text, _) in self.sample.all().filter(|(line, ..)| *line > first_row) {
+            let names = self.names(text, cutting.separator, cutting.quote);
+            let header = names.and_then(|names| names.matched_to(width, cutting.is_open));
+            if let Ok(header) = header
+                && let Some((first_row, _)) = cutting.rows(self.sample, line).next()
+            {
+                let cutting = Cutting {
+                    first_row,
+                    ..cutting
+                };
                 return Ok((cutting, (Some(line), header)));
             }
         }
@@ -564,7 +648,6 @@ impl Table<'_> {
                 has_header: true,
                 quoted: 0,
                 is_open: false,
-                decimal_comma: false,
             })
         };
         let is_numbered = self.columns.are_numbered(self.identity);
@@ -602,7 +685,7 @@ impl Table<'_> {
     ) -> Result<Header, Fault> {
         let mut cells = Vec::new();
         // Without comments, a header may still begin with their sign.
-        let text = text.trim_start().trim_start_matches('#');
+        let text = bare(text);
         cut(text, separator, quote, &mut cells)?;
         let names: Vec<String> = cells
             .iter()

@@ -107,24 +107,20 @@ fn next_item(
     lines: &mut Lines<impl BufRead>,
     header: &Snapshot,
 ) -> Result<Option<(u64, String)>, Refusal> {
-    let Some(line) = lines.next()? else {
-        return if header.is_begun() {
-            Err(Fault::Cut.at(lines.number()))
-        } else {
-            Ok(None)
-        };
+    let (number, text, ended) = loop {
+        match lines.next()? {
+            Some(line) if line.text.trim().is_empty() => {}
+            Some(line) => break (line.number, line.text.to_owned(), line.ended),
+            None if header.is_begun() => return Err(Fault::Cut.at(lines.number())),
+            None => return Ok(None),
+        }
     };
-    let Line {
-        number,
-        text,
-        ended,
-    } = line;
     match text.strip_prefix(ITEM) {
         Some(item) if ended => Ok(Some((number, item.trim().to_owned()))),
         Some(_) => Err(Fault::Cut.at(number)),
         None => {
             let expected = "a line that begins with ITEM: (are there more entries than announced?)";
-            Err(unexpected(text, expected).at(number))
+            Err(unexpected(&text, expected).at(number))
         }
     }
 }

@@ -21,6 +21,8 @@ pub(in crate::verify) struct Header {
     /// The number of cells in a row.
     width: usize,
     has_names: bool,
+    /// Whether the last name is empty, after a separator at the end of the line.
+    is_open: bool,
     /// For each quantity, its columns, counted from 0, with their factors.
     sums: [Vec<(usize, f64)>; Quantity::COUNT],
     kinds: Vec<String>,
@@ -50,6 +52,7 @@ impl Header {
         let mut header = Self {
             width,
             has_names: names.is_some(),
+            is_open: names.is_some_and(|names| names.last() == Some(&"")),
             sums: Quantity::ALL.map(|_| Vec::new()),
             kinds: columns.kinds().to_vec(),
             first_id: columns.first_id(),
@@ -57,11 +60,12 @@ impl Header {
             decimal_comma: false,
         };
         let names = names.unwrap_or(&[]);
+        let is_mapped = |quantity: &Quantity| columns.terms(*quantity).is_some();
         let is_there = |quantity: &Quantity| {
             let named = || names.iter().any(|name| quantity.names().contains(name));
-            columns.terms(*quantity).is_some() || named()
+            is_mapped(quantity) || named()
         };
-        for quantity in header.needed(is_there) {
+        for quantity in header.needed(is_there, is_mapped) {
             let sum = match columns.terms(quantity) {
                 Some(terms) => named(quantity, terms, names, width)?,
                 None => usual(quantity, names)?,
@@ -83,22 +87,45 @@ impl Header {
         self.decimal_comma = decimal_comma;
     }
 
+    /// Returns this header for rows of this width. Either the header or the rows may end with a separator.
+    pub(super) fn matched_to(mut self, width: usize, rows_are_open: bool) -> Result<Self, Fault> {
+        let is_longer = self.is_open && self.width == width + 1;
+        let is_shorter = rows_are_open && self.width + 1 == width;
+        if self.width != width && !is_longer && !is_shorter {
+            return Err(self.row_of(width));
+        }
+        self.width = width;
+        Ok(self)
+    }
+
     pub(super) fn width(&self) -> usize {
         self.width
     }
 
-    /// Returns the quantities that are read if they are there.
-    fn needed(&self, is_there: impl Fn(&Quantity) -> bool) -> Vec<Quantity> {
+    /// Returns the quantities that are read if they are there. Incomplete centres and vectors are not read if there is a
+    /// contact point or a force instead, unless the user mapped them.
+    fn needed(
+        &self,
+        is_there: impl Fn(&Quantity) -> bool,
+        is_mapped: impl Fn(&Quantity) -> bool,
+    ) -> Vec<Quantity> {
         use Quantity::{Force, Fx, Fy, Fz, Id1, Id2, Kind, Step, X, X1, X2, Y, Y1, Y2, Z, Z1, Z2};
         const NUMBERS: &[Quantity] = &[Id1, Id2];
         const CENTRES: &[Quantity] = &[X1, Y1, Z1, X2, Y2, Z2];
         const POINT: &[Quantity] = &[X, Y, Z];
+        const VECTOR: &[Quantity] = &[Fx, Fy, Fz];
+        let are_there = |quantities: &[Quantity]| quantities.iter().all(&is_there);
+        let is_any_mapped = |quantities: &[Quantity]| quantities.iter().any(&is_mapped);
+        let has_point = are_there(&[X, Z]) && !are_there(&[X1, Z1, X2, Z2]);
+        let has_centres = CENTRES.iter().any(&is_there);
         let identity = match self.identity {
             Identity::Numbers => NUMBERS,
-            Identity::Places if CENTRES.iter().any(is_there) => CENTRES,
+            Identity::Places if has_centres && (!has_point || is_any_mapped(CENTRES)) => CENTRES,
             Identity::Places => POINT,
         };
-        [identity, &[Force, Fx, Fy, Fz, Kind, Step]].concat()
+        let is_incomplete = is_there(&Force) && !are_there(VECTOR) && !is_any_mapped(VECTOR);
+        let vector = if is_incomplete { &[] } else { VECTOR };
+        [identity, &[Force], vector, &[Kind, Step]].concat()
     }
 
     /// Returns the first necessary quantity without a column.
@@ -195,16 +222,17 @@ impl Header {
 
     /// Returns whether no necessary cell is a number.
     pub(super) fn is_text(&self, cells: &[&str]) -> bool {
+        let mut numbers = self.numbers(cells);
+        !numbers.any(|cell| number(cell, self.decimal_comma).is_some())
+    }
+
+    /// Returns the cells that are numbers in a row.
+    pub(super) fn numbers<'c>(&self, cells: &[&'c str]) -> impl Iterator<Item = &'c str> {
         let words = [Quantity::Kind, Quantity::Step];
-        let numbers = Quantity::ALL
-            .into_iter()
-            .filter(|quantity| !words.contains(quantity));
-        let mut columns = numbers.flat_map(|quantity| self.sum_of(quantity));
-        let is_number = |(column, _): &(usize, f64)| {
-            let cell = cells.get(*column);
-            cell.is_some_and(|cell| number(cell, self.decimal_comma).is_some())
-        };
-        !columns.any(is_number)
+        let quantities = Quantity::ALL.into_iter();
+        let numbers = quantities.filter(move |quantity| !words.contains(quantity));
+        let columns = numbers.flat_map(|quantity| self.sum_of(quantity));
+        columns.filter_map(|(column, _)| cells.get(*column).copied())
     }
 
     fn entry(&self, cells: &[&str]) -> Result<Entry, Fault> {

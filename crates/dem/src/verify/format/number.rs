@@ -31,7 +31,9 @@ fn fortran(text: &str) -> Option<String> {
 pub(super) fn is_number(text: &str) -> bool {
     let is_digit = |byte: &u8| byte.is_ascii_digit();
     let begins = text.as_bytes().iter().find(|byte| !b"+-.,".contains(byte));
+    // A comma at the end is a separator.
     begins.is_some_and(is_digit)
+        && !text.ends_with(',')
         && [false, true]
             .into_iter()
             .any(|comma| number(text, comma).is_some())
@@ -95,6 +97,12 @@ mod tests {
         for text in ["1.234,5", "1,234,5"] {
             assert_eq!(number(text, true), None, "{text}");
         }
+    }
+
+    #[test]
+    fn a_comma_at_the_end_is_a_separator() {
+        assert!(is_number("1,5") && is_number("-1.5") && is_number("1."));
+        assert!(!is_number("1,") && !is_number("1.5,"));
     }
 
     #[test]

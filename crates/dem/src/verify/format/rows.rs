@@ -37,6 +37,10 @@ pub struct Rows {
     pub text: u64,
     /// The first such line.
     pub first_text: Option<u64>,
+    /// The lines of numbers above the table that are not rows of it.
+    pub above: u64,
+    /// The first such line.
+    pub first_above: Option<u64>,
     /// Some kinds of rows that were left out.
     pub kinds: BTreeSet<String>,
 }
@@ -57,6 +61,12 @@ impl Rows {
     pub(super) fn leave_text(&mut self, line: u64) {
         self.text += 1;
         self.first_text.get_or_insert(line);
+    }
+
+    /// Counts a line of numbers above the table.
+    pub(super) fn leave_above(&mut self, line: u64) {
+        self.above += 1;
+        self.first_above.get_or_insert(line);
     }
 
     /// Forgets the rows of a step, when a later step begins.
@@ -118,11 +128,13 @@ impl fmt::Display for Rows {
             1 => Some(format!("1 {one}")),
             count => Some(format!("{count} {many}")),
         };
-        let text = plural(self.text, "line of text", "lines of text");
-        let place = self.first_text.map(|line| match self.text {
-            1 => format!(" (line {line})"),
-            _ => format!(" (from line {line} on)"),
-        });
+        let lines = |count: u64, first: Option<u64>, one: &str, many: &str| {
+            let place = first.map(|line| match count {
+                1 => format!(" (line {line})"),
+                _ => format!(" (from line {line} on)"),
+            });
+            plural(count, one, many).map(|lines| lines + &place.unwrap_or_default())
+        };
         let parts = [
             plural(
                 self.other_kinds,
@@ -139,7 +151,13 @@ impl fmt::Display for Rows {
                 "comment that looks like a row",
                 "comments that look like rows",
             ),
-            text.map(|text| text + &place.unwrap_or_default()),
+            lines(self.text, self.first_text, "line of text", "lines of text"),
+            lines(
+                self.above,
+                self.first_above,
+                "line of numbers above the table",
+                "lines of numbers above the table",
+            ),
         ];
         let parts: Vec<String> = parts.into_iter().flatten().collect();
         f.write_str(&parts.join(", "))
@@ -169,8 +187,20 @@ impl<S: Sink> Counted<'_, S> {
         cells: &[&str],
         line: u64,
     ) -> Result<(), Refusal> {
-        match header.read(cells).map_err(|fault| fault.at(line))? {
-            Row::Entry(entry) => self.take(&entry, line)?,
+        let row = header.read(cells).map_err(|fault| fault.at(line))?;
+        self.put(&row, header, cells, line)
+    }
+
+    /// Counts a row, and passes it on.
+    pub(super) fn put(
+        &mut self,
+        row: &Row,
+        header: &Header,
+        cells: &[&str],
+        line: u64,
+    ) -> Result<(), Refusal> {
+        match row {
+            Row::Entry(entry) => self.take(entry, line)?,
             Row::OtherKind => {
                 self.rows.leave_kind(header.kind(cells).unwrap_or_default());
                 self.pass_over();

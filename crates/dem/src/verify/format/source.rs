@@ -5,7 +5,8 @@ use std::io::{self, BufRead, BufReader, Cursor, Read};
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE};
 use encoding_rs_io::DecodeReaderBytesBuilder;
 use flate2::read::MultiGzDecoder;
-use ruzstd::decoding::StreamingDecoder;
+use ruzstd::decoding::errors::{FrameDecoderError, ReadFrameHeaderError};
+use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
 
 use crate::verify::refusal::Refusal;
 
@@ -28,9 +29,10 @@ impl<'r> Source<'r> {
     ) -> Result<Self, Refusal> {
         let raw = Self::sampled(Box::new(input))?;
         let source = if raw.sample.starts_with(b"\x1f\x8b") {
-            Self::sampled(Box::new(MultiGzDecoder::new(raw.all())))?
-        } else if raw.sample.starts_with(b"\x28\xb5\x2f\xfd") {
-            Self::sampled(Box::new(Frames::new(raw.all())))?
+            let decoder = MultiGzDecoder::new(raw.all());
+            Self::sampled(Box::new(Checked(decoder)))?
+        } else if is_zstd(&raw.sample) {
+            Self::sampled(Box::new(Checked(Frames::new(raw.all()))))?
         } else {
             raw
         };
@@ -74,41 +76,90 @@ fn utf_16(sample: &[u8]) -> Option<&'static Encoding> {
     }
 }
 
+/// Returns whether a file begins with a frame of zstd, or with one that is to be passed over.
+fn is_zstd(sample: &[u8]) -> bool {
+    match sample {
+        [first, rest @ ..] if first & 0xf0 == 0x50 => rest.starts_with(b"\x2a\x4d\x18"),
+        _ => sample.starts_with(b"\x28\xb5\x2f\xfd"),
+    }
+}
+
+/// A decoder whose errors say that the data are damaged.
+struct Checked<R>(R);
+
+impl<R: Read> Read for Checked<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.read(buffer).map_err(|error| match error.kind() {
+            io::ErrorKind::InvalidInput | io::ErrorKind::Other => damaged(),
+            _ => error,
+        })
+    }
+}
+
+fn damaged() -> io::Error {
+    let reason = "the compressed data are damaged or cut off";
+    io::Error::new(io::ErrorKind::InvalidData, reason)
+}
+
 /// All frames of a zstd file, one after the other.
-struct Frames<R: BufRead> {
-    decoder: Option<StreamingDecoder<R, ruzstd::decoding::FrameDecoder>>,
-    rest: Option<R>,
+struct Frames<R> {
+    decoder: FrameDecoder,
+    is_in_frame: bool,
+    input: R,
 }
 
 impl<R: BufRead> Frames<R> {
     fn new(input: R) -> Self {
         Self {
-            decoder: None,
-            rest: Some(input),
+            decoder: FrameDecoder::new(),
+            is_in_frame: false,
+            input,
         }
+    }
+
+    /// Begins the next frame, unless it is to be passed over.
+    fn begin(&mut self) -> io::Result<()> {
+        use FrameDecoderError::ReadFrameHeaderError as Header;
+        match self.decoder.init(&mut self.input) {
+            Ok(()) => self.is_in_frame = true,
+            Err(Header(ReadFrameHeaderError::SkipFrame { length, .. })) => {
+                let mut left_out = (&mut self.input).take(length.into());
+                if io::copy(&mut left_out, &mut io::sink())? < length.into() {
+                    return Err(damaged());
+                }
+            }
+            Err(_) => return Err(damaged()),
+        }
+        Ok(())
     }
 }
 
 impl<R: BufRead> Read for Frames<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        loop {
-            if let Some(decoder) = &mut self.decoder {
+        while !buffer.is_empty() {
+            if self.is_in_frame {
+                let decoder = &mut self.decoder;
+                while decoder.can_collect() < buffer.len() && !decoder.is_finished() {
+                    let wanted = BlockDecodingStrategy::UptoBytes(buffer.len());
+                    let decoded = decoder.decode_blocks(&mut self.input, wanted);
+                    decoded.map_err(|_| damaged())?;
+                }
                 let read = decoder.read(buffer)?;
-                if read > 0 || buffer.is_empty() {
+                if read > 0 {
                     return Ok(read);
                 }
-                self.rest = self.decoder.take().map(StreamingDecoder::into_inner);
+                let sum = decoder.get_checksum_from_data();
+                if sum.is_some() && sum != decoder.get_calculated_checksum() {
+                    return Err(damaged());
+                }
+                self.is_in_frame = false;
             }
-            let Some(mut rest) = self.rest.take() else {
-                return Ok(0);
-            };
-            if rest.fill_buf()?.is_empty() {
-                self.rest = Some(rest);
+            if self.input.fill_buf()?.is_empty() {
                 return Ok(0);
             }
-            let decoder = StreamingDecoder::new(rest).map_err(io::Error::other)?;
-            self.decoder = Some(decoder);
+            self.begin()?;
         }
+        Ok(0)
     }
 }
 
@@ -161,6 +212,27 @@ mod tests {
             Ok(source.all().read_to_end(&mut all).map(drop)?)
         });
         assert!(matches!(read, Err(Refusal::Io(_))));
+    }
+
+    #[test]
+    fn damaged_files_are_rejected() {
+        let whole = compress_to_vec(&b"id1,id2,force\n1,2,0.5\n"[..], CompressionLevel::Fastest);
+        let left_out = b"\x5a\x2a\x4d\x18\x03\0\0\0abc";
+        let read = all(&[&left_out[..], &whole, left_out, &whole].concat());
+        assert!(read.starts_with(b"id1") && read.len() == 2 * 22);
+        let damaged = |bytes: &[u8]| match Source::open(bytes, None) {
+            Err(Refusal::Io(error)) => error.kind() == io::ErrorKind::InvalidData,
+            _ => false,
+        };
+        for place in [whole.len() - 1, whole.len() - 6] {
+            let mut changed = whole.clone();
+            changed[place] ^= 1;
+            assert!(damaged(&changed), "{place}");
+        }
+        for length in 5..whole.len() {
+            assert!(damaged(&whole[..length]), "{length}");
+        }
+        assert!(damaged(&left_out[..left_out.len() - 1]));
     }
 
     #[test]

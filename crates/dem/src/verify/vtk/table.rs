@@ -2,7 +2,7 @@
 //!
 //! The columns are the coordinates of the points of a row, and the data of its cell and of its first point. An array with
 //! one component is a column with the name of the array. An array with three components is three columns with `_x`, `_y`
-//! and `_z` after the name. Only arrays of columns that are read are decoded.
+//! and `_z` after the name, and one with another number has `_0`, `_1` and so on. Only arrays of columns that are read are decoded.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,6 +12,9 @@ use super::super::format::{Counted, Format, Header};
 use super::super::refusal::Refusal;
 use super::piece::{Piece, Row, Rows, Section, outside};
 use super::values::Values;
+
+/// The largest number of components that are columns.
+const MOST_COMPONENTS: usize = 16;
 
 /// A column of a table.
 struct Column {
@@ -128,7 +131,12 @@ fn columns(piece: &Piece<'_>, rows: Rows) -> Result<Vec<Column>, Refusal> {
                         );
                     }
                 }
-                _ => {}
+                components => {
+                    for component in 0..components.min(MOST_COMPONENTS) {
+                        let name = format!("{}_{component}", array.name);
+                        push(name, section, place, component, false);
+                    }
+                }
             }
         }
     }

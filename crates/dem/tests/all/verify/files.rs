@@ -79,8 +79,8 @@ fn unusable_headers_are_rejected() {
             format!("line 1: no column id1, only 'ID1', 'id2', 'force': {columns}"),
         ),
         (
-            "id1,id2,force,fx,fz\n",
-            format!("line 1: no column fy, only 'id1', 'id2', 'force', 'fx', 'fz': {columns}"),
+            "id1,id2,fx,fz\n",
+            format!("line 1: no column fy, only 'id1', 'id2', 'fx', 'fz': {columns}"),
         ),
         (
             "id1,id2,force,force\n",

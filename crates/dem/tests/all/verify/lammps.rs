@@ -81,6 +81,11 @@ fn dumps_may_have_any_line_ends_and_labels() {
         DUMP.replace('\n', "\r\n"),
         DUMP.replace("ENTRIES", "CONTACTS"),
         DUMP.replace("ITEM: TIMESTEP", "ITEM: TIME\n0.25\nITEM: TIMESTEP"),
+        // Blank lines between snapshots.
+        format!(
+            "\n{}\n \n",
+            DUMP.replace("ITEM: TIMESTEP", "\nITEM: TIMESTEP")
+        ),
         DUMP.replace("id1 id2", "patom1 patom2"),
         DUMP.replace("id1 id2", "natom1 natom2"),
         DUMP.replace("BOX BOUNDS ff ff ff", "BOX BOUNDS xy xz yz ff ff ff"),

@@ -1,7 +1,9 @@
 //! Tables in the formats of other codes: separators, comments, columns, signs, kinds of contacts and first numbers.
 
 use cannonpile::Pile;
-use cannonpile_dem::verify::{Columns, Compared, Measured, Preset, Reader, Refusal};
+use cannonpile_dem::verify::{
+    Columns, Compared, DialectOptions, Measured, Preset, Reader, Refusal,
+};
 
 use super::{packing, perfect, ratio};
 use cannonpile_testkit::codes::{centres, head, row};
@@ -49,6 +51,164 @@ fn any_separator_and_comments_are_accepted() {
             read.comparison
         );
     }
+}
+
+/// Three rows with the exact forces at a = 6/5 R.
+fn rows(separator: &str, ending: &str) -> String {
+    let row = |id| ["1", id, "0.46225"].join(separator) + ending + "\n";
+    ["2", "3", "4"].map(row).concat()
+}
+
+#[test]
+fn no_row_above_the_first_of_most_cells_is_lost() {
+    let others = "1,3,0.46225\n1,4,0.46225\n";
+    let header = "id1,id2,force\n";
+    for (first, said) in [
+        ("1,2,0.46225,5\n", "line 2: 4 cells, but the header has 3"),
+        ("1,2\n", "line 2: 2 cells, but the header has 3"),
+    ] {
+        let line = refused(&Reader::new(), &[header, first, others].concat());
+        assert!(line.starts_with(said), "{line}");
+    }
+    // Without a header, such a line may be a part of a preamble.
+    let numbered = Reader::new().with_columns(columns("id1=#1,id2=#2,force=#3"));
+    let said = |above: &str| read(&numbered, &[above, others].concat()).rows.to_string();
+    let above = "1 line of numbers above the table (line 1)";
+    assert_eq!(said("1,2,0.46225,5\n"), above);
+    assert_eq!(said("1,2\n"), above);
+    assert_eq!(said("id1,id2,force,note\n"), "");
+    // The rows of an earlier table.
+    let table = ["id1,id2,fx,fy,fz\n1,2,0.1,0.2,0.3\n", header, others].concat();
+    let earlier = read(&Reader::new(), &table).rows;
+    assert_eq!((earlier.above, earlier.first_above), (1, Some(2)));
+}
+
+#[test]
+fn a_separator_may_end_the_rows_or_the_header() {
+    for table in [
+        "id1,id2,force\n".to_owned() + &rows(",", ","),
+        "id1,id2,force,\n".to_owned() + &rows(",", ""),
+        "id1,id2,force,\n".to_owned() + &rows(",", ","),
+        "id1\tid2\tforce\n".to_owned() + &rows("\t", "\t"),
+    ] {
+        let read = read(&Reader::new(), &table);
+        assert!(read.comparison.accepted(1e-5), "{table:?}");
+        assert_eq!(read.rows.used, 3);
+    }
+    let mixed = "id1,id2,force\n1,2,0.46225,\n1,3,0.46225,\n1,4,0.46225\n";
+    let line = refused(&Reader::new(), mixed);
+    assert!(line.starts_with("line 4: 3 cells"), "{line}");
+}
+
+#[test]
+fn names_may_be_separated_in_another_way_than_rows() {
+    let indexed = "\tid1\tid2\tforce\n0\t1\t2\t0.46225\n1\t1\t3\t0.46225\n2\t1\t4\t0.46225\n";
+    for table in [
+        "id1 id2 force\n".to_owned() + &rows("\t", ""),
+        "id1,id2,force\n".to_owned() + &rows(" ", ""),
+        "id1,\tid2,\tforce\n".to_owned() + &rows(",\t", ""),
+        // The index of a data frame has no name.
+        indexed.to_owned(),
+    ] {
+        let read = read(&Reader::new(), &table);
+        assert!(read.comparison.accepted(1e-5), "{table:?}");
+    }
+}
+
+#[test]
+fn a_row_of_units_is_left_out_on_request() {
+    let said = |unit_row, above: &str| {
+        let dialect = DialectOptions {
+            unit_row: Some(unit_row),
+            ..DialectOptions::default()
+        };
+        let table = ["id1,id2,force\n", above, &rows(",", "")].concat();
+        let read = read(&Reader::new().with_dialect(dialect), &table);
+        (read.rows.used, read.rows.to_string())
+    };
+    assert_eq!(said(true, "-,-,N\n"), (3, String::new()));
+    let numbers = "1 line of numbers above the table (line 2)".to_owned();
+    assert_eq!(said(true, "1,1,1\n"), (3, numbers.clone()));
+    // The first row is a contact.
+    assert_eq!(said(true, ""), (2, numbers));
+    let text = "1 line of text (line 2)".to_owned();
+    assert_eq!(said(false, "-,-,N\n"), (3, text));
+}
+
+#[test]
+fn numbers_above_the_header_are_not_rows() {
+    let above = "0 0 0\n9.81 0 10\n";
+    let table = [above, "id1 id2 force\n", "- - N\n", &rows(" ", "")].concat();
+    let read = read(&Reader::new(), &table);
+    assert!(read.comparison.accepted(1e-5));
+    let said = "2 lines of numbers above the table (from line 1 on)";
+    assert_eq!((read.rows.used, &*read.rows.to_string()), (3, said));
+    let dialect = read.dialect.unwrap();
+    assert_eq!((dialect.header, dialect.first_row), (Some(3), 5));
+}
+
+#[test]
+fn only_the_columns_that_are_read_decide_the_decimal_sign() {
+    let rows = ["2", "3", "4"].map(|id| format!("1;{id};0,46225;1.5;25.11\n"));
+    let table = "id1;id2;force;version;day\n".to_owned() + &rows.concat();
+    let read = read(&Reader::new(), &table);
+    assert!(read.comparison.accepted(1e-5) && read.dialect.unwrap().decimal_comma);
+}
+
+#[test]
+fn rows_behind_signs_of_comments_are_read_on_request() {
+    let dialect = DialectOptions {
+        comment: Some("none".parse().unwrap()),
+        ..DialectOptions::default()
+    };
+    let reader = Reader::new().with_dialect(dialect);
+    let table = "#id1,id2,force\n#1,2,0.46225\n# 1,3,0.46225\n1,4,0.46225\n";
+    assert!(read(&reader, table).comparison.accepted(1e-5));
+}
+
+#[test]
+fn comments_behind_rows_are_not_cells() {
+    let header = "id1,id2,force\n";
+    for table in [
+        header.to_owned() + &rows(",", " # measured"),
+        "id1 id2 force\n".to_owned() + &rows(" ", " // it is 'so"),
+        header.to_owned() + "1,2,0.46225\n1,3,0.46225 # half\n1,4,0.46225\n",
+        // A sign within a cell begins no comment.
+        "id1,id2,note,force\n1,2,3 #4,0.46225\n1,3,3 #5,0.46225\n1,4,3 #6,0.46225\n".to_owned(),
+    ] {
+        let read = read(&Reader::new(), &table);
+        assert!(read.comparison.accepted(1e-5), "{table:?}");
+        assert_eq!(read.rows.used, 3);
+    }
+}
+
+#[test]
+fn names_and_numbers_of_columns_may_be_mixed() {
+    let columns = columns("id1=#3,id2=#4,force=#5,kind=type:SS,step=t");
+    let reader = Reader::new().with_columns(columns);
+    let rows = |step, force| {
+        let row = |id| format!("SS,{step},1,{id},{force}\n");
+        ["2", "3", "4"].map(row).concat() + &format!("SP,{step},4,0,1\n")
+    };
+    let table = ["type,t,a,b,f\n", &rows("0.1", "7"), &rows("0.2", "0.46225")].concat();
+    let read = read(&reader, &table);
+    assert!(read.comparison.accepted(1e-5));
+    assert_eq!(
+        (read.step.as_deref(), read.rows.other_kinds),
+        (Some("0.2"), 1)
+    );
+}
+
+#[test]
+fn incomplete_vectors_and_centres_that_are_not_needed_are_not_read() {
+    let table = "id1,id2,force,fx\n1,2,0.46225,x\n1,3,0.46225,x\n1,4,0.46225,x\n";
+    assert!(read(&Reader::new(), table).comparison.accepted(1e-5));
+    let mapped = Reader::new().with_columns(columns("fx=fx"));
+    assert!(refused(&mapped, table).contains("no column fy"));
+    let by_place = Reader::new().by_place(0.1).unwrap();
+    let table = "x,y,z,force,x1\n-0.34641,-0.6,2.1633,0.46225,x\n-0.34641,0.6,2.1633,0.46225,x\n\
+                 0.69282,0,2.1633,0.46225,x\n";
+    assert!(read(&by_place, table).comparison.matched() == 3);
 }
 
 #[test]

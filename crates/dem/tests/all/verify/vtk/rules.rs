@@ -387,3 +387,22 @@ fn legacy_files_are_read_by_their_rules() {
         assert!(refused.contains(said), "{refused}, not {said}");
     }
 }
+
+#[test]
+fn every_component_of_an_array_is_a_column() {
+    let data = data(FORCE).replace(
+        &array("Int32", "id1", "1 1 1"),
+        &array("Int32", "ids", "1 2 1 3 1 4").replace("Name", "NumberOfComponents=\"2\" Name"),
+    );
+    let whole = file(
+        "PolyData",
+        &format!(
+            "<Piece>{}{}<CellData>{data}</CellData></Piece>",
+            points(),
+            lines()
+        ),
+    );
+    let reader = Reader::new().with_columns("id1=ids_0,id2=ids_1".parse().unwrap());
+    let read = read(&reader, whole.as_bytes()).unwrap();
+    assert_eq!(read.comparison.matched(), 3);
+}
