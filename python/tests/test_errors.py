@@ -210,7 +210,7 @@ def test_piles_are_immutable():
     [
         ("ids", {"ids": [[1, 2, 3]], "forces": [1.0]}),
         ("ids", {"ids": [1, 2], "forces": [1.0]}),
-        ("ids", {"ids": [[0, 1]], "forces": [1.0]}),
+        ("ids", {"ids": [[-1, 1]], "forces": [1.0]}),
         ("ids", {"ids": [[1.5, 2]], "forces": [1.0]}),
         ("ids", {"ids": [["a", "b"]], "forces": [1.0]}),
         ("ids", {"forces": [1.0]}),

@@ -71,7 +71,8 @@ def compared(layers):
 def test_another_thread_ticks(name):
     for size in range(1, 12):
         ticks, seconds = ticks_during(lambda: LONG[name](size))
-        if seconds > 50 * BREATH:
+        # On a busy machine the other thread may tick late.
+        if ticks >= ENOUGH or seconds > 1000 * BREATH:
             break
     print(f"{name}: {ticks} ticks in {seconds:.2f} s")
     assert ticks >= ENOUGH

@@ -145,8 +145,9 @@ class Comparison:
 
     @property
     def rms_error(self) -> float | None:
-        """The root mean square of the relative errors of the measured contacts, accurate to about 1e-8. None without measured
-        contacts.
+        """The root mean square of the relative errors of the measured contacts, None if there are none.
+
+        It is accurate to about 1e-8.
 
         Examples
         --------

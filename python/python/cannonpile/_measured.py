@@ -56,7 +56,8 @@ def _ids(ids: ArrayLike | None) -> NDArray[np.int64] | None:
         raise TypeError("ids: the ids of spheres are integers, but some of these have fractions")
     if array.dtype.kind not in "iuf" and array.size > 0:
         raise TypeError(f"ids: the ids of spheres are integers, not {array.dtype}")
-    if array.size > 0 and not (1 <= array.min() and array.max() <= 2**53):
+    # 0 is a floor or a wall.
+    if array.size > 0 and not (0 <= array.min() and array.max() <= 2**53):
         raise ValueError(
             f"ids: spheres are numbered from 1 at the top to at most 2**53, but the ids go from {array.min()} to {array.max()}"
         )
