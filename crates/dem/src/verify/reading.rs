@@ -38,8 +38,13 @@ impl Sink for Reading {
             let limit = MAX_ENTRIES;
             return Err(Fault::TooMany { limit }.at(line));
         }
-        self.entries
-            .push(entry.named().map_err(|fault| fault.at(line))?);
+        let measured = entry.named().map_err(|fault| fault.at(line))?;
+        // The length of a vector may overflow.
+        if !measured.force.is_finite() {
+            let (column, value) = ("force", measured.force);
+            return Err(Fault::NotFinite { column, value }.at(line));
+        }
+        self.entries.push(measured);
         Ok(())
     }
 

@@ -308,7 +308,7 @@ impl Header {
     fn id(&self, quantity: Quantity, cells: &[&str]) -> Result<i64, Fault> {
         let text = self.cell(quantity, cells)?;
         let first = i64::try_from(self.first_id).ok();
-        let counted = whole_number(text, self.decimal_comma).zip(first);
+        let counted = whole_number(text).zip(first);
         let counted = counted.and_then(|(id, first)| id.checked_sub(first)?.checked_add(1));
         counted.ok_or_else(|| Fault::Field {
             column: quantity.name(),

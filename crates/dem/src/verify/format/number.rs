@@ -42,8 +42,9 @@ pub(super) fn is_number(text: &str) -> bool {
 /// Returns the number of a sphere, if all its digits are there. A fraction may consist of zeros only.
 ///
 /// An exponent, as `numpy.savetxt` writes it, is accepted only if all digits of the number are present. Otherwise
-/// digits may have been rounded off: by default LAMMPS writes sphere 1234567 as 1.23457e+06.
-pub(super) fn whole_number(text: &str, decimal_comma: bool) -> Option<i64> {
+/// digits may have been rounded off: by default LAMMPS writes sphere 1234567 as 1.23457e+06. A comma is rejected: it may
+/// separate thousands.
+pub(super) fn whole_number(text: &str) -> Option<i64> {
     if let Ok(id) = text.parse() {
         return Some(id);
     }
@@ -52,8 +53,7 @@ pub(super) fn whole_number(text: &str, decimal_comma: bool) -> Option<i64> {
         None => (false, text.strip_prefix('+').unwrap_or(text)),
     };
     let (digits, exponent) = text.split_once(['e', 'E', 'd', 'D']).unwrap_or((text, "0"));
-    let decimal = if decimal_comma { ',' } else { '.' };
-    let (whole, fraction) = digits.split_once(decimal).unwrap_or((digits, ""));
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
     let (moved, zeros) = fraction.split_at_checked(exponent.parse().ok()?)?;
     let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     let fits = !whole.is_empty() && is_digits(whole) && is_digits(moved);
@@ -115,11 +115,10 @@ mod tests {
             ("1.700000D+01", 17),
             ("-0.0", 0),
         ] {
-            assert_eq!(whole_number(text, false), Some(id), "{text}");
+            assert_eq!(whole_number(text), Some(id), "{text}");
         }
-        assert_eq!(whole_number("17,0", true), Some(17));
-        for text in ["1.5", "1.23457e+06", "", "-", "1e400", "A1", "1,234"] {
-            assert_eq!(whole_number(text, false), None, "{text}");
+        for text in ["1.5", "1.23457e+06", "", "-", "1e400", "A1", "1,000"] {
+            assert_eq!(whole_number(text), None, "{text}");
         }
     }
 }
