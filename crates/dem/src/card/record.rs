@@ -61,7 +61,7 @@ pub(super) fn record(
     let compliance = springs.map(|(_, compliance)| format!("{compliance:.1e}"));
     let pull = extremes.least.as_ref().map(|least| -least.force.clone());
     let pull = pull.map(|pull| packing.unit_force().scaled(&pull).to_string());
-    // Where floats cannot express the springs, the card requires this compliance.
+    // If floats cannot express the springs, the card requires this compliance.
     let most_compliance = compliance.clone().unwrap_or_else(|| "1e-7".into());
     names.extend(given([
         (kind(&stands, attained), flag(true)),

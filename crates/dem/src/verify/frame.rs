@@ -129,7 +129,7 @@ impl fmt::Display for Frame {
         if up.iter().filter(|component| **component == 0.0).count() == 2 {
             let permuted = Axes::all().find(|axes| axes.matrix() == self.rotation);
             let (axes, angle) = match permuted {
-                // Turns about z by right angles are no permutations.
+                // Turns about z by right angles are said as turns, although they permute the axes.
                 Some(axes) if self.axes() != Axes::OWN => (axes, 0.0),
                 _ => (self.axes(), self.angle()),
             };

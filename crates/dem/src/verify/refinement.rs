@@ -311,8 +311,8 @@ impl RefinementStudy {
     /// Returns the refinement study of these levels, which may come in any order.
     ///
     /// # Errors
-    /// [`NoRefinement`] for no levels or more than [`MAX_LEVELS`], and for an error that is negative or not a number.
-    /// The same error reports a parameter that is not positive and normal, or that occurs twice.
+    /// [`NoRefinement`] for no levels or more than [`MAX_LEVELS`], for an error that is negative or not a number, and for
+    /// a parameter that is not positive and normal, or that occurs twice.
     ///
     /// # Examples
     /// ```

@@ -65,7 +65,7 @@ pub(super) struct Row {
     /// The position of the cell in the cell data.
     pub(super) cell: usize,
     pub(super) first: usize,
-    /// The same as the first, unless the row is a line.
+    /// The second point of a line; the first point again if the row is no line.
     pub(super) second: usize,
 }
 
