@@ -122,7 +122,9 @@ pub use comparison::Comparison;
 pub use difference::{Difference, Extra};
 pub use entry::Force;
 pub use finding::Finding;
-pub use format::{Columns, Dialect, DialectOptions, Mark, Preset, Rows, Separator, TextEncoding};
+pub use format::{
+    Columns, Dialect, DialectOptions, Mark, Preset, RowCounts, Separator, TextEncoding,
+};
 pub use frame::Frame;
 pub use kind::FileKind;
 pub use measured::{MAX_ENTRIES, Measured};

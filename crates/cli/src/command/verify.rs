@@ -131,14 +131,14 @@ struct DialectArgs {
     decimal: Option<Decimal>,
     /// Quote around cells, or none [default: \" or ']
     #[arg(long, value_name = "MARK", help_heading = "Table")]
-    quote: Option<Mark>,
+    quote: Option<Mark<char>>,
     /// Beginning of a comment, or none [default: #, %, // or !]
     #[arg(long, value_name = "MARK", help_heading = "Table")]
-    comment: Option<Mark>,
+    comment: Option<Mark<String>>,
     /// Number of lines above the table [default: those above the header]
     #[arg(long, value_name = "N", help_heading = "Table")]
     skip: Option<u64>,
-    /// Whether a row of units follows the header [default: whether it has no number]
+    /// true if a row of units follows the header, false if not [default: true if the row has no number]
     #[arg(long, value_name = "BOOL", help_heading = "Table")]
     unit_row: Option<bool>,
     /// Encoding, such as utf-16le or windows-1252 [default: UTF-8, UTF-16 with a byte order mark, or windows-1252]

@@ -1,31 +1,32 @@
 //! The formats of files: how bytes become rows.
 //!
-//! The stages are: bytes (`source`), the dialect of a text table (`dialect`, `cut`, `number`), its columns (`columns`,
+//! The stages are: bytes (`source`), the dialect of a text table (`detect`, `dialect`, `cut`, `number`), its columns (`columns`,
 //! `header`), the rows of a text or a dump (`text`, `dump`) and the steps (`steps`). Each stage counts what it leaves out
-//! (`rows`).
+//! (`counts`).
 
 mod columns;
+mod counts;
 mod cut;
+mod detect;
 mod dialect;
 pub(super) mod dump;
 mod header;
 mod lines;
 mod number;
 mod preset;
-mod rows;
 mod source;
 mod steps;
 pub(super) mod text;
 
 pub use columns::Columns;
+pub use counts::RowCounts;
 pub use dialect::{Dialect, DialectOptions, Mark, Separator, TextEncoding};
 pub use preset::Preset;
-pub use rows::Rows;
 
-pub(super) use header::{Header, Identity};
-pub(super) use rows::Counted;
+pub(super) use counts::Counted;
+pub(super) use header::{Header, Identity, shortened};
 pub(super) use source::Source;
-pub(super) use steps::Steps;
+pub(super) use steps::{Steps, is_same_step};
 
 /// The meaning of a file, as far as the user tells it.
 #[derive(Clone, Debug, Default, PartialEq)]

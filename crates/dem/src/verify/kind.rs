@@ -26,7 +26,7 @@ pub enum FileKind {
     Other {
         /// The kind in words, such as `an HTML page`.
         is: &'static str,
-        /// What to do instead.
+        /// The remedy, such as `save the table as CSV`.
         remedy: &'static str,
     },
 }

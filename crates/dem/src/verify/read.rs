@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::comparison::Comparison;
 use super::entry::Sink;
 use super::format::{
-    Columns, Counted, Dialect, DialectOptions, Format, Identity, Preset, Rows, Source, Steps,
+    Columns, Counted, Dialect, DialectOptions, Format, Identity, Preset, RowCounts, Source, Steps,
     TextEncoding, dump, text,
 };
 use super::frame::Frame;
@@ -83,8 +83,8 @@ pub struct Compared {
     pub kind: FileKind,
     /// The dialect, if the file is a text table.
     pub dialect: Option<Dialect>,
-    /// How many rows were read, used and left out.
-    pub rows: Rows,
+    /// The number of rows that were compared, and of those that were left out.
+    pub rows: RowCounts,
     /// The number of steps of the file; 0 if it names none.
     pub steps: u64,
     /// The step that was read.
@@ -330,12 +330,14 @@ impl Reader {
     /// table is read line by line, whatever its length, but a VTK file is kept in memory as a whole.
     ///
     /// # Errors
-    /// [`Refusal::Kind`] for a file that is no table. [`Refusal::NoRows`] if no row is a contact of the pile.
-    /// [`Refusal::Line`] for a line that cannot be read, an unknown sphere number, a third row of a pair, a second one in
-    /// the same order with another force, or a position where no spheres touch. [`Refusal::Elsewhere`] if no frame matches
-    /// the positions to the pile. [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with
-    /// too many contacts. [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`. [`Refusal::Io`] for
-    /// errors of the input.
+    /// * [`Refusal::Kind`] for a file of another kind, such as a spreadsheet. [`Refusal::NoRows`] if no row is a contact of
+    ///   the pile. [`Refusal::NoStep`] if the wanted step is not there.
+    /// * [`Refusal::Line`] for a line that cannot be read, an unknown sphere number, a third row of a pair or a second one
+    ///   in the same order with another force, or a position where no spheres touch.
+    /// * [`Refusal::Elsewhere`] if no frame matches the positions to the pile.
+    /// * [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with too many contacts.
+    ///   [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`.
+    /// * [`Refusal::Vtk`] for a VTK file without readable contacts. [`Refusal::Io`] for errors of the input.
     ///
     /// # Examples
     /// ```
@@ -440,7 +442,7 @@ impl Reader {
 struct Found {
     kind: FileKind,
     dialect: Option<Dialect>,
-    rows: Rows,
+    rows: RowCounts,
     steps: u64,
     step: Option<String>,
 }

@@ -222,9 +222,9 @@ mod tests {
             );
         }
         let none = read_files(&files, Some("8")).unwrap_err();
-        assert_eq!(none, "no time step 8, only 0, 9, 10");
+        assert_eq!(none, "no step '8': the steps are '0', '9', '10'");
         let single = read_files(&[("a.vtp", &a)], Some("8")).unwrap_err();
-        assert!(single.contains("a single state"), "{single}");
+        assert!(single.contains("the file has no steps"), "{single}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What became of the lines of a file: how many rows were read, used, and left out.
+//! The number of rows of a file that were compared, and of those that were left out.
 
 use core::fmt;
 use std::collections::BTreeSet;
@@ -24,7 +24,7 @@ use crate::verify::refusal::Refusal;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Rows {
+pub struct RowCounts {
     /// The rows that were compared: contacts of spheres, with the floor and with walls.
     pub used: u64,
     /// The rows of another kind than those of `kind=`.
@@ -48,7 +48,7 @@ pub struct Rows {
 /// The largest number of kinds that are kept.
 const MAX_KINDS: usize = 5;
 
-impl Rows {
+impl RowCounts {
     /// Counts a row of another kind.
     pub(super) fn leave_kind(&mut self, kind: &str) {
         self.other_kinds += 1;
@@ -120,7 +120,7 @@ impl Rows {
     }
 }
 
-impl fmt::Display for Rows {
+impl fmt::Display for RowCounts {
     /// Writes what was left out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let plural = |count: u64, one: &str, many: &str| match count {
@@ -129,11 +129,11 @@ impl fmt::Display for Rows {
             count => Some(format!("{count} {many}")),
         };
         let lines = |count: u64, first: Option<u64>, one: &str, many: &str| {
-            let place = first.map(|line| match count {
-                1 => format!(" (line {line})"),
-                _ => format!(" (from line {line} on)"),
-            });
-            plural(count, one, many).map(|lines| lines + &place.unwrap_or_default())
+            let line = first?;
+            Some(match count {
+                1 => format!("1 {one} (line {line})"),
+                _ => format!("{count} {many} (from line {line} on)"),
+            })
         };
         let parts = [
             plural(
@@ -167,14 +167,14 @@ impl fmt::Display for Rows {
 /// A sink with the counts of its rows.
 pub(in crate::verify) struct Counted<'s, S> {
     sink: &'s mut S,
-    pub(in crate::verify) rows: Rows,
+    pub(in crate::verify) rows: RowCounts,
 }
 
 impl<'s, S: Sink> Counted<'s, S> {
     pub(in crate::verify) fn new(sink: &'s mut S) -> Self {
         Self {
             sink,
-            rows: Rows::default(),
+            rows: RowCounts::default(),
         }
     }
 }
@@ -188,21 +188,15 @@ impl<S: Sink> Counted<'_, S> {
         line: u64,
     ) -> Result<(), Refusal> {
         let row = header.read(cells).map_err(|fault| fault.at(line))?;
-        self.put(&row, header, cells, line)
+        self.put(&row, line)
     }
 
-    /// Counts a row, and passes it on.
-    pub(super) fn put(
-        &mut self,
-        row: &Row,
-        header: &Header,
-        cells: &[&str],
-        line: u64,
-    ) -> Result<(), Refusal> {
+    /// Counts a row, and passes it to the sink if it is a contact.
+    pub(super) fn put(&mut self, row: &Row<'_>, line: u64) -> Result<(), Refusal> {
         match row {
             Row::Entry(entry) => self.take(entry, line)?,
-            Row::OtherKind => {
-                self.rows.leave_kind(header.kind(cells).unwrap_or_default());
+            Row::OtherKind(kind) => {
+                self.rows.leave_kind(kind);
                 self.pass_over();
             }
             Row::Text => self.rows.leave_text(line),

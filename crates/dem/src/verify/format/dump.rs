@@ -16,9 +16,9 @@
 use std::io::BufRead;
 
 use super::Format;
+use super::counts::Counted;
 use super::header::Header;
 use super::lines::{Line, Lines};
-use super::rows::Counted;
 use super::steps::{Steps, Use};
 use crate::Error;
 use crate::verify::entry::Sink;

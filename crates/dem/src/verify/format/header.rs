@@ -21,7 +21,7 @@ pub(in crate::verify) struct Header {
     /// The number of cells in a row.
     width: usize,
     has_names: bool,
-    /// Whether the last name is empty, after a separator at the end of the line.
+    /// True if the last name is empty, after a separator at the end of the line.
     is_open: bool,
     /// For each quantity, its columns, counted from 0, with their factors.
     sums: [Vec<(usize, f64)>; Quantity::COUNT],
@@ -31,12 +31,12 @@ pub(in crate::verify) struct Header {
     decimal_comma: bool,
 }
 
-/// What the cells of a row say.
-pub(in crate::verify) enum Row {
+/// The content of a row.
+pub(in crate::verify) enum Row<'c> {
     /// A contact.
     Entry(Entry),
     /// A contact of another kind than those that are read.
-    OtherKind,
+    OtherKind(&'c str),
     /// A line of text: no necessary cell is a number.
     Text,
 }
@@ -174,14 +174,14 @@ impl Header {
     }
 
     /// Reads the cells of a line.
-    pub(in crate::verify) fn read(&self, cells: &[&str]) -> Result<Row, Fault> {
+    pub(in crate::verify) fn read<'c>(&self, cells: &[&'c str]) -> Result<Row<'c>, Fault> {
         if cells.len() != self.width {
             return self.text_or(cells, self.row_of(cells.len()));
         }
         if self.has(Quantity::Kind) {
             let kind = self.cell(Quantity::Kind, cells)?;
             if !self.kinds.iter().any(|known| known == kind) {
-                return Ok(Row::OtherKind);
+                return Ok(Row::OtherKind(kind));
             }
         }
         match self.entry(cells) {
@@ -198,11 +198,6 @@ impl Header {
         }
     }
 
-    /// Returns the kind of a row.
-    pub(super) fn kind<'c>(&self, cells: &[&'c str]) -> Option<&'c str> {
-        self.cell(Quantity::Kind, cells).ok()
-    }
-
     /// Returns the fault of a row with another number of cells.
     pub(super) fn row_of(&self, cells: usize) -> Fault {
         Fault::Fields {
@@ -212,7 +207,7 @@ impl Header {
         }
     }
 
-    fn text_or(&self, cells: &[&str], fault: Fault) -> Result<Row, Fault> {
+    fn text_or<'c>(&self, cells: &[&'c str], fault: Fault) -> Result<Row<'c>, Fault> {
         if self.is_text(cells) {
             Ok(Row::Text)
         } else {
@@ -398,7 +393,7 @@ fn twice(quantity: Quantity, first: &str, second: &str) -> Fault {
 }
 
 /// Returns quoted names for a message, shortened if the list is long.
-pub(super) fn shortened(names: &[&str]) -> String {
+pub(in crate::verify) fn shortened(names: &[&str]) -> String {
     const LONGEST: usize = 120;
     let mut list = String::new();
     for name in names {

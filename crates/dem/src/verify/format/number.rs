@@ -27,7 +27,7 @@ fn fortran(text: &str) -> Option<String> {
     is_cut.then(|| format!("{digits}e{exponent}"))
 }
 
-/// Returns whether a text is a finite number, with either decimal sign.
+/// Returns whether a text is a number in digits, with either decimal sign.
 pub(super) fn is_number(text: &str) -> bool {
     let is_digit = |byte: &u8| byte.is_ascii_digit();
     let begins = text.as_bytes().iter().find(|byte| !b"+-.,".contains(byte));

@@ -14,7 +14,7 @@ pub(in crate::verify) struct Steps<'o> {
     current: Option<String>,
 }
 
-/// What to do with the rows of a step.
+/// The use of the rows of a step.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::verify) enum Use {
     /// Reads them with the rows before.
@@ -44,7 +44,7 @@ impl<'o> Steps<'o> {
             self.seen.insert(step.to_owned());
         }
         if let Some(wanted) = self.wanted {
-            if !is_same(wanted, step) {
+            if !is_same_step(wanted, step) {
                 return Ok(Use::Other);
             }
         } else if !is_new {
@@ -80,7 +80,8 @@ impl<'o> Steps<'o> {
     }
 }
 
-fn is_same(wanted: &str, step: &str) -> bool {
+/// Returns whether a step is the wanted one, as text or as a number.
+pub(in crate::verify) fn is_same_step(wanted: &str, step: &str) -> bool {
     let value = |text: &str| number(text, text.contains(','));
     wanted == step || value(wanted).is_some_and(|wanted| value(step) == Some(wanted))
 }

@@ -1,10 +1,11 @@
 //! Tables as text, with one contact on each line.
 
 use super::Format;
-use super::dialect::{self, Dialect, is_of_numbers};
+use super::counts::Counted;
+use super::detect::{self, is_of_numbers};
+use super::dialect::Dialect;
 use super::header::Row;
 use super::lines::Lines;
-use super::rows::Counted;
 use super::source::Source;
 use super::steps::{Steps, Use};
 use crate::verify::entry::Sink;
@@ -17,7 +18,7 @@ pub(in crate::verify) fn read(
     steps: &mut Steps<'_>,
     sink: &mut Counted<'_, impl Sink>,
 ) -> Result<Dialect, Refusal> {
-    let (dialect, header) = dialect::find(
+    let (dialect, header) = detect::find(
         &source.sample,
         source.is_whole,
         &format.dialect,
@@ -25,6 +26,7 @@ pub(in crate::verify) fn read(
         format.identity,
     )?;
     let mut unit_row = format.dialect.unit_row == Some(true);
+    // Lines are counted from 1, so without a header the rows may begin at once.
     let begin = dialect.header.or(format.dialect.skip).unwrap_or(0);
     let mut lines = Lines::new(source.all());
     while let Some(line) = lines.next()? {
@@ -91,7 +93,7 @@ pub(in crate::verify) fn read(
             row = Ok(Row::Entry(entry));
         }
         let row = row.map_err(|fault| fault.at(number))?;
-        sink.put(&row, &header, &cells, number)?;
+        sink.put(&row, number)?;
     }
     Ok(dialect)
 }

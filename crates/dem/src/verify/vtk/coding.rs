@@ -152,8 +152,7 @@ impl<'f> Coding<'f> {
         for block in 0..count {
             total = total.saturating_add(self.length(&head, 3 + block)?);
         }
-        // `decoded` found this many characters.
-        let text = text.get(after..).unwrap_or_default();
+        let text = text.get(after..).ok_or("it is cut off")?;
         let (packed, _) = decoded(text, total)?;
         self.unpacked(&head, &packed)
     }

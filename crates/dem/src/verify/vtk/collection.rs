@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use super::super::format::{is_same_step, shortened};
+use super::super::kind::FileKind;
 use super::super::refusal::Refusal;
 use super::legacy;
 use super::piece::Piece;
@@ -21,13 +23,6 @@ pub(super) struct Leaf<'b> {
     /// The name of the file, or nothing for the file that is read.
     name: String,
     bytes: Cow<'b, [u8]>,
-}
-
-/// Returns whether a file with these first bytes is a legacy file of VTK.
-fn is_legacy(begin: &[u8]) -> bool {
-    const BEGIN: &[u8] = b"# vtk DataFile";
-    let begin = begin.get(..BEGIN.len());
-    begin.is_some_and(|begin| begin.eq_ignore_ascii_case(BEGIN))
 }
 
 /// Returns the files with the pieces of a time step, or of the last one, the number of time steps of the collection, and the
@@ -80,24 +75,19 @@ fn chosen(
     let last = match step {
         None => steps.last().copied(),
         Some(step) => {
-            let mut found = steps.iter().copied();
-            let found = found
-                .find(|text| *text == step || time(step).is_some_and(|it| time(text) == Some(it)));
-            Some(found.ok_or_else(|| no_step(step, &steps))?)
+            let found = steps
+                .iter()
+                .copied()
+                .find(|known| is_same_step(step, known));
+            Some(found.ok_or_else(|| Refusal::NoStep {
+                wanted: shortened(&[step]),
+                found: shortened(&steps),
+            })?)
         }
     };
     let (count, last) = (steps.len() as u64, last.map(str::to_owned));
     files.retain(|file| file.timestep.is_none() || file.timestep == last);
     Ok((files, count, last))
-}
-
-fn no_step(step: &str, steps: &[&str]) -> Refusal {
-    let step = quoted(step);
-    refused(if steps.is_empty() {
-        format!("no time step {step}: the file has a single state; leave the step out")
-    } else {
-        format!("no time step {step}, only {}", listed(steps))
-    })
 }
 
 /// Opens files, and the files that they name in turn.
@@ -155,9 +145,13 @@ fn beside(folder: &str, path: &str) -> Result<String, Refusal> {
 }
 
 impl Leaf<'_> {
+    fn is_legacy(&self) -> bool {
+        FileKind::of(&self.bytes) == FileKind::VtkLegacy
+    }
+
     /// Returns the files that this file names in place of pieces.
     fn files(&self) -> Result<Vec<File>, Refusal> {
-        if is_legacy(&self.bytes) {
+        if self.is_legacy() {
             return Ok(Vec::new());
         }
         self.named(xml::parse(&self.bytes).and_then(|document| {
@@ -175,7 +169,7 @@ impl Leaf<'_> {
 
     /// Returns the pieces of this file.
     pub(super) fn pieces(&self) -> Result<Vec<Piece<'_>>, Refusal> {
-        self.named(if is_legacy(&self.bytes) {
+        self.named(if self.is_legacy() {
             legacy::parse(&self.bytes).map(|piece| vec![piece])
         } else {
             xml::parse(&self.bytes).map(|document| document.pieces)

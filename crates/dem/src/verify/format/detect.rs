@@ -1,0 +1,430 @@
+//! The detection of the dialect and the header of a text table.
+//!
+//! The dialect is decided by what cuts all rows alike. Each separator and quote is tried on the first lines. The choice
+//! is the one that makes most of the text numbers in rows of equal length.
+
+use core::cmp::Reverse;
+
+use super::columns::Columns;
+use super::cut::cut;
+use super::dialect::{Dialect, DialectOptions, Separator, bare, behind_row, comment, uncommented};
+use super::header::{Header, Identity};
+use super::lines::Lines;
+use super::number::{is_number, number};
+use crate::verify::refusal::{Fault, Refusal};
+
+/// The signs of comments in the tables of common programs.
+const COMMENTS: [&str; 4] = ["#", "%", "//", "!"];
+
+/// The separators that are tried. Of equals the first is chosen.
+const SEPARATORS: [Separator; 5] = [
+    Separator::Char('\t'),
+    Separator::Char(';'),
+    Separator::Char(','),
+    Separator::Char('|'),
+    Separator::Blanks,
+];
+
+/// The smallest number of numbers in a row: two ids or coordinates, and a force.
+const LEAST_NUMBERS: usize = 3;
+
+/// The numbered lines at the beginning of a table.
+struct Sample {
+    lines: Vec<(u64, String)>,
+    comments: Vec<String>,
+}
+
+impl Sample {
+    fn new(bytes: &[u8], is_whole: bool, options: &DialectOptions) -> Result<Self, Refusal> {
+        let comments = match &options.comment {
+            None => COMMENTS.map(str::to_owned).to_vec(),
+            Some(mark) => mark.get().cloned().into_iter().collect(),
+        };
+        let mut lines = Lines::new(bytes);
+        let mut kept = Vec::new();
+        loop {
+            let line = match lines.next() {
+                Ok(Some(line)) => line,
+                Err(refusal) if kept.is_empty() => return Err(refusal),
+                // The rows before a refusal are read first.
+                Ok(None) | Err(_) => break,
+            };
+            let is_complete = line.ended || is_whole;
+            let is_skipped = options.skip.is_some_and(|skip| line.number <= skip);
+            if is_complete && !is_skipped && !line.text.trim().is_empty() {
+                let text = uncommented(line.text, &comments);
+                kept.push((line.number, text.to_owned()));
+            }
+        }
+        Ok(Self {
+            lines: kept,
+            comments,
+        })
+    }
+
+    /// Returns the lines other than comments.
+    fn texts(&self) -> impl Iterator<Item = (u64, &str)> {
+        let lines = self.lines.iter();
+        lines
+            .filter(|(_, line)| comment(line, &self.comments).is_none())
+            .map(|(number, line)| (*number, line.as_str()))
+    }
+
+    /// Returns all lines, comments without their signs, and whether each is a comment.
+    fn all(&self) -> impl DoubleEndedIterator<Item = (u64, &str, bool)> {
+        let lines = self.lines.iter();
+        lines.map(|(number, text)| match comment(text, &self.comments) {
+            Some(text) => (*number, text, true),
+            None => (*number, text.as_str(), false),
+        })
+    }
+
+    /// Returns the lines above a line, the nearest first.
+    fn above(&self, line: u64) -> impl Iterator<Item = (u64, &str, bool)> {
+        self.all().rev().filter(move |(number, ..)| *number < line)
+    }
+}
+
+/// A separator and a quote, with the rows that they make.
+#[derive(Clone, Copy)]
+struct Cutting {
+    separator: Separator,
+    quote: Option<char>,
+    /// The number of cells in a row.
+    width: usize,
+    first_row: u64,
+    /// The share of cells that are numbers in such rows.
+    share: f64,
+    /// True if the line above the first row has the same number of cells.
+    has_header: bool,
+    /// The number of cells that are still in quotes.
+    quoted: usize,
+    /// True if the last cell of all rows is empty.
+    is_open: bool,
+}
+
+/// The cells of a row of a sample.
+struct Counts {
+    line: u64,
+    cells: usize,
+    numbers: usize,
+    is_open: bool,
+}
+
+impl Cutting {
+    /// Cuts a sample, and returns `None` if it has no rows.
+    #[expect(clippy::cast_precision_loss, reason = "counts of a sample")]
+    fn of(sample: &Sample, separator: Separator, quote: Option<char>) -> Option<Self> {
+        let (mut rows, mut all, mut cells) = (Vec::new(), 0_usize, Vec::new());
+        let numbers_of = |text: &str| {
+            let mut cells = Vec::new();
+            let cut = cut(text, separator, quote, &mut cells);
+            cut.map_or(0, |()| count_numbers(&cells))
+        };
+        for (line, text) in sample.texts() {
+            let text = match behind_row(text, &sample.comments) {
+                Some((row, comment))
+                    if numbers_of(comment) == 0 && numbers_of(row) >= numbers_of(text) =>
+                {
+                    row
+                }
+                _ => text,
+            };
+            if cut(text, separator, quote, &mut cells).is_err() {
+                continue;
+            }
+            all += cells.iter().filter(|cell| !cell.is_empty()).count();
+            let row = Counts {
+                line,
+                cells: cells.len(),
+                numbers: count_numbers(&cells),
+                is_open: cells.last().is_some_and(|cell| cell.is_empty()),
+            };
+            if row.numbers >= LEAST_NUMBERS {
+                rows.push(row);
+            }
+        }
+        let width = most_common(rows.iter().map(|row| row.cells))?;
+        rows.retain(|row| row.cells == width);
+        let first_row = rows.first()?.line;
+        let sum = |count: fn(&Counts) -> usize| rows.iter().map(count).sum::<usize>();
+        let mut quoted = 0;
+        for (_, text, _) in sample.all() {
+            if cut(text, separator, quote, &mut cells).is_ok() {
+                quoted += cells.iter().filter(|cell| is_quoted(cell)).count();
+            }
+        }
+        let above = sample.above(first_row).next();
+        let header = above.map(|(_, text, _)| {
+            let cut = cut(text, separator, quote, &mut cells);
+            cut.map_or(0, |()| cells.len())
+        });
+        Some(Self {
+            separator,
+            quote,
+            width,
+            first_row,
+            share: sum(|row| row.numbers) as f64 / all as f64,
+            has_header: header == Some(width),
+            quoted,
+            is_open: rows.iter().all(|row| row.is_open),
+        })
+    }
+
+    /// Returns the rows from a line on, as far as they have enough numbers.
+    fn rows<'s>(&self, sample: &'s Sample, from: u64) -> impl Iterator<Item = (u64, Vec<&'s str>)> {
+        let (separator, quote, width) = (self.separator, self.quote, self.width);
+        let texts = sample.texts().filter(move |(line, _)| *line >= from);
+        texts.filter_map(move |(line, text)| {
+            let mut cells = Vec::new();
+            cut(text, separator, quote, &mut cells).ok()?;
+            let is_row = cells.len() == width && count_numbers(&cells) >= LEAST_NUMBERS;
+            is_row.then_some((line, cells))
+        })
+    }
+
+    /// Returns whether the numbers of the columns that are read have decimal commas, and none has a point.
+    fn has_decimal_commas(&self, sample: &Sample, header: &Header) -> bool {
+        let mut has_commas = false;
+        for (_, cells) in self.rows(sample, self.first_row) {
+            for cell in header.numbers(&cells).filter(|cell| is_number(cell)) {
+                if cell.contains('.') && number(cell, false).is_some() {
+                    return false;
+                }
+                has_commas |= cell.contains(',');
+            }
+        }
+        has_commas
+    }
+}
+
+/// Returns whether a line has enough numbers for a row, and little else.
+pub(super) fn is_of_numbers(cells: &[&str]) -> bool {
+    let numbers = count_numbers(cells);
+    numbers >= LEAST_NUMBERS && 2 * numbers > cells.len()
+}
+
+fn count_numbers(cells: &[&str]) -> usize {
+    cells.iter().filter(|cell| is_number(cell)).count()
+}
+
+/// Returns whether a cell is still in quotes.
+fn is_quoted(cell: &str) -> bool {
+    let is_between = |quote| cell.len() > 1 && cell.starts_with(quote) && cell.ends_with(quote);
+    is_between('"') || is_between('\'')
+}
+
+fn most_common(values: impl Iterator<Item = usize>) -> Option<usize> {
+    let mut counts = std::collections::BTreeMap::new();
+    for value in values {
+        *counts.entry(value).or_insert(0_usize) += 1;
+    }
+    counts
+        .into_iter()
+        .max_by_key(|(_, count)| *count)
+        .map(|(value, _)| value)
+}
+
+/// Finds the dialect and the header of a table that begins with these bytes.
+pub(super) fn find(
+    sample: &[u8],
+    is_whole: bool,
+    options: &DialectOptions,
+    columns: &Columns,
+    identity: Identity,
+) -> Result<(Dialect, Header), Refusal> {
+    let sample = Sample::new(sample, is_whole, options)?;
+    let candidates = candidates(&sample, options);
+    let mut best: Option<Cutting> = None;
+    for (separator, quote) in candidates.iter().copied() {
+        if let Some(cutting) = Cutting::of(&sample, separator, quote) {
+            let merit = |cutting: &Cutting| {
+                let Cutting {
+                    share,
+                    has_header,
+                    quoted,
+                    ..
+                } = cutting;
+                (*share, *has_header, Reverse(*quoted))
+            };
+            if best.is_none_or(|best| merit(&best) < merit(&cutting)) {
+                best = Some(cutting);
+            }
+        }
+    }
+    let table = Table {
+        sample: &sample,
+        candidates: &candidates,
+        columns,
+        identity,
+    };
+    let (cutting, header) = match best {
+        Some(cutting) => table.header(cutting)?,
+        None => table.without_rows()?,
+    };
+    let (line, mut header) = header;
+    let decimal_comma = options
+        .decimal_comma
+        .unwrap_or_else(|| cutting.has_decimal_commas(&sample, &header));
+    header.set_decimal_comma(decimal_comma);
+    let dialect = Dialect {
+        separator: cutting.separator,
+        quote: cutting.quote,
+        comments: sample.comments,
+        decimal_comma,
+        header: line,
+        first_row: cutting.first_row,
+    };
+    Ok((dialect, header))
+}
+
+fn candidates(sample: &Sample, options: &DialectOptions) -> Vec<(Separator, Option<char>)> {
+    let has = |mark: char| sample.lines.iter().any(|(_, line)| line.contains(mark));
+    let quotes: Vec<Option<char>> = match &options.quote {
+        Some(mark) => vec![mark.get().copied()],
+        None if has('\'') => vec![Some('"'), Some('\'')],
+        None => vec![Some('"')],
+    };
+    let separators = match options.separator {
+        Some(separator) => vec![separator],
+        None => SEPARATORS.to_vec(),
+    };
+    let all = separators
+        .iter()
+        .map(|separator| quotes.iter().map(|quote| (*separator, *quote)));
+    all.flatten().collect()
+}
+
+/// A header with its line, if it has one.
+type Found = (Option<u64>, Header);
+
+/// A table whose header is to be found.
+struct Table<'t> {
+    sample: &'t Sample,
+    candidates: &'t [(Separator, Option<char>)],
+    columns: &'t Columns,
+    identity: Identity,
+}
+
+impl Table<'_> {
+    /// Finds the header above the rows: the nearest line with the necessary names.
+    fn header(&self, cutting: Cutting) -> Result<(Cutting, Found), Refusal> {
+        let Cutting {
+            width, first_row, ..
+        } = cutting;
+        if self.columns.are_numbered(self.identity) {
+            let header = Header::find(None, width, self.columns, self.identity);
+            return Ok((
+                cutting,
+                (None, header.map_err(|fault| fault.at(first_row))?),
+            ));
+        }
+        let own = [(cutting.separator, cutting.quote)];
+        for (line, text, is_comment) in self.sample.above(first_row) {
+            // The names may be separated in another way than the rows.
+            for (n, (separator, quote)) in own.iter().chain(self.candidates).enumerate() {
+                let Ok(header) = self.names(text, *separator, *quote) else {
+                    continue;
+                };
+                match header.matched_to(width, cutting.is_open) {
+                    Ok(header) => return Ok((cutting, (Some(line), header))),
+                    Err(fault) if n == 0 || is_comment => return Err(fault.at(first_row)),
+                    Err(_) => {}
+                }
+            }
+        }
+        // The lines above the header may have numbers, too.
+        for (line, text, _) in self.sample.all().filter(|(line, ..)| *line > first_row) {
+            let names = self.names(text, cutting.separator, cutting.quote);
+            let header = names.and_then(|names| names.matched_to(width, cutting.is_open));
+            if let Ok(header) = header
+                && let Some((first_row, _)) = cutting.rows(self.sample, line).next()
+            {
+                let cutting = Cutting {
+                    first_row,
+                    ..cutting
+                };
+                return Ok((cutting, (Some(line), header)));
+            }
+        }
+        let above = || self.sample.above(first_row);
+        let likeliest = above()
+            .find(|(.., is_comment)| !is_comment)
+            .or_else(|| above().next());
+        let Some((line, text, _)) = likeliest else {
+            return Err(Fault::NoHeader { columns: width }.at(first_row));
+        };
+        match self.names(text, cutting.separator, cutting.quote) {
+            Err(fault) => Err(fault.at(line)),
+            Ok(header) => Ok((cutting, (Some(line), header))),
+        }
+    }
+
+    /// Finds the header of a table without rows of numbers.
+    fn without_rows(&self) -> Result<(Cutting, Found), Refusal> {
+        let lines = || self.sample.all();
+        let first = lines()
+            .find(|(.., is_comment)| !is_comment)
+            .or_else(|| lines().next());
+        let Some((line, text, _)) = first else {
+            return Err(Fault::Empty.at(1));
+        };
+        let cutting = |(separator, quote): &(Separator, Option<char>), text: &str, first_row| {
+            let mut cells = Vec::new();
+            let cut = cut(text, *separator, *quote, &mut cells);
+            cut.map(|()| Cutting {
+                separator: *separator,
+                quote: *quote,
+                width: cells.len(),
+                first_row,
+                share: 0.0,
+                has_header: true,
+                quoted: 0,
+                is_open: false,
+            })
+        };
+        let is_numbered = self.columns.are_numbered(self.identity);
+        for (line, text, _) in lines().filter(|_| !is_numbered) {
+            for candidate in self.candidates {
+                if let Ok(header) = self.names(text, candidate.0, candidate.1) {
+                    let cutting =
+                        cutting(candidate, text, line + 1).map_err(|fault| fault.at(line))?;
+                    return Ok((cutting, (Some(line), header)));
+                }
+            }
+        }
+        let cuttings = self
+            .candidates
+            .iter()
+            .filter_map(|candidate| cutting(candidate, text, line).ok());
+        // Of equals, the last counts as the greatest.
+        let Some(widest) = cuttings.rev().max_by_key(|cutting| cutting.width) else {
+            return Err(Fault::Quote.at(line));
+        };
+        let header = if is_numbered {
+            Header::find(None, widest.width, self.columns, self.identity)
+        } else {
+            self.names(text, widest.separator, widest.quote)
+        };
+        Ok((widest, (None, header.map_err(|fault| fault.at(line))?)))
+    }
+
+    /// Reads a line as the names of the columns.
+    fn names(
+        &self,
+        text: &str,
+        separator: Separator,
+        quote: Option<char>,
+    ) -> Result<Header, Fault> {
+        let mut cells = Vec::new();
+        // Without comments, a header may still begin with their sign.
+        let text = bare(text);
+        cut(text, separator, quote, &mut cells)?;
+        let names: Vec<String> = cells
+            .iter()
+            .map(|name| name.replace("\"\"", "\""))
+            .collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        Header::find(Some(&names), names.len(), self.columns, self.identity)
+    }
+}
