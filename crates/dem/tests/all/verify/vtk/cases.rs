@@ -2,6 +2,13 @@ use cannonpile_dem::verify::{Columns, Reader};
 
 use super::read;
 
+/// A table of the tests of the command line.
+macro_rules! table {
+    ($path:literal) => {
+        include_bytes!(concat!("../../../../../cli/tests/all/cli/tables/", $path))
+    };
+}
+
 /// The columns of the force chains of MFiX.
 const MFIX: &str = "id1=FORCE_CHAIN_GLOBAL_ID1,id2=FORCE_CHAIN_GLOBAL_ID2,force=FORCE_CHAIN_FN_MAG";
 
@@ -15,56 +22,51 @@ fn files_with_the_exact_forces_are_accepted() {
     let cases: [(&str, &[u8], Reader, f64); 9] = [
         (
             "one vertex before the lines",
-            include_bytes!("cases/one-vertex-before-lines.vtp"),
+            table!("vtp-one-vertex-before-lines/in.vtp"),
             by_place(),
             0.0,
         ),
         (
             "each point is a vertex",
-            include_bytes!("cases/points-as-vertices-and-lines.vtp"),
+            table!("vtp-points-as-vertices-and-lines/in.vtp"),
             by_place(),
             0.0,
         ),
         (
             "a piece of a collection",
-            include_bytes!("cases/part0.vtp"),
+            table!("pvtp/part0.vtp"),
             by_place(),
             0.0,
         ),
-        (
-            "bits",
-            include_bytes!("cases/bit-array.vtp"),
-            by_place(),
-            0.0,
-        ),
+        ("bits", table!("vtp-bit-array/in.vtp"), by_place(), 0.0),
         (
             "a text",
-            include_bytes!("cases/string-in-field-data.vtp"),
+            table!("vtp-string-in-field-data/in.vtp"),
             by_place(),
             0.0,
         ),
         (
             "-nan(ind)",
-            include_bytes!("cases/velocity-nan-ind.vtp"),
+            table!("vtp-velocity-nan-ind/in.vtp"),
             by_place(),
             0.0,
         ),
         (
             "contacts as vertices",
-            include_bytes!("cases/contacts-as-vertices.vtp"),
+            table!("contacts-as-vertices/in.vtp"),
             mfix(),
             0.0,
         ),
         (
             "contact points of vertices",
-            include_bytes!("cases/contacts-as-vertices.vtp"),
+            table!("contacts-as-vertices/in.vtp"),
             mfix_by_place,
             1e-15,
         ),
         // The numbers are floats of 32 bits.
         (
             "points without cells",
-            include_bytes!("cases/mfix-force-chain.vtp"),
+            table!("mfix-force-chain/in.vtp"),
             mfix(),
             6e-8,
         ),
@@ -84,19 +86,19 @@ fn files_with_the_exact_forces_are_accepted() {
 fn files_without_readable_contacts_are_refused() {
     let cases: [(&[u8], &str); 5] = [
         (
-            include_bytes!("cases/array-longer-than-cells.vtp"),
+            table!("vtp-array-longer-than-cells/in.vtp"),
             "array force: 13 values for 12 cells of 1 component",
         ),
         (
-            include_bytes!("cases/pieces.pvtp"),
+            table!("pvtp/in.pvtp"),
             "the contacts are in other files: give part0.vtp instead",
         ),
         (
-            include_bytes!("cases/pieces-of-lethe.pvtu"),
+            table!("pvtu-of-lethe/in.pvtu"),
             "the contacts are in other files: give chains.00000.vtu, chains.00001.vtu instead",
         ),
         (
-            include_bytes!("cases/spreadsheet.xml"),
+            table!("xml-that-is-no-vtk/in.xml"),
             "an XML spreadsheet: save it as csv",
         ),
         (
