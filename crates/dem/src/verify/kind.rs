@@ -112,16 +112,6 @@ impl FileKind {
     }
 }
 
-impl FileKind {
-    /// Returns a remedy after a colon, for a kind that is not read.
-    pub(super) fn remedy(self) -> String {
-        match self {
-            Self::Other { remedy, .. } => format!(": {remedy}"),
-            _ => String::new(),
-        }
-    }
-}
-
 impl fmt::Display for FileKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -1,6 +1,6 @@
 //! Files of any supported format.
 
-use std::fs;
+use std::fs::File;
 use std::io::Read;
 use std::path::PathBuf;
 
@@ -305,7 +305,7 @@ impl Reader {
     /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
     /// let whole = "<VTKFile type='PPolyData'><PPolyData><Piece Source='a.vtp'/></PPolyData></VTKFile>";
     /// let read = |reader: Reader| reader.compare(&packing, whole.as_bytes()).unwrap_err().to_string();
-    /// assert!(read(Reader::new()).starts_with("the contacts are in other files: give a.vtp"));
+    /// assert!(read(Reader::new()).starts_with("the contacts are in other files: give 'a.vtp'"));
     /// assert!(read(Reader::new().in_folder("nowhere".into())).starts_with("a.vtp: "));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
@@ -401,37 +401,35 @@ impl Reader {
         let encoding = format.dialect.encoding.map(TextEncoding::get);
         let source = Source::open(input, encoding)?;
         let kind = FileKind::of(&source.sample);
-        let mut steps = Steps::new(self.step.as_deref());
+        let wanted = self.step.as_deref();
+        let mut found = Steps::new(wanted);
         let mut sink = Counted::new(sink);
         let mut dialect = None;
-        match kind {
-            FileKind::Table => dialect = Some(text::read(source, format, &mut steps, &mut sink)?),
-            FileKind::Dump => dump::read(source.all(), format, &mut steps, &mut sink)?,
+        let (steps, step) = match kind {
+            FileKind::Table => {
+                dialect = Some(text::read(source, format, &mut found, &mut sink)?);
+                found.close()?
+            }
+            FileKind::Dump => {
+                dump::read(source.all(), format, &mut found, &mut sink)?;
+                found.close()?
+            }
             FileKind::VtkXml | FileKind::VtkLegacy => {
-                let mut bytes = Vec::new();
-                source.all().read_to_end(&mut bytes)?;
                 let folder = self.folder.as_deref();
-                let open = folder.map(|folder| move |name: &str| Ok(fs::read(folder.join(name))?));
-                let open = open.as_ref().map(|open| open as vtk::Open<'_>);
-                let (steps, step) =
-                    vtk::read(&bytes, format, self.step.as_deref(), open, &mut sink)?;
-                let rows = sink.rows;
-                return Ok(Found {
-                    kind,
-                    dialect,
-                    rows,
-                    steps,
-                    step,
+                let open = folder.map(|folder| {
+                    move |name: &str| {
+                        Source::open(File::open(folder.join(name))?, encoding)?.bytes()
+                    }
                 });
+                let open = open.as_ref().map(|open| open as vtk::Open<'_>);
+                vtk::read(&source.bytes()?, format, wanted, open, &mut sink)?
             }
             FileKind::Other { .. } => return Err(Refusal::Kind(kind)),
-        }
-        let rows = sink.rows;
-        let (steps, step) = steps.close()?;
+        };
         Ok(Found {
             kind,
             dialect,
-            rows,
+            rows: sink.rows,
             steps,
             step,
         })

@@ -232,7 +232,8 @@ impl fmt::Display for Refusal {
                 f,
                 "{share} radii are not between 0 and 0.5: 0.1 is usual"
             ),
-            Self::Kind(kind) => write!(f, "this is {kind}{}", kind.remedy()),
+            Self::Kind(FileKind::Other { is, remedy }) => write!(f, "this is {is}: {remedy}"),
+            Self::Kind(kind) => write!(f, "this is {kind}"),
             Self::NoStep { wanted, found } => write!(
                 f,
                 "no step {wanted}: {}",

@@ -202,8 +202,6 @@ impl<'c> Report<'c> {
             comparison, accept, ..
         } = self;
         let accepted = comparison.accepted(accept);
-        let worst = comparison.worst().map(ToString::to_string);
-        let worst = worst.map_or(Cell::Missing, |words| Cell::Word(words.into()));
         let count = |name, count: u64, meaning| (said(name, meaning), Cell::Integer(count.into()));
         let error = |name, error: Option<f64>, meaning| {
             let error = error.map_or(Cell::Missing, float);
@@ -222,10 +220,8 @@ impl<'c> Report<'c> {
         let of_floor = "of the exact normal force of the floor";
         let factor = comparison.common_factor(accept);
         let factor = factor.map_or(Cell::Missing, float);
-        let words = |words: Option<String>| match words {
-            Some(words) => Cell::Word(words.into()),
-            None => Cell::Missing,
-        };
+        let words =
+            |words: Option<String>| words.map_or(Cell::Missing, |words| Cell::Word(words.into()));
         let findings: Vec<_> = comparison.findings(accept);
         let findings = findings.iter().map(ToString::to_string).collect::<Vec<_>>();
         let findings = Some(findings.join("; ")).filter(|findings| !findings.is_empty());
@@ -245,7 +241,10 @@ impl<'c> Report<'c> {
             count("fixed", comparison.fixed(), fixed),
             error("largest_error", comparison.largest_error(), relative),
             error("rms_error", comparison.rms_error(), relative),
-            (Column::plain("worst"), worst),
+            (
+                Column::plain("worst"),
+                words(comparison.worst().map(ToString::to_string)),
+            ),
             count("beyond", comparison.beyond(accept), beyond),
             (Column::measured("factor", times), factor),
             count("walls", walls, "contacts with walls, which are not judged"),

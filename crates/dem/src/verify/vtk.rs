@@ -23,6 +23,11 @@ use super::refusal::Refusal;
 use collection::gather;
 use piece::Rows;
 
+/// Returns the refusal of a file for this reason.
+fn refused(reason: impl Into<String>) -> Refusal {
+    Refusal::Vtk(reason.into())
+}
+
 /// Reads the contacts of a file as rows, and those of the files that it names. Of several time steps, it reads the given one,
 /// or the last. Returns the number of steps and the step that was read. Rows are numbered from 1.
 pub(super) fn read(
@@ -56,7 +61,7 @@ pub(super) fn read(
         Rows::None => "no points",
         _ => "no lines and no vertices",
     };
-    Err(Refusal::Vtk(format!(
+    Err(refused(format!(
         "the file has {found}: contacts are lines between centres, or points with data"
     )))
 }
@@ -180,7 +185,7 @@ mod tests {
         );
         assert_eq!(
             read.unwrap_err().to_string(),
-            "the contacts are in other files: give chains.0.vtu, chains.1.vtu instead"
+            "the contacts are in other files: give 'chains.0.vtu', 'chains.1.vtu' instead"
         );
     }
 

@@ -27,7 +27,7 @@ use crate::verify::refusal::Refusal;
 pub struct RowCounts {
     /// The rows that were compared: contacts of spheres, with the floor and with walls.
     pub used: u64,
-    /// The rows of another kind than those of `kind=`.
+    /// The rows of another kind than those of `kind=`, and the ghosts in files of VTK.
     pub other_kinds: u64,
     /// The rows of other steps.
     pub other_steps: u64,
@@ -50,7 +50,7 @@ const MAX_KINDS: usize = 5;
 
 impl RowCounts {
     /// Counts a row of another kind.
-    pub(super) fn leave_kind(&mut self, kind: &str) {
+    pub(in crate::verify) fn leave_kind(&mut self, kind: &str) {
         self.other_kinds += 1;
         if self.kinds.len() < MAX_KINDS && !self.kinds.contains(kind) {
             self.kinds.insert(kind.chars().take(40).collect());
@@ -123,43 +123,40 @@ impl RowCounts {
 impl fmt::Display for RowCounts {
     /// Writes what was left out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let plural = |count: u64, one: &str, many: &str| match count {
-            0 => None,
-            1 => Some(format!("1 {one}")),
-            count => Some(format!("{count} {many}")),
-        };
-        let lines = |count: u64, first: Option<u64>, one: &str, many: &str| {
-            let line = first?;
-            Some(match count {
-                1 => format!("1 {one} (line {line})"),
-                _ => format!("{count} {many} (from line {line} on)"),
-            })
-        };
-        let parts = [
-            plural(
+        let above = "of numbers above the table";
+        let counts = [
+            (
                 self.other_kinds,
-                "row of another kind",
-                "rows of other kinds",
+                None,
+                "row",
+                "of another kind",
+                "of other kinds",
             ),
-            plural(
+            (
                 self.other_steps,
-                "row of another step",
-                "rows of other steps",
+                None,
+                "row",
+                "of another step",
+                "of other steps",
             ),
-            plural(
+            (
                 self.commented,
-                "comment that looks like a row",
-                "comments that look like rows",
+                None,
+                "comment",
+                "that looks like a row",
+                "that look like rows",
             ),
-            lines(self.text, self.first_text, "line of text", "lines of text"),
-            lines(
-                self.above,
-                self.first_above,
-                "line of numbers above the table",
-                "lines of numbers above the table",
-            ),
+            (self.text, self.first_text, "line", "of text", "of text"),
+            (self.above, self.first_above, "line", above, above),
         ];
-        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        let parts = counts.into_iter().filter(|(count, ..)| *count > 0);
+        let parts = parts.map(|(count, line, what, of_one, of_many)| match (count, line) {
+            (1, None) => format!("1 {what} {of_one}"),
+            (1, Some(line)) => format!("1 {what} {of_one} (line {line})"),
+            (_, None) => format!("{count} {what}s {of_many}"),
+            (_, Some(line)) => format!("{count} {what}s {of_many} (from line {line} on)"),
+        });
+        let parts: Vec<String> = parts.collect();
         f.write_str(&parts.join(", "))
     }
 }

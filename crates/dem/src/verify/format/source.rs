@@ -62,6 +62,13 @@ impl<'r> Source<'r> {
         let rest = BufReader::with_capacity(1 << 16, self.rest);
         Cursor::new(self.sample).chain(rest)
     }
+
+    /// Returns all bytes in memory.
+    pub(in crate::verify) fn bytes(self) -> Result<Vec<u8>, Refusal> {
+        let mut bytes = Vec::new();
+        self.all().read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
 }
 
 /// Returns the encoding of a text in UTF-16, which begins with a byte order mark or has zeros beside ASCII.
@@ -177,10 +184,7 @@ mod tests {
     }
 
     fn all(bytes: &[u8]) -> Vec<u8> {
-        let mut all = Vec::new();
-        let source = Source::open(bytes, None).unwrap();
-        source.all().read_to_end(&mut all).unwrap();
-        all
+        Source::open(bytes, None).unwrap().bytes().unwrap()
     }
 
     #[test]
@@ -207,10 +211,7 @@ mod tests {
         }
         let cut = gzip(bytes);
         let cut = cut.get(..cut.len() / 2).unwrap();
-        let read = Source::open(cut, None).and_then(|source| {
-            let mut all = Vec::new();
-            Ok(source.all().read_to_end(&mut all).map(drop)?)
-        });
+        let read = Source::open(cut, None).and_then(Source::bytes);
         assert!(matches!(read, Err(Refusal::Io(_))));
     }
 

@@ -7,6 +7,7 @@ use super::super::kind::FileKind;
 use super::super::refusal::Refusal;
 use super::legacy;
 use super::piece::Piece;
+use super::refused;
 use super::xml::{self, File};
 use crate::error::quoted;
 
@@ -45,7 +46,7 @@ pub(super) fn gather<'b>(
         let names: Vec<&str> = named.iter().map(|file| file.path.as_str()).collect();
         return Err(refused(format!(
             "the contacts are in other files: give {} instead",
-            listed(&names)
+            shortened(&names)
         )));
     };
     let mut leaves = Vec::new();
@@ -194,19 +195,4 @@ fn within(name: &str, refusal: Refusal) -> Refusal {
         Refusal::Io(error) => refused(format!("{}: {error}", quoted(name))),
         other => other,
     }
-}
-
-/// Returns quoted names, the first few of many.
-fn listed(names: &[&str]) -> String {
-    const SHOWN: usize = 4;
-    let shown = names.iter().take(SHOWN).map(|name| quoted(name));
-    let list = shown.collect::<Vec<_>>().join(", ");
-    match names.len().saturating_sub(SHOWN) {
-        0 => list,
-        more => format!("{list} and {more} more"),
-    }
-}
-
-fn refused(reason: impl Into<String>) -> Refusal {
-    Refusal::Vtk(reason.into())
 }

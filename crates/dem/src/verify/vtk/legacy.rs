@@ -8,6 +8,7 @@ use super::super::refusal::Refusal;
 use super::array::{Array, Source};
 use super::coding::Coding;
 use super::piece::{CONNECTIVITY, INTERLEAVED, OFFSETS, Piece, Section, TYPES};
+use super::refused;
 use super::words::{Words, cut, number};
 use crate::error::quoted;
 
@@ -230,7 +231,7 @@ impl<'f> Legacy<'f> {
     fn more_numbers(&mut self, kind: &str, count: usize) -> Result<&'f [u8], Refusal> {
         let begin = self.words.rest;
         match (self.is_binary, kind) {
-            (true, "String") => {
+            (true, "string") => {
                 for _ in 0..count {
                     let length = self.words.string_length()?;
                     self.words.take(length)?;
@@ -241,7 +242,7 @@ impl<'f> Legacy<'f> {
                 let bytes = bits.map(|bits| bits.div_ceil(8));
                 self.words.take(bytes.ok_or_else(cut)?)?;
             }
-            (false, "String") => {
+            (false, "string") => {
                 // The first string is on the next line.
                 self.words.line();
                 for _ in 0..count {
@@ -262,7 +263,7 @@ impl<'f> Legacy<'f> {
         begin.get(..length).ok_or_else(cut)
     }
 
-    /// Returns a number type, by its name in XML.
+    /// Returns a number type, by its name in XML. Texts keep the name of legacy files, whose form differs.
     fn kind(&mut self) -> Result<&'static str, Refusal> {
         let word = String::from_utf8_lossy(self.words.word()?).to_ascii_lowercase();
         Ok(match &*word {
@@ -277,7 +278,7 @@ impl<'f> Legacy<'f> {
             "unsigned_long" | "vtktypeuint64" => "UInt64",
             "float" => "Float32",
             "double" => "Float64",
-            "string" => "String",
+            "string" => "string",
             "variant" => "Variant",
             other => {
                 return Err(refused(format!(
@@ -298,8 +299,4 @@ fn bits(kind: &str) -> usize {
         "Int32" | "UInt32" | "Float32" => 32,
         _ => 64,
     }
-}
-
-fn refused(reason: impl Into<String>) -> Refusal {
-    Refusal::Vtk(reason.into())
 }

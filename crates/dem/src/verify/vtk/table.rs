@@ -16,6 +16,11 @@ use super::values::Values;
 /// The largest number of components that are columns.
 const MOST_COMPONENTS: usize = 16;
 
+/// The flags of cells and points. The first bit marks a ghost: a copy of one in another piece.
+const GHOSTS: &str = "vtkGhostType";
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// A column of a table.
 struct Column {
     name: String,
@@ -40,7 +45,13 @@ pub(super) fn read(
     let header = Header::find(Some(&names), names.len(), &format.columns, format.identity);
     let header = header.map_err(|fault| fault.at(1))?;
     let mut decoded = BTreeMap::new();
-    for column in header.columns().filter_map(|column| columns.get(column)) {
+    // A line may begin at a ghost without being one.
+    let ghosts = columns.iter().find(|column| {
+        let is_of_rows = rows == Rows::Points || column.section == Section::CellData;
+        is_of_rows && column.name == GHOSTS
+    });
+    let needed = header.columns().filter_map(|column| columns.get(column));
+    for column in needed.chain(ghosts) {
         if let Entry::Vacant(place) = decoded.entry((column.section, column.array)) {
             place.insert(values(piece, column)?);
         }
@@ -50,6 +61,11 @@ pub(super) fn read(
     let (mut text, mut ends) = (String::new(), Vec::new());
     for row in piece.rows(rows, *line)? {
         *line += 1;
+        let flags = ghosts.and_then(|column| array(column)?.0.integer(column.place(&row, 1)?));
+        if flags.is_some_and(|flags| flags & 1 == 1) {
+            sink.rows.leave_kind("ghost");
+            continue;
+        }
         text.clear();
         ends.clear();
         for (column, array) in columns.iter().zip(&arrays) {
@@ -99,44 +115,27 @@ fn columns(piece: &Piece<'_>, rows: Rows) -> Result<Vec<Column>, Refusal> {
             });
         }
     };
-    let axes = || ["x", "y", "z"].into_iter().enumerate();
     let ends: &[_] = match rows {
         Rows::Points => &[("", false)],
         _ => &[("1", false), ("2", true)],
     };
     for (end, is_second) in ends {
-        for (component, axis) in axes() {
-            push(
-                format!("{axis}{end}"),
-                Section::Points,
-                0,
-                component,
-                *is_second,
-            );
+        for (component, axis) in AXES.iter().enumerate() {
+            let name = format!("{axis}{end}");
+            push(name, Section::Points, 0, component, *is_second);
         }
     }
     let of_cells = (piece.cell_count()? > 0).then_some(Section::CellData);
     for section in of_cells.into_iter().chain([Section::PointData]) {
         for (place, array) in piece.arrays(section).iter().enumerate() {
-            match array.components {
-                1 => push(array.name.clone(), section, place, 0, false),
-                3 => {
-                    for (component, axis) in axes() {
-                        push(
-                            format!("{}_{axis}", array.name),
-                            section,
-                            place,
-                            component,
-                            false,
-                        );
-                    }
-                }
-                components => {
-                    for component in 0..components.min(MOST_COMPONENTS) {
-                        let name = format!("{}_{component}", array.name);
-                        push(name, section, place, component, false);
-                    }
-                }
+            for component in 0..array.components.min(MOST_COMPONENTS) {
+                let name = &array.name;
+                let name = match (array.components, AXES.get(component)) {
+                    (1, _) => name.clone(),
+                    (3, Some(axis)) => format!("{name}_{axis}"),
+                    _ => format!("{name}_{component}"),
+                };
+                push(name, section, place, component, false);
             }
         }
     }

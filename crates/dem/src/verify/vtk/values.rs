@@ -1,16 +1,18 @@
 //! The numbers of an array.
 
 use core::fmt::Write;
+use core::str::FromStr;
 
 use cannonpile::engine::refuse_beyond_memory;
 
 use super::coding::{MOST, Order};
 use crate::Error;
 
-/// The numbers of an array.
+/// The numbers or texts of an array.
 pub(super) enum Values {
     Floats(Vec<f64>),
     Integers(Vec<i64>),
+    Texts(Vec<String>),
 }
 
 impl Values {
@@ -18,10 +20,11 @@ impl Values {
         match self {
             Self::Floats(values) => values.len(),
             Self::Integers(values) => values.len(),
+            Self::Texts(values) => values.len(),
         }
     }
 
-    /// Appends the n-th number to `text`, in a form that parses to the same number. Returns `None` beyond the end.
+    /// Appends the n-th value to `text`. A number parses to the same number. Returns `None` beyond the end.
     pub(super) fn write(&self, n: usize, text: &mut String) -> Option<()> {
         // The shortest floats that are integers beyond this one have zeros in place of digits.
         const LARGEST: f64 = 1e15;
@@ -33,6 +36,7 @@ impl Values {
                 x => write!(text, "{x:?}"),
             },
             Self::Integers(values) => write!(text, "{}", values.get(n)?),
+            Self::Texts(values) => write!(text, "{}", values.get(n)?),
         };
         Some(())
     }
@@ -40,30 +44,45 @@ impl Values {
     /// Returns the numbers if their type is an integer type.
     pub(super) fn integers(self) -> Option<Vec<i64>> {
         match self {
-            Self::Floats(_) => None,
             Self::Integers(values) => Some(values),
+            Self::Floats(_) | Self::Texts(_) => None,
         }
     }
 
-    /// Reads numbers in text.
+    /// Returns the n-th number if the type is an integer type.
+    pub(super) fn integer(&self, n: usize) -> Option<i64> {
+        match self {
+            Self::Integers(values) => values.get(n).copied(),
+            Self::Floats(_) | Self::Texts(_) => None,
+        }
+    }
+
+    /// Returns texts, each of which ends with a zero.
+    fn texts(bytes: &[u8]) -> Self {
+        let texts = bytes
+            .strip_suffix(b"\0")
+            .unwrap_or(bytes)
+            .split(|byte| *byte == 0);
+        Self::Texts(
+            texts
+                .map(|text| String::from_utf8_lossy(text).into_owned())
+                .collect(),
+        )
+    }
+
+    /// Reads numbers in text. VTK's XML writes texts as the numbers of their bytes, and legacy files as lines.
     pub(super) fn of_text(kind: &str, text: &[u8]) -> Result<Self, String> {
         let text = core::str::from_utf8(text).map_err(|_| "its numbers are not text".to_owned())?;
-        let words = text.split_ascii_whitespace();
         match kind {
-            "Float32" | "Float64" => {
-                let numbers = words.map(|word| word.parse().map_err(|_| word));
-                let numbers: Result<_, &str> = numbers.collect();
-                numbers
-                    .map(Self::Floats)
-                    .map_err(|word| Error::syntax(word, "a number").to_string())
-            }
+            "Float32" | "Float64" => numbers(text, "a number").map(Self::Floats),
             "Int8" | "UInt8" | "Int16" | "UInt16" | "Int32" | "UInt32" | "Int64" | "UInt64" => {
-                let numbers = words.map(|word| word.parse().map_err(|_| word));
-                let numbers: Result<_, &str> = numbers.collect();
-                numbers
-                    .map(Self::Integers)
-                    .map_err(|word| Error::syntax(word, "a whole number").to_string())
+                numbers(text, "a whole number").map(Self::Integers)
             }
+            "String" => Ok(Self::texts(&numbers(text, "the number of a byte")?)),
+            // The first text is on the next line.
+            "string" => Ok(Self::Texts(
+                text.lines().skip(1).map(str::to_owned).collect(),
+            )),
             other => Err(unknown(other)),
         }
     }
@@ -104,15 +123,25 @@ impl Values {
             "UInt32" => numbers!(u32, Integers, i64),
             "Int64" => numbers!(i64, Integers, i64),
             "UInt64" => numbers!(u64, Integers, i64),
+            "String" => Self::texts(bytes),
             other => return Err(unknown(other)),
         })
     }
 }
 
+/// Parses the numbers in a text.
+fn numbers<T: FromStr>(text: &str, expected: &'static str) -> Result<Vec<T>, String> {
+    let words = text.split_ascii_whitespace();
+    let numbers = words.map(|word| word.parse().map_err(|_| Error::syntax(word, expected)));
+    numbers
+        .collect::<Result<_, _>>()
+        .map_err(|error| error.to_string())
+}
+
 fn unknown(kind: &str) -> String {
     Error::syntax(
         kind,
-        "one of the types Float32, Float64 and integers of 8 to 64 bits",
+        "one of the types Float32, Float64, String and integers of 8 to 64 bits",
     )
     .to_string()
 }

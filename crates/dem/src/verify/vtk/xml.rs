@@ -13,6 +13,7 @@ use super::super::refusal::Refusal;
 use super::array::{Array, Source};
 use super::coding::Coding;
 use super::piece::{Piece, Section};
+use super::refused;
 use crate::error::quoted;
 
 /// The content of a file.
@@ -66,7 +67,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Document<'_>, Refusal> {
                         break;
                     }
                     b"Piece" | b"DataSet" => document.begin(&attributes(&tag)?),
-                    b"DataArray" => {
+                    // Texts are in the element Array.
+                    b"DataArray" | b"Array" => {
                         if let (Some((section, _)), None) = (section, &array) {
                             array = Some(OpenArray {
                                 section,
@@ -263,8 +265,4 @@ fn html() -> Refusal {
 
 fn invalid(error: &impl ToString) -> Refusal {
     refused(format!("not valid XML: {}", quoted(&error.to_string())))
-}
-
-fn refused(reason: impl Into<String>) -> Refusal {
-    Refusal::Vtk(reason.into())
 }

@@ -91,11 +91,11 @@ fn files_without_readable_contacts_are_refused() {
         ),
         (
             table!("pvtp/in.pvtp"),
-            "the contacts are in other files: give part0.vtp instead",
+            "the contacts are in other files: give 'part0.vtp' instead",
         ),
         (
             table!("pvtu-of-lethe/in.pvtu"),
-            "the contacts are in other files: give chains.00000.vtu, chains.00001.vtu instead",
+            "the contacts are in other files: give 'chains.00000.vtu', 'chains.00001.vtu' instead",
         ),
         (
             table!("xml-that-is-no-vtk/in.xml"),

@@ -51,6 +51,61 @@ fn poly_data(attributes: &str, others: &str, force: &str) -> String {
     )
 }
 
+/// Returns the number of rows that are read, and what was left out.
+fn by_columns(file: &[u8], columns: &str) -> Result<(u64, String), String> {
+    let reader = Reader::new().with_columns(columns.parse().unwrap());
+    let read = read(&reader, file).map_err(|refusal| refusal.to_string())?;
+    Ok((read.rows.used, read.rows.to_string()))
+}
+
+#[test]
+fn texts_are_kinds_of_contacts() {
+    // The numbers of the bytes, and the bytes after their number.
+    let text = array("String", "type", "83 83 0 83 77 0 83 83 0").replace("DataArray", "Array");
+    let binary =
+        "<Array type=\"String\" Name=\"type\" format=\"binary\">CQAAAFNTAFNNAFNTAA==</Array>";
+    let xml =
+        |kind: &str| poly_data("", "", FORCE).replace("<CellData>", &format!("<CellData>{kind}"));
+    let legacy = "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 1 1 0 0 -1 1 0 -1 -1 0\n\
+                  LINES 3 9\n2 0 1 2 0 2 2 0 3\nCELL_DATA 3\nFIELD FieldData 4\ntype 1 3 string\nSS\nSM\nSS\n\
+                  id1 1 3 int\n1 1 1\nid2 1 3 int\n2 3 4\nforce 1 3 double\n0.5 0.5 0.5\n";
+    for file in [xml(&text), xml(binary), legacy.to_owned()] {
+        let read = by_columns(file.as_bytes(), "kind=type:SS");
+        assert_eq!(read, Ok((2, "1 row of another kind".into())), "{file}");
+    }
+}
+
+#[test]
+fn ghosts_are_left_out() {
+    let ghosts = |values: &str| {
+        let ghosts = array("UInt8", "vtkGhostType", values);
+        poly_data("", "", FORCE).replace("<CellData>", &format!("<CellData>{ghosts}"))
+    };
+    // Other bits do not mark ghosts.
+    assert_eq!(forces(&ghosts("0 2 0")).unwrap().len(), 3);
+    let read = by_columns(ghosts("1 0 3").as_bytes(), "force=force");
+    assert_eq!(read, Ok((1, "2 rows of other kinds".into())));
+    // A line from a ghost to a sphere of the piece is one of its contacts.
+    let points = array("UInt8", "vtkGhostType", "1 0 0 0");
+    let file = poly_data("", "", FORCE).replace(
+        "<Points>",
+        &format!("<PointData>{points}</PointData><Points>"),
+    );
+    assert_eq!(forces(&file).unwrap().len(), 3);
+}
+
+#[test]
+fn xml_in_utf_16_is_read() {
+    let file =
+        "<?xml version=\"1.0\" encoding=\"UTF-16\"?>\n".to_owned() + &poly_data("", "", FORCE);
+    for mark in [Some(0xfeff), None] {
+        let units = mark.into_iter().chain(file.encode_utf16());
+        let bytes: Vec<u8> = units.flat_map(u16::to_le_bytes).collect();
+        let read = by_columns(&bytes, "force=force");
+        assert_eq!(read, Ok((3, String::new())));
+    }
+}
+
 /// The forces of the rows that are read by the numbers of the spheres.
 fn forces(file: &str) -> Result<Vec<f64>, String> {
     let reading = verify::read(file.as_bytes()).map_err(|refusal| refusal.to_string())?;
@@ -125,7 +180,7 @@ fn arrays_have_a_value_for_each_cell_or_point() {
 #[test]
 fn what_is_not_needed_is_not_decoded() {
     let others = [
-        array("String", "title", "112 0"),
+        array("String", "title", "112 0").replace("DataArray", "Array"),
         array("Bit", "flag", "1 0 1"),
         array("Float64", "vel", "-nan(ind) 1 x"),
         array("Float128", "wide", "?"),
@@ -150,7 +205,8 @@ fn what_is_not_needed_is_not_decoded() {
         "array Points: 2 values for 0 points of 3 components"
     );
     for (name, said) in [
-        ("title", "array title: 'String' is not one of the types"),
+        ("title", "array title: 1 values for 3 cells of 1 component"),
+        ("wide", "array wide: 'Float128' is not one of the types"),
         ("flag", "array flag: 'Bit' is not one of the types"),
         ("vel", "array vel: '-nan(ind)' is not a number"),
         ("gone", "array gone: it is not in the appended data"),
