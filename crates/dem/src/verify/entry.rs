@@ -146,6 +146,20 @@ impl Force {
         }
     }
 
+    /// Refuses a force that is infinite or NaN.
+    pub(super) fn refuse_infinite(self) -> Result<(), Fault> {
+        let (along, [x, y, z]) = match self {
+            Self::Along(along) => (along, [0.0; 3]),
+            Self::Vector(vector) => (0.0, vector),
+            Self::Both(along, vector) => (along, vector),
+        };
+        let mut numbers = [("force", along), ("fx", x), ("fy", y), ("fz", z)].into_iter();
+        match numbers.find(|(_, x)| !x.is_finite()) {
+            Some((column, value)) => Err(Fault::NotFinite { column, value }),
+            None => Ok(()),
+        }
+    }
+
     /// Returns the largest absolute value among the magnitude and the components of the vector.
     pub(super) fn magnitude(self) -> f64 {
         let greatest =

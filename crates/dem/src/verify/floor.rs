@@ -118,24 +118,18 @@ impl Floor {
     }
 
     /// Returns the first number beyond the last sphere, with its line, if these numbers are the spheres of a higher
-    /// pile instead of walls. Each of them touches at most `directions` spheres above.
-    pub(super) fn sphere_below(&self, spheres: u64, directions: usize) -> Option<(i128, u64)> {
+    /// pile instead of walls. Each of them touches at most `directions` spheres above, and one of these touches several.
+    pub(super) fn sphere_below(&self, directions: usize) -> Option<(i128, u64)> {
         let mut touched = BTreeMap::new();
-        for ((_, wall), contact) in &self.contacts {
-            let wall = (*wall)?;
-            if wall <= 0 {
-                return None;
-            }
-            if wall > i128::from(spheres) {
-                let (count, line) = touched.entry(wall).or_insert((0, contact.line));
-                *count += 1;
-                *line = contact.line.min(*line);
-            }
+        for (_, wall) in self.contacts.keys() {
+            let wall = wall.filter(|wall| *wall > 0)?;
+            *touched.entry(wall).or_insert(0) += 1;
         }
-        let is_pile = touched.len() > 1 && touched.values().all(|(count, _)| *count <= directions);
-        let first = touched.into_iter().min_by_key(|(_, (_, line))| *line);
-        let (wall, (_, line)) = first.filter(|_| is_pile)?;
-        Some((wall, line))
+        let is_pile = touched.values().all(|count| *count <= directions)
+            && self.by_sphere().any(|(_, contacts)| contacts.len() > 1);
+        let contacts = self.contacts.iter();
+        let walls = contacts.filter_map(|((_, wall), contact)| Some(((*wall)?, contact.line)));
+        walls.min_by_key(|(_, line)| *line).filter(|_| is_pile)
     }
 
     /// Compares the forces with the exact ones of the floor.

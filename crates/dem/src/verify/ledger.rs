@@ -122,7 +122,7 @@ impl<'p> Ledger<'p> {
         if !self.is_at_bottom(sphere) {
             return Err(Fault::of_bug("the floor touches bottom spheres only"));
         }
-        refuse_infinite(on_sphere)?;
+        on_sphere.refuse_infinite()?;
         let is_repeated = self.floor.add_below(sphere, Normal::of(on_sphere), line);
         self.repeated += u64::from(is_repeated);
         Ok(())
@@ -141,7 +141,7 @@ impl<'p> Ledger<'p> {
         if first == second {
             return Err(Fault::OneSphere { id: first });
         }
-        refuse_infinite(Force::of(measured))?;
+        Force::of(measured).refuse_infinite()?;
         let measured = if first < second {
             *measured
         } else {
@@ -171,7 +171,7 @@ impl<'p> Ledger<'p> {
         let Some(sphere) = sphere.filter(|sphere| self.is_at_bottom(*sphere)) else {
             return no_sphere(wall);
         };
-        refuse_infinite(on_first)?;
+        on_first.refuse_infinite()?;
         let limit = self.limit();
         if self.floor.len() >= limit {
             return Err(Fault::TooMany { limit });
@@ -254,7 +254,7 @@ impl<'p> Ledger<'p> {
         with_balance: bool,
     ) -> Result<(Judged, Option<Unbalanced>), Refusal> {
         let directions = self.numbered.pile().dimension().directions().len();
-        if let Some((id, line)) = self.floor.sphere_below(self.spheres, directions) {
+        if let Some((id, line)) = self.floor.sphere_below(directions) {
             let (first, spheres) = (1, self.spheres);
             return Err(Fault::NoSuchSphere { id, first, spheres }.at(line));
         }
@@ -298,21 +298,6 @@ impl<'p> Ledger<'p> {
         judged.add_floor(floor);
         judged.repeated = self.repeated;
         Ok((judged, balance.map(Balance::close)))
-    }
-}
-
-/// Refuses a force that is infinite or NaN.
-fn refuse_infinite(force: Force) -> Result<(), Fault> {
-    let (along, vector) = match force {
-        Force::Along(along) => (along, [0.0; 3]),
-        Force::Vector(vector) => (0.0, vector),
-        Force::Both(along, vector) => (along, vector),
-    };
-    let [x, y, z] = vector;
-    let mut numbers = [("force", along), ("fx", x), ("fy", y), ("fz", z)].into_iter();
-    match numbers.find(|(_, x)| !x.is_finite()) {
-        Some((column, value)) => Err(Fault::NotFinite { column, value }),
-        None => Ok(()),
     }
 }
 

@@ -68,18 +68,12 @@ impl Placed {
 
     /// Returns the measurement as a row of a table, if all its numbers are finite.
     fn entry(&self) -> Result<Entry, Fault> {
-        let points = self.place.points();
-        let (force, vector) = match self.force {
-            Force::Along(force) => (Some(force), None),
-            Force::Vector(vector) => (None, Some(vector)),
-            Force::Both(force, vector) => (Some(force), Some(vector)),
-        };
-        let coordinates = points.iter().flatten().map(|x| ("a coordinate", *x));
-        let forces = force.into_iter().chain(vector.into_iter().flatten());
-        let mut numbers = coordinates.chain(forces.map(|x| ("force", x)));
-        if let Some((column, value)) = numbers.find(|(_, x)| !x.is_finite()) {
+        let mut coordinates = self.place.points().iter().flatten().copied();
+        if let Some(value) = coordinates.find(|x| !x.is_finite()) {
+            let column = "a coordinate";
             return Err(Fault::NotFinite { column, value });
         }
+        self.force.refuse_infinite()?;
         Ok(Entry {
             spheres: Spheres::Places(self.place),
             force: self.force,

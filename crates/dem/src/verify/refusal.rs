@@ -286,6 +286,8 @@ impl fmt::Display for Fault {
                 )?;
                 if *id >= 0 && *id == first - 1 {
                     write!(f, "; if the table counts from {id}, use --first-id {id}")?;
+                } else if *id > last {
+                    f.write_str("; does the table have more layers, or several numbers for one wall?")?;
                 }
                 Ok(())
             }
@@ -475,8 +477,8 @@ impl Fault {
     /// ```
     /// use cannonpile_dem::verify::Fault;
     ///
-    /// let fault = Fault::NoSuchSphere { id: 11, first: 1, spheres: 10 };
-    /// let said = "no sphere 10: the spheres of this scene are numbered 0 to 9, from the top";
+    /// let fault = Fault::NoSuchSphere { id: 0, first: 1, spheres: 10 };
+    /// let said = "no sphere -1: the spheres of this scene are numbered 0 to 9, from the top";
     /// assert_eq!(fault.renumbered(0).to_string(), said);
     /// ```
     #[must_use]

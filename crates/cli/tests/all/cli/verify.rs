@@ -234,7 +234,7 @@ fn usage_errors_are_one_line() {
         (format!("verify {}", bad.path()), format!("error: FILE: {}, line 2: force 'one' is not a number such as 0.46 or 1e-3\n", bad.path())),
         (
             format!("verify {} --layers 3", beyond.path()),
-            format!("error: FILE: {}, line 2: no sphere 99: the spheres of this scene are numbered 1 to 10, from the top\n", beyond.path()),
+            format!("error: FILE: {}, line 2: no sphere 99: the spheres of this scene are numbered 1 to 10, from the top; does the table have more layers, or several numbers for one wall?\n", beyond.path()),
         ),
         (
             "verify no/such.csv".into(),

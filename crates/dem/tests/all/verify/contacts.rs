@@ -386,6 +386,25 @@ fn the_vertical_forces_of_several_walls_are_added_up() {
 }
 
 #[test]
+fn each_contact_with_the_floor_may_have_a_number_of_its_own() {
+    for pile in piles() {
+        let packing = packing(&pile, ratio(6, 5));
+        let spheres = u64::try_from(pile.sphere_count()).unwrap();
+        let walls = (spheres + 1..).zip(on_floor(&packing));
+        let walls: Vec<_> = walls
+            .map(|(wall, (id, normal))| Measured::new([id, wall], normal))
+            .collect();
+        let mut rows = [perfect(&packing), walls.clone()].concat();
+        let comparison = compare(&packing, &rows);
+        assert!(comparison.accepted(0.0), "{comparison}");
+        assert_eq!(comparison.floor(), walls.len() as u64);
+        let last = rows.last_mut().unwrap();
+        last.force += 0.5 * comparison.largest_force().max(1.0);
+        assert!(!compare(&packing, &rows).accepted(1e-3));
+    }
+}
+
+#[test]
 fn only_bottom_spheres_touch_walls() {
     let pile = Pile::triangular(3).unwrap();
     let packing = packing(&pile, ratio(6, 5));
@@ -474,7 +493,9 @@ fn errors_have_the_numbers_of_the_table() {
     let ten = "the spheres of this scene are numbered 0 to 9, from the top";
     assert_eq!(
         read(0, "3,10,0.4\n"),
-        format!("line 2: no sphere 10: {ten}")
+        format!(
+            "line 2: no sphere 10: {ten}; does the table have more layers, or several numbers for one wall?"
+        )
     );
     assert_eq!(
         read(0, "3,-1,0.4\n"),

@@ -270,7 +270,9 @@ fn rows_that_do_not_match_the_pile_name_the_line() {
     for (text, want) in [
         (
             "id1,id2,force\n\n1,5,1\n",
-            format!("line 3: no sphere 5: {spheres}"),
+            format!(
+                "line 3: no sphere 5: {spheres}; does the table have more layers, or several numbers for one wall?"
+            ),
         ),
         (
             "id1,id2,force\n2,2,1\n",
