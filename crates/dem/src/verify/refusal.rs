@@ -347,7 +347,7 @@ impl Fault {
                 second,
             } => write!(
                 f,
-                "two columns, {first} and {second}, for {column}: leave one out"
+                "two columns, {first} and {second}, for {column}: choose one with --columns {column}=#N"
             ),
             Self::NoHeader { columns } => write!(
                 f,

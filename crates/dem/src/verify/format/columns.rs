@@ -75,6 +75,12 @@ impl Quantity {
         }
     }
 
+    /// Returns whether a column with this name contains the quantity.
+    pub(super) fn is_named(self, name: &str) -> bool {
+        let mut names = self.names().iter();
+        names.any(|known| known.eq_ignore_ascii_case(name))
+    }
+
     /// Returns whether the quantity is one column, never a sum: the number of a sphere, or a step.
     const fn is_one_column(self) -> bool {
         matches!(self, Self::Id1 | Self::Id2 | Self::Step)
@@ -109,7 +115,7 @@ impl Quantity {
 /// * `fx=#10+#13` adds a normal and a tangential part.
 /// * `force=1e7*overlap` is the force of a linear spring of 10⁷ N/m.
 ///
-/// A quantity that is not mapped is read from the column with its own name. For LAMMPS, `patom1`, `patom2`, `natom1`
+/// A quantity that is not mapped is read from the column with its own name, in capital or small letters. For LAMMPS, `patom1`, `patom2`, `natom1`
 /// and `natom2` also stand for the numbers of the spheres. A column name that begins with - or contains a * needs its
 /// factor: `force=1*a*b`. A name that contains a comma is quoted: `force="Force, normal"`. A + in a name is read as a
 /// sum if the table has columns with the names of its parts.

@@ -62,7 +62,7 @@ impl Header {
         let names = names.unwrap_or(&[]);
         let is_mapped = |quantity: &Quantity| columns.terms(*quantity).is_some();
         let is_there = |quantity: &Quantity| {
-            let named = || names.iter().any(|name| quantity.names().contains(name));
+            let named = || names.iter().any(|name| quantity.is_named(name));
             is_mapped(quantity) || named()
         };
         for quantity in header.needed(is_there, is_mapped) {
@@ -374,13 +374,20 @@ fn whole(terms: &[Term], names: &[&str]) -> Option<Vec<(usize, f64)>> {
     (!is_sum).then(|| vec![(place, terms.first().map_or(1.0, |term| term.factor))])
 }
 
-/// Finds the column with one of the usual names of a quantity.
+/// Finds the column with one of the usual names of a quantity. Names in other capital or small letters count if no column
+/// has the name itself.
 fn usual(quantity: Quantity, names: &[&str]) -> Result<Vec<(usize, f64)>, Fault> {
-    let known = quantity.names();
-    let mut places = (0..).zip(names).filter(|(_, name)| known.contains(name));
-    match (places.next(), places.next()) {
-        (Some((_, first)), Some((_, second))) => Err(twice(quantity, first, second)),
-        (first, _) => Ok(first.map(|(place, _)| (place, 1.0)).into_iter().collect()),
+    let places = |is_name: &dyn Fn(&str) -> bool| {
+        let places = (0..).zip(names).filter(|(_, name)| is_name(name));
+        places.collect::<Vec<_>>()
+    };
+    let mut found = places(&|name| quantity.names().contains(&name));
+    if found.is_empty() {
+        found = places(&|name| quantity.is_named(name));
+    }
+    match found[..] {
+        [(_, first), (_, second), ..] => Err(twice(quantity, first, second)),
+        _ => Ok(found.iter().map(|(place, _)| (*place, 1.0)).collect()),
     }
 }
 

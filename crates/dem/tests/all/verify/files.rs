@@ -26,6 +26,8 @@ fn columns_are_found_by_name() {
         "id1,id2,force\r\n1,2,0.5\r\n3,1,2e-7\r\n",
         "\u{feff}id1,id2,force\n1,2,0.5\n\n3,1,2e-7\n\n",
         "\n  \nforce,id2,x,id1,y\n.5,2,a,1,b\n0.0000002,1,,3,\n",
+        "ID1,Id2,FORCE\n1,2,0.5\n3,1,2e-7\n",
+        "ID1,id1,id2,Force,force\nx,1,2,x,0.5\nx,3,1,x,2e-7\n",
         "\"id1\",\"id2\",\"force\"\n\"1\",\"2\",\"0.5\"\n\"3\",\"1\",\"2E-7\"\n",
         "note,id1,id2,force\n\"a, \"\"b\"\"\",1,2,5e-1\n,3,1,2.0e-07\n",
         " id1 , id2 , force \n 1 , 2 , +0.5 \n 003 , 1 , 20e-8 \n",
@@ -75,8 +77,8 @@ fn unusable_headers_are_rejected() {
             "line 1: there is no header above the 3 columns: name them by number, such as id1=#1,id2=#2,force=#3".into(),
         ),
         (
-            "ID1,id2,force\n",
-            format!("line 1: no column id1, only 'ID1', 'id2', 'force': {columns}"),
+            "ID1,Id1,id2,force\n",
+            "line 1: two columns, 'ID1' and 'Id1', for id1: choose one with --columns id1=#N".into(),
         ),
         (
             "id1,id2,fx,fz\n",
@@ -84,11 +86,11 @@ fn unusable_headers_are_rejected() {
         ),
         (
             "id1,id2,force,force\n",
-            "line 1: two columns, 'force' and 'force', for force: leave one out".into(),
+            "line 1: two columns, 'force' and 'force', for force: choose one with --columns force=#N".into(),
         ),
         (
             "id1,patom1,id2,force\n",
-            "line 1: two columns, 'id1' and 'patom1', for id1: leave one out".into(),
+            "line 1: two columns, 'id1' and 'patom1', for id1: choose one with --columns id1=#N".into(),
         ),
     ] {
         assert_eq!(refused(text), want);
