@@ -171,8 +171,18 @@ pub enum Fault {
         /// The distance of the nearest sphere from its exact position, in radii.
         nearest: f64,
     },
-    /// A quoted field does not end on its line, or its quote is followed by other text.
+    /// A quoted cell does not end on its line, and there are numbers behind its quote.
     Quote,
+    /// All commas of numbers may be decimal signs or separate thousands.
+    Thousands {
+        /// The first such number, in quotes.
+        number: String,
+    },
+    /// In rows without a header, numbers may be cut in two at their decimal commas.
+    CutNumber {
+        /// The first such number, in quotes.
+        number: String,
+    },
     /// A line is too long for a row of a table.
     LongLine {
         /// The largest accepted length, in bytes.
@@ -305,7 +315,17 @@ impl fmt::Display for Fault {
                 ids: [a, b],
                 first: None,
             } => write!(f, "spheres {a} and {b} are already listed: {ONCE}{STEPS}"),
-            Self::Quote => f.write_str("a quote does not end on its line: close it, or use --quote none"),
+            Self::Quote => f.write_str(
+                "a quote does not end on its line: close it, use --quote none, or begin the line with # if it is not a row",
+            ),
+            Self::Thousands { number } => write!(
+                f,
+                "the comma of {number} is a decimal sign or separates thousands: use --decimal comma, or leave out such commas"
+            ),
+            Self::CutNumber { number } => write!(
+                f,
+                "{number} is two cells or one number with a decimal comma: use --decimal point, or separate cells by semicolons"
+            ),
             Self::LongLine { limit } => write!(
                 f,
                 "longer than {limit} bytes: is this a table with one contact per line?"
@@ -399,8 +419,7 @@ impl Fault {
 const ONCE: &str = "list each pair once, or once in each order";
 
 /// The remedy for a table with several steps.
-const STEPS: &str =
-    "; if the table holds several steps, name their column with step=COLUMN in --columns";
+const STEPS: &str = "; if the table holds several steps, name their column with step=COLUMN in --columns, or leave one step";
 
 impl std::error::Error for Refusal {
     /// Returns the cause of the inner error. The text of the inner error is part of this message.

@@ -180,7 +180,7 @@ fn infinite_table_is_rejected_at_the_third_row_of_a_pair() {
     assert_eq!(
         String::from_utf8(output.stderr).expect("text"),
         "error: FILE: stdin, line 4: spheres 1 and 2 are already on line 2: list each pair once, or once in each order; if the \
-         table holds several steps, name their column with step=COLUMN in --columns\n"
+         table holds several steps, name their column with step=COLUMN in --columns, or leave one step\n"
     );
 }
 
@@ -259,6 +259,17 @@ fn usage_errors_are_one_line() {
                 && line.contains("not a relative error such as 1e-6, or 0"),
             "{line}"
         );
+    }
+    for (option, said) in [
+        ("--quote ab", "'ab' is not a sign such as # or \", or none"),
+        (
+            "--separator ab",
+            "'ab' is not a separator: one character, tab or blanks",
+        ),
+    ] {
+        let line = refusal(&format!("verify {good} {option}"));
+        let name = option.split(' ').next().expect("a name");
+        assert!(line.contains(name) && line.contains(said), "{line}");
     }
     assert!(refusal("verify").contains("<FILE>"));
     assert!(refusal(&format!("verify {good} --spacing 0.9")).starts_with("error: --spacing"));

@@ -1,45 +1,39 @@
 //! Lines cut into cells, the header and the rows in the same way.
 
-use crate::verify::refusal::Fault;
-
 use super::dialect::Separator;
 
-/// Cuts a line into its cells. Blanks around a cell and its quotes are removed.
+/// Cuts a line into its cells. Blanks around a cell and its quotes are removed. Also returns the position of the first cell
+/// whose quote does not end on the line.
 ///
-/// A quote counts at the beginning of a cell. A quote within the cell is doubled, and stays so here.
-pub(super) fn cut<'l>(
-    line: &'l str,
+/// A quote counts at the beginning of a cell. A quote within the cell is doubled, and stays so here. A quote that does not
+/// end is part of its cell.
+pub(super) fn cut(
+    line: &str,
     separator: Separator,
     quote: Option<char>,
-    cells: &mut Vec<&'l str>,
-) -> Result<(), Fault> {
-    cells.clear();
-    let mut rest = skip_blanks(line, separator);
-    if rest.is_empty() && separator == Separator::Blanks {
-        return Ok(());
-    }
-    loop {
-        let quoted = quote.and_then(|quote| rest.strip_prefix(quote).map(|rest| (quote, rest)));
-        let (cell, after) = match quoted {
-            None => separator.split(rest),
-            Some((quote, inside)) => {
-                let (cell, after) = unquoted(inside, quote).ok_or(Fault::Quote)?;
-                match separator.split(after) {
-                    (rest, after) if rest.trim().is_empty() => (cell, after),
-                    // Text after the quote: the quote is part of the cell.
-                    _ => separator.split(rest),
-                }
-            }
+) -> (Vec<&str>, Option<usize>) {
+    let (mut cells, mut open) = (Vec::new(), None);
+    let mut next = Some(line);
+    while let Some(rest) = next {
+        let rest = skip_blanks(rest, separator);
+        if rest.is_empty() && separator == Separator::Blanks {
+            break;
+        }
+        let quoted = quote.and_then(|quote| Some((quote, rest.strip_prefix(quote)?)));
+        let whole = quoted.and_then(|(quote, inside)| unquoted(inside, quote));
+        if quoted.is_some() && whole.is_none() {
+            open = open.or(Some(cells.len()));
+        }
+        let parts = whole.map(|(cell, after)| (cell, separator.split(after)));
+        let (cell, after) = match parts {
+            Some((cell, (between, after))) if between.trim().is_empty() => (cell, after),
+            // A quote with text behind it is part of the cell, too.
+            _ => separator.split(rest),
         };
         cells.push(cell.trim());
-        match after {
-            None => return Ok(()),
-            Some(after) => rest = skip_blanks(after, separator),
-        }
-        if rest.is_empty() && separator == Separator::Blanks {
-            return Ok(());
-        }
+        next = after;
     }
+    (cells, open)
 }
 
 /// Returns the text before the closing quote, and the text after it.
@@ -82,9 +76,8 @@ mod tests {
     use super::*;
 
     fn cells(line: &str, separator: Separator) -> Option<Vec<&str>> {
-        let mut cells = Vec::new();
-        cut(line, separator, Some('"'), &mut cells).ok()?;
-        Some(cells)
+        let (cells, open) = cut(line, separator, Some('"'));
+        open.is_none().then_some(cells)
     }
 
     #[test]
@@ -99,7 +92,8 @@ mod tests {
         ] {
             assert_eq!(cells(line, comma), Some(want), "{line}");
         }
-        assert_eq!(cells("1,\"2", comma), None);
+        assert_eq!(cut("1,\"2", comma, Some('"')), (vec!["1", "\"2"], Some(1)));
+        assert_eq!(cut("1,\"2", comma, None), (vec!["1", "\"2"], None));
         for (line, want) in [
             ("  1 \t2  \"a b\" 0.5 ", vec!["1", "2", "a b", "0.5"]),
             ("", vec![]),

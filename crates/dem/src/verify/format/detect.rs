@@ -8,9 +8,9 @@ use core::cmp::Reverse;
 use super::columns::Columns;
 use super::cut::cut;
 use super::dialect::{Dialect, DialectOptions, Separator, bare, behind_row, comment, uncommented};
-use super::header::{Header, Identity};
+use super::header::{Header, Identity, shortened};
 use super::lines::Lines;
-use super::number::{is_number, number};
+use super::number::{is_number, may_have_thousands, number};
 use crate::verify::refusal::{Fault, Refusal};
 
 /// The signs of comments in the tables of common programs.
@@ -115,12 +115,9 @@ impl Cutting {
     /// Cuts a sample, and returns `None` if it has no rows.
     #[expect(clippy::cast_precision_loss, reason = "counts of a sample")]
     fn of(sample: &Sample, separator: Separator, quote: Option<char>) -> Option<Self> {
-        let (mut rows, mut all, mut cells) = (Vec::new(), 0_usize, Vec::new());
-        let numbers_of = |text: &str| {
-            let mut cells = Vec::new();
-            let cut = cut(text, separator, quote, &mut cells);
-            cut.map_or(0, |()| count_numbers(&cells))
-        };
+        let (mut rows, mut all) = (Vec::new(), 0_usize);
+        let cells_of = |text| cut(text, separator, quote).0;
+        let numbers_of = |text| count_numbers(&cells_of(text));
         for (line, text) in sample.texts() {
             let text = match behind_row(text, &sample.comments) {
                 Some((row, comment))
@@ -130,9 +127,7 @@ impl Cutting {
                 }
                 _ => text,
             };
-            if cut(text, separator, quote, &mut cells).is_err() {
-                continue;
-            }
+            let cells = cells_of(text);
             all += cells.iter().filter(|cell| !cell.is_empty()).count();
             let row = Counts {
                 line,
@@ -148,17 +143,10 @@ impl Cutting {
         rows.retain(|row| row.cells == width);
         let first_row = rows.first()?.line;
         let sum = |count: fn(&Counts) -> usize| rows.iter().map(count).sum::<usize>();
-        let mut quoted = 0;
-        for (_, text, _) in sample.all() {
-            if cut(text, separator, quote, &mut cells).is_ok() {
-                quoted += cells.iter().filter(|cell| is_quoted(cell)).count();
-            }
-        }
+        let cells = sample.all().flat_map(|(_, text, _)| cells_of(text));
+        let quoted = cells.filter(|cell| is_quoted(cell)).count();
         let above = sample.above(first_row).next();
-        let header = above.map(|(_, text, _)| {
-            let cut = cut(text, separator, quote, &mut cells);
-            cut.map_or(0, |()| cells.len())
-        });
+        let header = above.map(|(_, text, _)| cells_of(text).len());
         Some(Self {
             separator,
             quote,
@@ -176,32 +164,53 @@ impl Cutting {
         let (separator, quote, width) = (self.separator, self.quote, self.width);
         let texts = sample.texts().filter(move |(line, _)| *line >= from);
         texts.filter_map(move |(line, text)| {
-            let mut cells = Vec::new();
-            cut(text, separator, quote, &mut cells).ok()?;
+            let (cells, _) = cut(text, separator, quote);
             let is_row = cells.len() == width && count_numbers(&cells) >= LEAST_NUMBERS;
             is_row.then_some((line, cells))
         })
     }
 
     /// Returns whether the numbers of the columns that are read have decimal commas, and none has a point.
-    fn has_decimal_commas(&self, sample: &Sample, header: &Header) -> bool {
-        let mut has_commas = false;
-        for (_, cells) in self.rows(sample, self.first_row) {
+    ///
+    /// # Errors
+    /// All commas may separate thousands.
+    fn has_decimal_commas(&self, sample: &Sample, header: &Header) -> Result<bool, Refusal> {
+        let (mut are_certain, mut unclear) = (false, None);
+        for (line, cells) in self.rows(sample, self.first_row) {
             for cell in header.numbers(&cells).filter(|cell| is_number(cell)) {
                 if cell.contains('.') && number(cell, false).is_some() {
-                    return false;
+                    return Ok(false);
                 }
-                has_commas |= cell.contains(',');
+                if may_have_thousands(cell) {
+                    let number = shortened(&[cell]);
+                    unclear.get_or_insert(Fault::Thousands { number }.at(line));
+                } else {
+                    are_certain |= cell.contains(',');
+                }
             }
         }
-        has_commas
+        unclear
+            .filter(|_| !are_certain)
+            .map_or(Ok(are_certain), Err)
+    }
+
+    /// Refuses rows without a header whose numbers may be cut at decimal commas.
+    fn refuse_cut_numbers(&self, sample: &Sample, header: &Header) -> Result<(), Refusal> {
+        let rows = self.rows(sample, self.first_row);
+        let mut rows = rows.map(|(line, cells)| Some((line, header.cut_number(&cells)?)));
+        match rows.next().flatten() {
+            Some((line, number)) if rows.all(|row| row.is_some()) => {
+                let number = shortened(&[&number]);
+                Err(Fault::CutNumber { number }.at(line))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
-/// Returns whether a line has enough numbers for a row, and little else.
+/// Returns whether most cells of a line are numbers.
 pub(super) fn is_of_numbers(cells: &[&str]) -> bool {
-    let numbers = count_numbers(cells);
-    numbers >= LEAST_NUMBERS && 2 * numbers > cells.len()
+    2 * count_numbers(cells) > cells.len()
 }
 
 fn count_numbers(cells: &[&str]) -> usize {
@@ -235,23 +244,18 @@ pub(super) fn find(
 ) -> Result<(Dialect, Header), Refusal> {
     let sample = Sample::new(sample, is_whole, options)?;
     let candidates = candidates(&sample, options);
-    let mut best: Option<Cutting> = None;
-    for (separator, quote) in candidates.iter().copied() {
-        if let Some(cutting) = Cutting::of(&sample, separator, quote) {
-            let merit = |cutting: &Cutting| {
-                let Cutting {
-                    share,
-                    has_header,
-                    quoted,
-                    ..
-                } = cutting;
-                (*share, *has_header, Reverse(*quoted))
-            };
-            if best.is_none_or(|best| merit(&best) < merit(&cutting)) {
-                best = Some(cutting);
-            }
+    let merit = |one: &Cutting| (one.share, one.has_header, Reverse(one.quoted));
+    let cuttings = candidates
+        .iter()
+        .filter_map(|(separator, quote)| Cutting::of(&sample, *separator, *quote));
+    // Of equals, the first remains.
+    let best = cuttings.reduce(|best, one| {
+        if merit(&best) < merit(&one) {
+            one
+        } else {
+            best
         }
-    }
+    });
     let table = Table {
         sample: &sample,
         candidates: &candidates,
@@ -263,9 +267,13 @@ pub(super) fn find(
         None => table.without_rows()?,
     };
     let (line, mut header) = header;
-    let decimal_comma = options
-        .decimal_comma
-        .unwrap_or_else(|| cutting.has_decimal_commas(&sample, &header));
+    if cutting.separator == Separator::Char(',') && options.decimal_comma != Some(false) {
+        cutting.refuse_cut_numbers(&sample, &header)?;
+    }
+    let decimal_comma = match options.decimal_comma {
+        Some(decimal_comma) => decimal_comma,
+        None => cutting.has_decimal_commas(&sample, &header)?,
+    };
     header.set_decimal_comma(decimal_comma);
     let dialect = Dialect {
         separator: cutting.separator,
@@ -369,37 +377,31 @@ impl Table<'_> {
         let Some((line, text, _)) = first else {
             return Err(Fault::Empty.at(1));
         };
-        let cutting = |(separator, quote): &(Separator, Option<char>), text: &str, first_row| {
-            let mut cells = Vec::new();
-            let cut = cut(text, *separator, *quote, &mut cells);
-            cut.map(|()| Cutting {
-                separator: *separator,
-                quote: *quote,
-                width: cells.len(),
-                first_row,
-                share: 0.0,
-                has_header: true,
-                quoted: 0,
-                is_open: false,
-            })
+        let cutting = |(separator, quote): &(Separator, Option<char>), text, first_row| Cutting {
+            separator: *separator,
+            quote: *quote,
+            width: cut(text, *separator, *quote).0.len(),
+            first_row,
+            share: 0.0,
+            has_header: true,
+            quoted: 0,
+            is_open: false,
         };
         let is_numbered = self.columns.are_numbered(self.identity);
         for (line, text, _) in lines().filter(|_| !is_numbered) {
             for candidate in self.candidates {
                 if let Ok(header) = self.names(text, candidate.0, candidate.1) {
-                    let cutting =
-                        cutting(candidate, text, line + 1).map_err(|fault| fault.at(line))?;
-                    return Ok((cutting, (Some(line), header)));
+                    return Ok((cutting(candidate, text, line + 1), (Some(line), header)));
                 }
             }
         }
         let cuttings = self
             .candidates
             .iter()
-            .filter_map(|candidate| cutting(candidate, text, line).ok());
+            .map(|candidate| cutting(candidate, text, line));
         // Of equals, the last counts as the greatest.
         let Some(widest) = cuttings.rev().max_by_key(|cutting| cutting.width) else {
-            return Err(Fault::Quote.at(line));
+            return Err(Fault::Empty.at(line));
         };
         let header = if is_numbered {
             Header::find(None, widest.width, self.columns, self.identity)
@@ -416,10 +418,8 @@ impl Table<'_> {
         separator: Separator,
         quote: Option<char>,
     ) -> Result<Header, Fault> {
-        let mut cells = Vec::new();
         // Without comments, a header may still begin with their sign.
-        let text = bare(text);
-        cut(text, separator, quote, &mut cells)?;
+        let (cells, _) = cut(bare(text), separator, quote);
         let names: Vec<String> = cells
             .iter()
             .map(|name| name.replace("\"\"", "\""))

@@ -7,7 +7,6 @@ use encoding_rs::Encoding;
 
 use super::cut::cut;
 use crate::Error;
-use crate::verify::refusal::Fault;
 
 /// The separator between the cells of a line.
 ///
@@ -223,9 +222,10 @@ impl Dialect {
         comment(line, &self.comments)
     }
 
-    pub(super) fn cut<'l>(&self, line: &'l str, cells: &mut Vec<&'l str>) -> Result<(), Fault> {
+    /// Cuts a line into its cells, and returns the position of the first cell whose quote does not end on the line.
+    pub(super) fn cut<'l>(&self, line: &'l str) -> (Vec<&'l str>, Option<usize>) {
         let line = uncommented(line, &self.comments);
-        cut(line, self.separator, self.quote, cells)
+        cut(line, self.separator, self.quote)
     }
 
     /// Returns the text of a row before a comment on the same line.

@@ -19,7 +19,7 @@ use super::Format;
 use super::counts::Counted;
 use super::header::Header;
 use super::lines::{Line, Lines};
-use super::steps::{Steps, Use};
+use super::steps::Steps;
 use crate::Error;
 use crate::verify::entry::Sink;
 use crate::verify::refusal::{Fault, Refusal};
@@ -60,10 +60,8 @@ pub(in crate::verify) fn read(
                         Header::find(Some(&names), names.len(), &format.columns, format.identity);
                     let columns = columns.map_err(|fault| fault.at(number))?;
                     let step = header.timestep.as_deref().unwrap_or("without a number");
-                    let is_read = steps.next(step).map_err(|fault| fault.at(number))?;
-                    if is_read == Use::New {
-                        sink.begin_step();
-                    }
+                    let is_read = steps.reads(step, sink);
+                    let is_read = is_read.map_err(|fault| fault.at(number))?;
                     entries(&mut lines, &columns, header.entries, is_read, sink)?;
                     snapshots += 1;
                     header = Snapshot::default();
@@ -148,7 +146,7 @@ fn entries(
     lines: &mut Lines<impl BufRead>,
     columns: &Header,
     announced: u64,
-    used: Use,
+    is_read: bool,
     sink: &mut Counted<'_, impl Sink>,
 ) -> Result<(), Refusal> {
     for found in 0..announced {
@@ -163,7 +161,7 @@ fn entries(
         if !line.ended {
             return Err(Fault::Cut.at(line.number));
         }
-        if used == Use::Other {
+        if !is_read {
             sink.rows.other_steps += 1;
             continue;
         }

@@ -230,6 +230,25 @@ impl Header {
         columns.filter_map(|(column, _)| cells.get(*column).copied())
     }
 
+    /// Returns a number of a row without a header that may be cut at its decimal comma: no number that is read has
+    /// decimals, and digits that are not read follow one of them.
+    pub(super) fn cut_number(&self, cells: &[&str]) -> Option<String> {
+        let is_whole = |cell: &str| cell.trim_start_matches('-').parse::<u64>().is_ok();
+        if self.has_names || !self.numbers(cells).all(is_whole) {
+            return None;
+        }
+        let is_read = |place| self.columns().any(|column| column == place);
+        let mut pairs = (1..).zip(cells.windows(2));
+        pairs.find_map(|(place, pair)| {
+            let is_cut = is_read(place - 1) && !is_read(place);
+            let [whole, digits] = pair else { return None };
+            let is_rest = digits.starts_with(|c: char| c.is_ascii_digit())
+                && !digits.contains('.')
+                && number(digits, false).is_some();
+            (is_cut && is_rest).then(|| format!("{whole},{digits}"))
+        })
+    }
+
     fn entry(&self, cells: &[&str]) -> Result<Entry, Fault> {
         let number = |quantity| self.number(quantity, cells);
         let vector = |[x, y, z]: [Quantity; 3]| Ok([number(x)?, number(y)?, number(z)?]);

@@ -39,6 +39,15 @@ pub(super) fn is_number(text: &str) -> bool {
             .any(|comma| number(text, comma).is_some())
 }
 
+/// Returns whether the comma of a number may separate thousands, as in `1,234`.
+pub(super) fn may_have_thousands(text: &str) -> bool {
+    let parts = text.trim_start_matches(['+', '-']).split_once(',');
+    parts.is_some_and(|(whole, rest)| {
+        let is_group = rest.len() == 3 && rest.bytes().all(|byte| byte.is_ascii_digit());
+        is_group && (1..=3).contains(&whole.len()) && !whole.starts_with('0')
+    })
+}
+
 /// Returns the number of a sphere, if all its digits are there. A fraction may consist of zeros only.
 ///
 /// An exponent, as `numpy.savetxt` writes it, is accepted only if all digits of the number are present. Otherwise
@@ -103,6 +112,18 @@ mod tests {
     fn a_comma_at_the_end_is_a_separator() {
         assert!(is_number("1,5") && is_number("-1.5") && is_number("1."));
         assert!(!is_number("1,") && !is_number("1.5,"));
+    }
+
+    #[test]
+    fn a_comma_before_three_digits_may_separate_thousands() {
+        for text in ["1,234", "-12,345", "+123,456"] {
+            assert!(may_have_thousands(text), "{text}");
+        }
+        for text in [
+            "0,123", ",123", "1,23", "1,2345", "1234,567", "1,2e3", "1.234",
+        ] {
+            assert!(!may_have_thousands(text), "{text}");
+        }
     }
 
     #[test]

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::counts::Counted;
 use super::header::shortened;
 use super::number::number;
+use crate::verify::entry::Sink;
 use crate::verify::refusal::{Fault, Refusal};
 
 /// The steps that were found so far.
@@ -12,17 +14,6 @@ pub(in crate::verify) struct Steps<'o> {
     wanted: Option<&'o str>,
     seen: BTreeSet<String>,
     current: Option<String>,
-}
-
-/// The use of the rows of a step.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(in crate::verify) enum Use {
-    /// Reads them with the rows before.
-    Same,
-    /// Reads them, and forgets all rows before.
-    New,
-    /// Leaves them out.
-    Other,
 }
 
 impl<'o> Steps<'o> {
@@ -34,10 +25,15 @@ impl<'o> Steps<'o> {
         }
     }
 
-    /// Returns what to do with the next row, which is of this step. The last step is read, unless another is wanted.
-    pub(in crate::verify) fn next(&mut self, step: &str) -> Result<Use, Fault> {
+    /// Returns whether the next row, which is of this step, is read. The last step is read, unless another is wanted. A
+    /// later step discards the rows of the earlier ones.
+    pub(in crate::verify) fn reads(
+        &mut self,
+        step: &str,
+        sink: &mut Counted<'_, impl Sink>,
+    ) -> Result<bool, Fault> {
         if self.current.as_deref() == Some(step) {
-            return Ok(Use::Same);
+            return Ok(true);
         }
         let is_new = !self.seen.contains(step);
         if is_new {
@@ -45,21 +41,19 @@ impl<'o> Steps<'o> {
         }
         if let Some(wanted) = self.wanted {
             if !is_same_step(wanted, step) {
-                return Ok(Use::Other);
+                return Ok(false);
             }
         } else if !is_new {
             return Err(Fault::StepAgain {
                 step: shortened(&[step]),
             });
         }
-        let is_first = self.current.is_none();
-        self.current = Some(step.to_owned());
+        let before = self.current.replace(step.to_owned());
         // Two spellings of the wanted step are one step.
-        Ok(if self.wanted.is_none() || is_first {
-            Use::New
-        } else {
-            Use::Same
-        })
+        if self.wanted.is_none() || before.is_none() {
+            sink.begin_step();
+        }
+        Ok(true)
     }
 
     /// Returns the number of steps of the file, and the step that was read.

@@ -4,12 +4,12 @@ use super::Format;
 use super::counts::Counted;
 use super::detect::{self, is_of_numbers};
 use super::dialect::Dialect;
-use super::header::Row;
+use super::header::{Header, Row};
 use super::lines::Lines;
 use super::source::Source;
-use super::steps::{Steps, Use};
+use super::steps::Steps;
 use crate::verify::entry::Sink;
-use crate::verify::refusal::Refusal;
+use crate::verify::refusal::{Fault, Refusal};
 
 /// Reads the rows of a table.
 pub(in crate::verify) fn read(
@@ -25,75 +25,86 @@ pub(in crate::verify) fn read(
         &format.columns,
         format.identity,
     )?;
-    let mut unit_row = format.dialect.unit_row == Some(true);
+    let options = &format.dialect;
+    let skipped = options.skip.unwrap_or(0);
     // Lines are counted from 1, so without a header the rows may begin at once.
-    let begin = dialect.header.or(format.dialect.skip).unwrap_or(0);
+    let begin = dialect.header.unwrap_or(skipped);
+    let mut is_unit_row = options.unit_row == Some(true);
+    let mut quote = OpenQuote(None);
     let mut lines = Lines::new(source.all());
     while let Some(line) = lines.next()? {
         let (number, text) = (line.number, line.text);
-        let mut cells = Vec::new();
-        if number <= begin || text.trim().is_empty() {
-            let is_skipped = format.dialect.skip.is_some_and(|skip| number <= skip);
-            let is_left = !is_skipped
-                && dialect.comment(text).is_none()
-                && dialect.cut(text, &mut cells).is_ok()
-                && is_of_numbers(&cells);
-            if is_left {
-                sink.rows.leave_above(number);
-            }
+        if number <= skipped || text.trim().is_empty() {
             continue;
         }
         if let Some(text) = dialect.comment(text) {
-            let is_row = text.starts_with(|c: char| c.is_ascii_digit() || "+-.\"".contains(c))
-                && dialect.cut(text, &mut cells).is_ok()
-                && matches!(header.read(&cells), Ok(Row::Entry(_)));
+            let is_row = number > begin
+                && text.starts_with(|c: char| c.is_ascii_digit() || "+-.\"".contains(c))
+                && matches!(header.read(&dialect.cut(text).0), Ok(Row::Entry(_)));
             sink.rows.commented += u64::from(is_row);
             continue;
         }
-        if core::mem::take(&mut unit_row) {
-            if dialect.cut(text, &mut cells).is_ok() && is_of_numbers(&cells) {
+        let (cells, open) = dialect.cut(text);
+        // Without a header, a text may precede the rows.
+        let is_above =
+            number < dialect.first_row && dialect.header.is_none() && cells.len() != header.width();
+        if number <= begin || is_above || core::mem::take(&mut is_unit_row) {
+            if is_of_numbers(&cells) {
                 sink.rows.leave_above(number);
             }
             continue;
         }
-        dialect
-            .cut(text, &mut cells)
-            .map_err(|fault| fault.at(number))?;
-        if number < dialect.first_row {
-            // Below a header, a line with a number is a row.
-            let is_row = dialect.header.is_some() && !header.is_text(&cells);
-            let is_other = cells.len() != header.width();
-            if is_other && is_row {
-                return Err(header.row_of(cells.len()).at(number));
-            }
-            if is_other && (is_of_numbers(&cells) || !header.is_text(&cells)) {
-                sink.rows.leave_above(number);
-            }
-            let has_units = format.dialect.unit_row != Some(false);
-            if is_other || (has_units && header.is_text(&cells)) {
-                continue;
-            }
-        }
+        quote.follow(&dialect, &header, (number, text), (&cells, open))?;
         let step = header.step(&cells).filter(|_| !header.is_text(&cells));
-        match step.map_or(Ok(Use::Same), |step| steps.next(step)) {
-            Err(fault) => return Err(fault.at(number)),
-            Ok(Use::Other) => {
-                sink.rows.other_steps += 1;
-                continue;
+        let is_read = step.map_or(Ok(true), |step| steps.reads(step, sink));
+        if !is_read.map_err(|fault| fault.at(number))? {
+            sink.rows.other_steps += 1;
+            continue;
+        }
+        let row = header.read(&cells).or_else(|fault| {
+            let before = dialect.before_comment(text);
+            let before = before.map(|text| header.read(&dialect.cut(text).0));
+            match before {
+                Some(Ok(Row::Entry(entry))) => Ok(Row::Entry(entry)),
+                _ if open.is_some() => Err(Fault::Quote),
+                _ => Err(fault),
             }
-            Ok(Use::New) => sink.begin_step(),
-            Ok(Use::Same) => {}
+        });
+        match row.map_err(|fault| fault.at(number))? {
+            // A text above the first row is one of units.
+            Row::Text if number < dialect.first_row && options.unit_row != Some(false) => {}
+            row => sink.put(&row, number)?,
         }
-        let mut row = header.read(&cells);
-        if row.is_err()
-            && let Some(before) = dialect.before_comment(text)
-            && dialect.cut(before, &mut cells).is_ok()
-            && let Ok(Row::Entry(entry)) = header.read(&cells)
-        {
-            row = Ok(Row::Entry(entry));
-        }
-        let row = row.map_err(|fault| fault.at(number))?;
-        sink.put(&row, number)?;
     }
     Ok(dialect)
+}
+
+/// The line of a quote that is still open.
+struct OpenQuote(Option<u64>);
+
+impl OpenQuote {
+    /// Follows a quoted cell that continues on the next lines. Refuses numbers behind its quote, because they may be part
+    /// of the cell.
+    fn follow(
+        &mut self,
+        dialect: &Dialect,
+        header: &Header,
+        (number, text): (u64, &str),
+        (cells, open): (&[&str], Option<usize>),
+    ) -> Result<(), Refusal> {
+        let Some(first) = self.0.map_or(open, |_| Some(0)) else {
+            return Ok(());
+        };
+        let begin = self.0.unwrap_or(number);
+        let mut behind = cells.to_vec();
+        behind.iter_mut().take(first).for_each(|cell| *cell = "");
+        if !header.is_text(&behind) {
+            return Err(Fault::Quote.at(begin));
+        }
+        // In a quoted cell, other quotes are doubled.
+        let quotes = text.chars().filter(|c| Some(*c) == dialect.quote).count();
+        let is_closed = self.0.is_some() && quotes % 2 == 1;
+        self.0 = (!is_closed).then_some(begin);
+        Ok(())
+    }
 }

@@ -233,7 +233,7 @@ fn a_third_row_or_another_force_in_the_same_order_is_refused() {
     assert_eq!(
         refusal.to_string(),
         "line 4: spheres 1 and 2 are already on line 2: list each pair once, or once in each order; if the table holds \
-         several steps, name their column with step=COLUMN in --columns"
+         several steps, name their column with step=COLUMN in --columns, or leave one step"
     );
 }
 

@@ -168,7 +168,8 @@ fn errors_in_csv_tables_name_the_line() {
         ),
         (
             "id1,id2,force\n1,\"2,1\n",
-            "line 2: a quote does not end on its line: close it, or use --quote none".into(),
+            "line 2: a quote does not end on its line: close it, use --quote none, or begin the line with # if it is not a row"
+                .into(),
         ),
     ] {
         assert_eq!(refused(text), want);
@@ -268,7 +269,7 @@ fn rows_that_do_not_match_the_pile_name_the_line() {
     };
     let spheres = "the spheres of this scene are numbered 1 to 4, from the top";
     let once = "list each pair once, or once in each order; if the table holds several steps, name their column with \
-                step=COLUMN in --columns";
+                step=COLUMN in --columns, or leave one step";
     for (text, want) in [
         (
             "id1,id2,force\n\n1,5,1\n",

@@ -183,6 +183,116 @@ fn comments_behind_rows_are_not_cells() {
 }
 
 #[test]
+fn a_quoted_cell_may_continue_on_the_next_line() {
+    let header = "id1,id2,force,note\n";
+    for table in [
+        header.to_owned() + &rows(",", ",\"said \"\"a\"\"\nand b\""),
+        "id1,id2,force,\"long\nname\"\n".to_owned() + &rows(",", ",a"),
+    ] {
+        let read = read(&Reader::new(), &table);
+        assert!(read.comparison.accepted(1e-5), "{table:?}");
+        assert_eq!(read.rows.used, 3);
+    }
+    // Numbers within a quoted cell are not a row, wherever they are.
+    for table in [
+        "1,2,0.46225,\"was\n1,3,0.46225,x\"\n1,4,0.46225,\n",
+        "1,2,0.46225,\"was\nthis, or\n1,3,0.46225,x\n\"\n1,4,0.46225,\n",
+        "1,2,0.46225,\"a\n1,3,0.46225,b\n1,4,0.46225,c\n",
+        "1,2,\"a\nb\",0.46225\n1,3,0.46225,\n",
+        "\"a\nb\",1,2,0.46225\n",
+    ] {
+        let line = refused(&Reader::new(), &[header, table].concat());
+        assert!(line.starts_with("line 2: a quote does not end"), "{line}");
+    }
+}
+
+#[test]
+fn a_quote_that_does_not_end_is_text_below_the_table() {
+    let table = |last: &str| ["id1,id2,force\n", &rows(",", ""), last].concat();
+    let text = read(&Reader::new(), &table("\"made on Monday, or later\n"));
+    assert!(text.comparison.accepted(1e-5));
+    assert_eq!(text.rows.to_string(), "1 line of text (line 5)");
+    // A row is not a row behind a quote.
+    let named = "note,id1,id2,force\na,1,2,0.46225\na,1,3,0.46225\n\"a,1,4,0.46225\n";
+    let line = refused(&Reader::new(), named);
+    assert!(line.starts_with("line 4: a quote does not end"), "{line}");
+    let line = refused(&Reader::new(), &table("\"made on,25,11\n"));
+    assert!(line.starts_with("line 5: a quote does not end"), "{line}");
+    assert!(
+        line.ends_with("begin the line with # if it is not a row"),
+        "{line}"
+    );
+}
+
+#[test]
+fn commas_that_may_separate_thousands_are_refused() {
+    let table = |forces: [&str; 3]| {
+        let [a, b, c] = forces;
+        format!("id1\tid2\tforce\n1\t2\t{a}\n1\t3\t{b}\n1\t4\t{c}\n")
+    };
+    let unclear = ["5", "1,234", "12,345"];
+    assert_eq!(
+        refused(&Reader::new(), &table(unclear)),
+        "line 3: the comma of '1,234' is a decimal sign or separates thousands: use --decimal comma, or leave out such commas"
+    );
+    let dialect = |decimal_comma| DialectOptions {
+        decimal_comma: Some(decimal_comma),
+        ..DialectOptions::default()
+    };
+    let given = |comma| Reader::new().with_dialect(dialect(comma));
+    let error = read(&given(true), &table(unclear))
+        .comparison
+        .largest_error();
+    assert!((error.unwrap() - (12.345 / 0.46225 - 1.0)).abs() < 1e-3);
+    let line = refused(&given(false), &table(unclear));
+    assert!(
+        line.starts_with("line 3: force '1,234' is not a number"),
+        "{line}"
+    );
+    // One number with other digits decides.
+    for certain in ["0,462", "0,4622", "4,6e-1"] {
+        let read = read(&Reader::new(), &table([certain, "1,234", "5"]));
+        assert!(read.dialect.unwrap().decimal_comma, "{certain}");
+    }
+    let line = refused(&Reader::new(), &table(["0.46", "1,234", "5"]));
+    assert!(
+        line.starts_with("line 3: force '1,234' is not a number"),
+        "{line}"
+    );
+}
+
+#[test]
+fn numbers_that_may_be_cut_at_decimal_commas_are_refused() {
+    let numbered = Reader::new().with_columns(columns("id1=#1,id2=#2,force=#3"));
+    for (force, said) in [("0,46", "'0,46'"), ("4,6e-1", "'4,6e-1'")] {
+        let table = ["2", "3", "4"]
+            .map(|id| format!("1,{id},{force}\n"))
+            .concat();
+        let line = refused(&numbered, &table);
+        assert_eq!(
+            line,
+            format!(
+                "line 1: {said} is two cells or one number with a decimal comma: use --decimal point, or separate cells by semicolons"
+            )
+        );
+        let comma = DialectOptions {
+            decimal_comma: Some(true),
+            ..DialectOptions::default()
+        };
+        assert_eq!(refused(&numbered.clone().with_dialect(comma), &table), line);
+        let point = DialectOptions {
+            decimal_comma: Some(false),
+            ..DialectOptions::default()
+        };
+        let read = read(&numbered.clone().with_dialect(point), &table);
+        assert_eq!(read.comparison.matched(), 3);
+    }
+    // Numbers with decimals are not cut.
+    let table = rows(",", ",7");
+    assert!(read(&numbered, &table).comparison.accepted(1e-5));
+}
+
+#[test]
 fn names_and_numbers_of_columns_may_be_mixed() {
     let columns = columns("id1=#3,id2=#4,force=#5,kind=type:SS,step=t");
     let reader = Reader::new().with_columns(columns);
