@@ -5,6 +5,7 @@
 
 /// Returns (s, e) with s = fl(a + b) and s + e = a + b exactly, unless s overflows.
 #[must_use]
+#[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let from_b = s - a;
@@ -14,6 +15,7 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// Returns the same as [`two_sum`], at half the cost, for |a| ≥ |b| or a = 0.
 #[must_use]
+#[inline]
 pub fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
@@ -21,6 +23,7 @@ pub fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// Returns (p, e) with p = fl(a·b) and p + e = a·b exactly, for factors of moderate size ([`is_ordinary`]).
 #[must_use]
+#[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let ((a1, a2), (b1, b2)) = (split(a), split(b));
@@ -28,6 +31,7 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// Returns a as a sum of two halves of at most 26 bits each, by Veltkamp's splitting.
+#[inline]
 fn split(a: f64) -> (f64, f64) {
     let c = 134_217_729.0 * a; // 2^27 + 1
     let high = c - (c - a);
@@ -39,6 +43,7 @@ fn split(a: f64) -> (f64, f64) {
 /// Products and quotients of two such numbers neither overflow nor underflow, and neither do their rounding
 /// errors. So [`two_product`] is exact for them without scaling.
 #[must_use]
+#[inline]
 pub fn is_ordinary(a: f64) -> bool {
     (power_of_two(-400)..power_of_two(400)).contains(&a.abs())
 }
@@ -46,6 +51,7 @@ pub fn is_ordinary(a: f64) -> bool {
 /// Returns (m, e) with a = m·2^e and 1 ≤ |m| < 2. Zero and values that are not finite are returned
 /// unchanged, with e = 0.
 #[must_use]
+#[inline]
 pub fn significand(a: f64) -> (f64, i32) {
     if a == 0.0 || !a.is_finite() {
         return (a, 0);
@@ -62,6 +68,7 @@ pub fn significand(a: f64) -> (f64, i32) {
 
 /// Returns 2^e for −1022 ≤ e ≤ 1023. An exponent outside this range is clamped to it.
 #[must_use]
+#[inline]
 pub fn power_of_two(e: i32) -> f64 {
     // The documentation promises the clamping.
     let field = e.clamp(-1022, 1023) + 1023;
@@ -70,6 +77,7 @@ pub fn power_of_two(e: i32) -> f64 {
 
 /// Returns a·2^e, with one further rounding if the result is subnormal.
 #[must_use]
+#[inline]
 pub fn scale(a: f64, e: i32) -> f64 {
     // One power of two cannot span the range from the smallest subnormal to the largest float. Three
     // factors can, and no intermediate result overflows or underflows before the final one.
