@@ -140,6 +140,14 @@ pub enum Error {
         /// The given value.
         given: Box<BigRational>,
     },
+    /// A force on discs that points out of their plane.
+    #[non_exhaustive]
+    OutOfPlane {
+        /// `load` or `tilt`.
+        quantity: &'static str,
+    },
+    /// A pile without weight above the floor, on which a tilt of gravity has no effect.
+    NoWeight,
     /// A method that does not apply. Closed forms need a straight stacking, and sweeps need spheres instead of discs.
     #[non_exhaustive]
     NoSuchMethod {

@@ -27,18 +27,20 @@ pub use nearest::{NearestLayer, NearestLayers};
 pub use numerators::{NumeratorLayer, NumeratorLayers};
 pub use walk::Answers;
 
+use alloc::vec::Vec;
+
 use crate::engine::{
     Counters, Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact,
     nodes, received,
 };
 use crate::formula;
-use crate::geometry::{Vector, position};
+use crate::geometry::{Load, Vector, position};
 use crate::lattice::{Direction, Site, count};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Rows, Selection};
 use crate::{Error, Pile};
 
-use terms::{Terms, of_direction, to_scalar, to_scalars};
+use terms::{Terms, horizontal, of_direction, to_scalar, to_scalars};
 use walk::Walk;
 
 /// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
@@ -186,6 +188,86 @@ impl Pile {
 }
 
 impl<'p, T: Algebra> Forces<'p, T> {
+    /// Returns the forces with a further load on one sphere, in the scalar `T`: a value of `T` for a vertical load in mg,
+    /// or a [`Load`] of any direction and sign.
+    ///
+    /// So a load can be a symbol, or carry a derivative. No verdict depends on these loads.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::OutOfPlane`] for a load on a disc along y.
+    ///
+    /// # Examples
+    /// The force on a contact as a function of a load p on the apex:
+    /// ```
+    /// use cannonpile::lattice::{Direction, Region, Site};
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+    /// let forces = pile.forces::<Polynomial>().with_load(Site::APEX, Polynomial::from(Symbol("p")))?;
+    /// let force = forces.contact(Site { i: 0, j: 0, k: 1 }, Direction::Beta)?;
+    /// assert_eq!(force.to_string(), "2/3*p + 5/3");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_load(self, site: Site, load: impl Into<Load<T>>) -> Result<Self, Error> {
+        self.with_loads([(site, load.into())])
+    }
+
+    /// Returns the forces with further loads, as [`with_load`](Self::with_load) does, for many loads at once.
+    ///
+    /// # Errors
+    /// As for [`with_load`](Self::with_load).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Load, Pile};
+    ///
+    /// let pile = Pile::triangular(3)?.weightless();
+    /// let loads = [(Site::APEX, Load::from(1.0)), (Site::new(0, 0, 1), Load::from(2.0))];
+    /// let forces = pile.forces::<f64>().with_loads(loads)?;
+    /// assert_eq!(forces.contact(Site::new(0, 0, 1), Direction::Alpha)?, 3.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_loads(
+        mut self,
+        loads: impl IntoIterator<Item = (Site, Load<T>)>,
+    ) -> Result<Self, Error> {
+        let check = |(site, load): (Site, Load<T>)| {
+            self.pile.check_in_plane("load", &load.y)?;
+            Ok((self.pile.shape().check(site)?, load))
+        };
+        let loads: Result<Vec<_>, Error> = loads.into_iter().map(check).collect();
+        self.terms.add_loads(loads?);
+        Ok(self)
+    }
+
+    /// Returns the forces under gravity that leans further, by the tilt (x, y) in the scalar `T`. The units are those of
+    /// [`Pile::with_tilt`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfPlane`] for discs with y ≠ 0.
+    ///
+    /// # Examples
+    /// Every force is an affine function of the tilt:
+    /// ```
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let tilt = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    /// let forces = pile.forces::<Polynomial>().with_tilt(tilt)?;
+    /// let force = forces.contact(Site { i: 0, j: 0, k: 4 }, Direction::Alpha)?;
+    /// assert_eq!(force.to_string(), "-5*x - 15*y + 5");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_tilt(mut self, tilt: [T; 2]) -> Result<Self, Error> {
+        self.pile.check_in_plane("tilt", &tilt[1])?;
+        self.terms.add_tilt(tilt);
+        Ok(self)
+    }
+
     /// Counts the work of every query with `counters`.
     ///
     /// # Examples
@@ -550,7 +632,12 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// Returns the plan for some rows in this scalar.
     fn plan(&self, rows: &Rows<'_>, quantity: Quantity) -> Result<Plan, Error> {
         let system = &self.terms.system;
-        system.plan(rows, quantity, self.method, Keeping::of::<T>())
+        system.plan(
+            rows,
+            quantity,
+            self.method,
+            Keeping::of::<T>(&self.terms.system),
+        )
     }
 
     /// Returns the unit vector ê of a direction under + steps, in the symbolic basis.
@@ -676,13 +763,14 @@ impl<'p, T: Algebra> Forces<'p, T> {
         let (terms, changes) = (&self.terms, below.changes);
         let rescaled = |force| terms.lines.rescaled(force, above.changes, changes);
         let received = above.forces.map(rescaled);
+        let load = terms.load(site, changes);
         let unbalanced = formula::unbalanced(
             &below.forces,
             &terms.directions_below(site.k),
             &received,
             &terms.directions_above(site.k),
-            &terms.weight(site, changes),
-        );
+            &load.z,
+        ) + &horizontal(&load);
         terms.vector("a resultant force", unbalanced, changes)
     }
 

@@ -20,6 +20,7 @@
 //! | (11)–(14) | force on the floor | [`support_load`] |
 //! | | transfer across a sign change, not in the paper | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
 //! | | horizontal contacts, not in the paper | [`pushed`], [`beside`] |
+//! | | loads of any direction, not in the paper | [`load_increments`], [`disc_load_increments`] |
 //!
 //! | pile | increments | their sum W |
 //! |---|---|---|
@@ -31,9 +32,11 @@
 //! formula is a polynomial in s and the counts. Division by W converts to mg.
 
 mod horizontal;
+mod load;
 mod turn;
 
 pub use horizontal::{beside, pushed};
+pub use load::{disc_load_increments, load_increments};
 pub(crate) use turn::triples;
 pub use turn::{half_turn, tripled_apart, tripled_half_turn};
 

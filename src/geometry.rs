@@ -11,10 +11,12 @@
 //! rational whenever a/R is.
 
 mod clearance;
+mod load;
 mod spacing;
 mod vector;
 
 pub use clearance::{Clearance, LayerGap};
+pub use load::Load;
 pub(crate) use spacing::Bound;
 pub use spacing::Spacing;
 pub use vector::Vector;

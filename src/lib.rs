@@ -60,9 +60,11 @@
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for correctly rounded floats in slices |
 //! | forces row by row, for piles larger than memory | [`fill_row`](NearestLayers::fill_row) and similar methods; [`packing.places()`](Packing::places) for centres and contact points |
 //! | sums of forces | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
+//! | the tilts of gravity that a pile bears | [`Pile::stability`] |
 //! | the stability of a pile; the extreme forces on its base | [`Pile::standing`], [`Pile::base_extremes`] |
 //! | the stable stackings | [`census`] |
 //! | theorems for every pile | [`theorem`] |
+//! | a force as a function of a load or tilt | [`Forces::with_load`], [`Forces::with_tilt`] |
 //! | to cancel a long computation | `Interrupt` |
 //! | the work of a query, estimated and counted | [`Pile::plan`], [`Counters`] |
 //! | random piles for my own tests | `testing::piles` (feature `proptest`), `arbitrary` for fuzz targets |
@@ -90,8 +92,7 @@
 //! The crate needs Rust 1.88 or later. The types of `num-bigint` 0.4 and `num-rational` 0.4 are part of its public API,
 //! which re-exports the crates as [`num_bigint`] and [`num_rational`].
 //!
-//! The [`Plan`] of each query names the method that computes the result. Two piles that compare equal give the same
-//! results.
+//! The [`Plan`] of each query names its method. Two piles that compare equal give the same results.
 //!
 //! # Map
 //! A module may use only the modules above it in the following table. A test reads the `use` lines and this table.
@@ -107,15 +108,13 @@
 //! | | [`Pile`] | a validated pile: any stacking, any region, loads |
 //! | queries | `engine` | the [`Plan`], and the methods to compute forces; not part of the public API |
 //! | | [`Forces`], [`Packing`] | the forces, in pile units and in SI units |
-//! | | [`Standing`], [`census`] | stability |
+//! | | [`Standing`], [`stability`], [`census`] | stability |
+//! | | [`ForceChange`] | unequal spheres, to first order |
 //! | | [`theorem`] | theorems about [`formula`], for every pile |
 //! | tools | `data` | the serialised form of the types (feature `serde`) |
 //! | | `arbitrary` | random piles and their parts from plain bytes (feature `arbitrary`) |
 //! | | `testing` | proptest strategies for the same values (feature `proptest`) |
 //! | errors | [`Error`] | the reasons why a query fails |
-//!
-//! The module [`paper`] lists the equations of the paper by their printed numbers, and the mathematics beyond the
-//! paper.
 //!
 //! # Guarantees
 //! * Exact scalars and [`scalar::Surd`] are exact: no operation wraps or loses a digit silently, for up to
@@ -137,7 +136,7 @@
 //! θ is the angle of a contact with the vertical, φ the azimuth in (1) of the paper, and s = sin φ. R is the radius of
 //! a sphere, a is half the distance between horizontal neighbours, and q = (a/R)². L is the number of layers, and k the
 //! layer, counted from 0 at the top. f₀ = mg/(3 cosθ) is the unit of contact force. On an isosceles base f₀ =
-//! mg/(2(1+s) cosθ). "Paper, (8)" cites a printed equation. The module [`paper`] lists all cited equations.
+//! mg/(2(1+s) cosθ). "Paper, (8)" cites a printed equation.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -163,7 +162,9 @@ mod packing;
 pub mod paper {}
 mod pile;
 pub mod scalar;
+mod sensitivity;
 pub mod shape;
+pub mod stability;
 pub mod stacking;
 mod standing;
 #[cfg(feature = "proptest")]
@@ -183,8 +184,11 @@ pub use forces::{
     Answers, ContactForce, Contacts, FloorForce, FloorForces, Forces, Layer, Layers, NearestLayer,
     NearestLayers, NumeratorLayer, NumeratorLayers,
 };
-pub use packing::{PackedContact, Packing, Places};
+pub use geometry::Load;
+pub use packing::{PackedContact, Packing, Places, SiBasis};
 pub use pile::Pile;
+pub use sensitivity::{ForceChange, Spread};
+pub use stability::Stability;
 pub use standing::{BaseExtremes, Standing, Verdict};
 
 pub use {num_bigint, num_rational, num_traits};

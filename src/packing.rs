@@ -1,8 +1,10 @@
 //! A pile with radius, mass and gravity: exact results in SI units.
 
+mod basis;
 mod places;
 mod rows;
 
+pub use basis::SiBasis;
 pub use places::Places;
 pub use rows::PackedContact;
 

@@ -5,16 +5,19 @@ mod loading;
 mod system;
 
 pub(crate) use loading::Loading;
-pub(crate) use system::System;
+use loading::not_negative;
+pub(crate) use system::{Extra, System};
+
+use alloc::borrow::Cow;
 
 use num_bigint::BigUint;
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::Error;
 use crate::formula;
-use crate::geometry::{Clearance, Vector, directions, disc_directions};
-use crate::lattice::{Dimension, HorizontalContact, Region, Site, count};
+use crate::geometry::{Clearance, Load, Vector, directions, disc_directions};
+use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};
 use crate::scalar::{Algebra, Ring, sum_of};
 use crate::shape::{Numbering, Rows, Selection, Shape, Sites};
 use crate::stacking::Stacking;
@@ -155,6 +158,11 @@ impl Pile {
         Ok(Self::new(Shape::on(base, stacking)?, half()))
     }
 
+    /// Returns the pile without weights, loads and forces of horizontal contacts.
+    pub(crate) fn bare(&self) -> Self {
+        Self::new(self.shape.clone(), self.sin_phi.clone()).weightless()
+    }
+
     fn new(shape: Shape, sin_phi: BigRational) -> Self {
         Self {
             shape,
@@ -163,25 +171,66 @@ impl Pile {
         }
     }
 
-    /// Returns the pile with a further vertical load on one sphere, in mg.
+    /// Returns the pile with a further load on one sphere: a rational for a vertical load in mg, or a [`Load`] of any
+    /// direction.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
+    /// [`Error::SiteOutside`]; [`Error::NegativeLoad`] for an upward load; [`Error::OutOfPlane`] for a load on a disc
+    /// along y.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::Pile;
     /// use cannonpile::lattice::{Direction, Site};
-    /// use num_rational::BigRational;
+    /// use cannonpile::{Pile, ratio};
     ///
-    /// let pile = Pile::triangular(10)?.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
+    /// let pile = Pile::triangular(10)?.with_load(Site::APEX, ratio!(2))?;
     /// // Each support carries a third of 3 mg, along a contact force of 3 f₀.
     /// assert_eq!(pile.forces::<f64>().contact(Site::APEX, Direction::Alpha)?, 3.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn with_load(mut self, site: Site, load: BigRational) -> Result<Self, Error> {
-        self.loading.add_load(self.shape.check(site)?, load)?;
+    pub fn with_load(mut self, site: Site, load: impl Into<Load>) -> Result<Self, Error> {
+        let (site, load) = (self.shape.check(site)?, load.into());
+        not_negative("load", site, load.down.clone())?;
+        self.check_in_plane("load", &load.y)?;
+        self.loading.add_load(site, &load);
         Ok(self)
+    }
+
+    /// Returns the pile under gravity that leans further, by the tilt (x, y).
+    ///
+    /// The horizontal part of gravity is x·tanθ along x and y·2cosφ·tanθ along y, times the vertical part. So a sphere
+    /// of weight mg has the [`Load`] (1, x, y). Masses stay as they are, and so does the vertical part of gravity. The
+    /// same data describe a pile on a floor that accelerates horizontally.
+    ///
+    /// # Errors
+    /// [`Error::OutOfPlane`] for discs with y ≠ 0.
+    ///
+    /// # Examples
+    /// A straight pile bears a tilt of up to ½ towards the middle of a side, where tan(tilt) = ½ tanθ:
+    /// ```
+    /// use cannonpile::{Pile, Verdict, ratio};
+    ///
+    /// let pile = |x| Pile::triangular(10)?.with_tilt([x, ratio!(0)]);
+    /// assert_eq!(pile(ratio!(-1/2))?.stands()?, Verdict::Yes);
+    /// assert_eq!(pile(ratio!(-51/100))?.stands()?, Verdict::No);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_tilt(mut self, tilt: [BigRational; 2]) -> Result<Self, Error> {
+        self.check_in_plane("tilt", &tilt[1])?;
+        self.loading.add_tilt(tilt);
+        Ok(self)
+    }
+
+    /// Returns an error for a force on discs that points out of their plane.
+    pub(crate) fn check_in_plane<T: Ring>(
+        &self,
+        quantity: &'static str,
+        y: &T,
+    ) -> Result<(), Error> {
+        if self.dimension() == Dimension::Two && !y.is_zero() {
+            return Err(Error::OutOfPlane { quantity });
+        }
+        Ok(())
     }
 
     /// Returns the pile with a new weight of one sphere, in mg.
@@ -284,7 +333,8 @@ impl Pile {
         self.shape.sphere_count()
     }
 
-    /// Returns the weight of all spheres and the loads on them, in mg. This is the total load on the floor.
+    /// Returns the weight of all spheres and the downward loads on them, in mg. This is the total normal force on the
+    /// floor.
     ///
     /// # Examples
     /// ```
@@ -296,8 +346,8 @@ impl Pile {
     #[must_use]
     pub fn weight(&self) -> BigRational {
         let ordinary =
-            self.loading.ordinary() * BigRational::from_integer(self.sphere_count().into());
-        let extras = self.loading.extras().map(|(_, extra)| extra);
+            self.loading.ordinary_weight() * BigRational::from_integer(self.sphere_count().into());
+        let extras = self.loading.extras().map(|(_, extra)| extra.down);
         ordinary + sum_of(extras)
     }
 
@@ -482,7 +532,13 @@ impl Pile {
         }
     }
 
-    /// Returns the spheres with a load, and the loads, in mg.
+    /// Returns the tilt of gravity along x and y: (0, 0) unless [`with_tilt`](Self::with_tilt) changed it.
+    #[must_use]
+    pub fn tilt(&self) -> &[BigRational; 2] {
+        self.loading.tilt()
+    }
+
+    /// Returns the spheres with a load, and the loads.
     ///
     /// # Examples
     /// ```
@@ -496,7 +552,7 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
+    pub fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &Load)> + '_ {
         self.loading.loads()
     }
 
@@ -519,7 +575,7 @@ impl Pile {
         weights.into_iter().flatten()
     }
 
-    /// Returns the load on a sphere, in mg. It is 0 unless [`with_load`](Self::with_load) set it.
+    /// Returns the load on a sphere. It is 0 unless [`with_load`](Self::with_load) set it.
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
@@ -532,7 +588,7 @@ impl Pile {
     /// assert_eq!(Pile::triangular(10)?.load(Site::APEX)?.to_string(), "0");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn load(&self, site: Site) -> Result<BigRational, Error> {
+    pub fn load(&self, site: Site) -> Result<Load, Error> {
         Ok(self.loading.load(self.shape.check(site)?))
     }
 
@@ -639,6 +695,7 @@ impl Pile {
         }
     }
 
+    #[cfg(feature = "serde")]
     pub(crate) fn loading(&self) -> &Loading {
         &self.loading
     }
@@ -647,31 +704,57 @@ impl Pile {
     pub(crate) fn system(&self) -> System<'_> {
         System {
             shape: &self.shape,
+            sin_phi: &self.sin_phi,
             increments: formula::increments(&self.sin_phi),
             directions: self.directions(),
-            loading: &self.loading,
+            loading: Cow::Borrowed(&self.loading),
+            has_scalar_loads: false,
         }
     }
 
-    /// Returns whether every sphere has the weight mg and carries no load or horizontal force.
+    /// Returns whether every sphere has the weight mg under vertical gravity, and carries no load or horizontal contact
+    /// force.
     #[doc(hidden)]
     #[must_use]
     pub fn is_uniform(&self) -> bool {
-        self.system().is_even()
+        let system = self.system();
+        system.is_even() && system.is_upright()
     }
 
-    /// Returns the sum of weight and load of a sphere, in mg.
+    /// Returns the sum of gravity and load on a sphere.
     #[doc(hidden)]
     #[must_use]
-    pub fn total_load(&self, site: Site) -> BigRational {
+    pub fn total_load(&self, site: Site) -> Load {
         self.loading.total(site)
+    }
+
+    /// Returns what gravity and the load on a sphere add to its lines, in f₀, by direction. For a sphere on the floor these
+    /// are the forces above a + step.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn own_increments(&self, site: Site) -> [BigRational; 3] {
+        let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
+        self.system()
+            .load_increments(&self.loading.total(site), sign)
+    }
+
+    /// Returns whether no sphere has a negative increment, so that forces grow along every line of a run.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn forces_grow(&self) -> bool {
+        let system = self.system();
+        let ordinary = [Sign::Plus, Sign::Minus].map(|sign| system.ordinary(sign));
+        let extras = self.loading.extras();
+        let extras = extras.map(|(site, _)| self.own_increments(site));
+        let mut all = ordinary.into_iter().chain(extras).flatten();
+        !all.any(|increment| increment.is_negative())
     }
 
     /// Returns whether this is the paper's pile: straight, under one sphere, every sphere of weight mg.
     #[doc(hidden)]
     #[must_use]
     pub fn is_paper_pile(&self) -> bool {
-        self.shape.is_straight_under_one_sphere() && self.system().is_even()
+        self.shape.is_straight_under_one_sphere() && self.is_uniform()
     }
 }
 

@@ -278,6 +278,12 @@ pub trait Numerators: Sized {
         values: &[BigRational; N],
     ) -> ([Self::Numerator; N], Self::Numerator);
 
+    /// Returns the values as numerators over 1. Rationals, whose numerators need a common denominator, are returned as
+    /// they are, in `Err`.
+    fn into_numerators<const N: usize>(
+        values: [Self; N],
+    ) -> Result<[Self::Numerator; N], [BigRational; N]>;
+
     /// Returns `n / by`. Returns `None` for every `n` if the numerators, such as integers, do not allow this division.
     /// The caller then multiplies the denominator instead.
     #[must_use]
@@ -293,6 +299,10 @@ impl<T: OwnNumerators> Numerators for T {
 
     fn numerators<const N: usize>(values: &[BigRational; N]) -> ([T; N], T) {
         (values.each_ref().map(T::from_rational), T::one())
+    }
+
+    fn into_numerators<const N: usize>(values: [T; N]) -> Result<[T; N], [BigRational; N]> {
+        Ok(values)
     }
 
     #[inline]

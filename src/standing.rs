@@ -8,8 +8,10 @@
 //! one. At these spacings, nonnegative forces still prove stability, but a negative force proves nothing. At q = 1 the
 //! function `equilibrium` of the crate `cannonpile-horizontal` decides.
 //!
-//! Within a run the force along a line never decreases, because no weight is negative. So the smallest force is where a
-//! line begins: at a surface or at a sign change. Only the layers at sign changes need a search.
+//! Within a run the force along a line grows by one increment a sphere. If no increment is negative, the smallest force
+//! is where a line begins: at a surface or at a sign change. Only the layers at sign changes need a search. If gravity
+//! leans so far that an increment is negative, the smallest force may also be at the end of a run. Loads with a negative
+//! increment, and horizontal contacts, add single spheres to look at.
 
 mod base;
 
@@ -26,12 +28,11 @@ use crate::engine::{
     Descent, Grid, Lines, MAX_NUMBERS, Meter, Planes, Received, Wanted, shortest_exact_sweep,
     trees_are_cheaper, unless_too_large,
 };
-use crate::error::named;
-use crate::error::{bug, refuse_beyond};
+use crate::error::{bug, named, refuse_beyond};
 use crate::formula;
 use crate::geometry::LayerGap;
-use crate::lattice::{Direction, Site};
-use crate::pile::System;
+use crate::lattice::{Dimension, Direction, Sign, Site};
+use crate::pile::Extra;
 use crate::shape::{Selection, Shape};
 use crate::{ContactForce, Error, Packing, Pile};
 
@@ -181,8 +182,8 @@ impl Pile {
     /// ```
     pub fn standing(&self) -> Result<Standing, Error> {
         const MAX_WORK: u64 = 1_000_000_000;
-        let changes = self.changes();
-        let sites = changes.iter().filter_map(|k| self.shape().layer(*k).ok());
+        let layers = self.low_layers();
+        let sites = layers.iter().filter_map(|k| self.shape().layer(*k).ok());
         let sites = sites.map(|region| region.site_count()).sum::<BigUint>();
         let planes = self.system().size_of_sweep(self.layers() - 1).planes;
         let whole = sites * planes * 3_u32 <= BigUint::from(MAX_WORK);
@@ -234,15 +235,24 @@ impl Pile {
         Ok(self.standing_until(true)?.first_failure)
     }
 
-    /// Returns the layers at which the sign changes.
-    fn changes(&self) -> Vec<i128> {
-        let shape = self.shape();
-        let runs = (1..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
-        runs.map(|run| run.from).collect()
+    /// Returns the layers below which the forces may be smallest: where the sign changes, and at the end of a run along
+    /// which forces decrease.
+    fn low_layers(&self) -> Vec<i128> {
+        let (shape, system) = (self.shape(), self.system());
+        let falls = |sign| system.ordinary(sign).iter().any(Signed::is_negative);
+        let falls = [Sign::Plus, Sign::Minus].map(|sign| (sign, falls(sign)));
+        let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
+        let layers = runs.flat_map(|run| {
+            let begin = (run.index > 0).then_some(run.from);
+            let falls = falls.contains(&(run.sign, true)) && run.to - 1 > run.from;
+            let end = falls.then_some(run.to - 1);
+            begin.into_iter().chain(end)
+        });
+        layers.collect()
     }
 
     /// Returns the contact with the smallest force, of the whole pile or down to the first failure.
-    fn standing_until(&self, failure: bool) -> Result<Standing, Error> {
+    pub(crate) fn standing_until(&self, failure: bool) -> Result<Standing, Error> {
         let mut standing = Standing {
             least: None,
             first_failure: None,
@@ -250,21 +260,21 @@ impl Pile {
         for contact in self.at_surfaces() {
             standing.meet(contact);
         }
-        for contact in self.at_pushes()? {
+        for contact in self.at_special_spheres()? {
             standing.meet(contact);
         }
-        let changes = self.changes();
+        let layers = self.low_layers();
         let mut looked_at = 0;
-        while looked_at < changes.len() && !(failure && standing.first_failure.is_some()) {
+        while looked_at < layers.len() && !(failure && standing.first_failure.is_some()) {
             // The range doubles each time. A failure near the top is found early, and a search of the whole pile costs
             // little more.
             let next = if failure {
                 2 * looked_at + 4
             } else {
-                changes.len()
+                layers.len()
             };
-            let next = next.min(changes.len());
-            for contact in self.at_changes(&changes[looked_at..next])? {
+            let next = next.min(layers.len());
+            for contact in self.below_layers(&layers[looked_at..next])? {
                 standing.meet(contact);
             }
             looked_at = next;
@@ -272,36 +282,34 @@ impl Pile {
         Ok(standing)
     }
 
-    /// Returns the forces where lines begin at a surface: for each direction one below an ordinary sphere, whose forces
-    /// are all equal, and those below all spheres with extra weight.
+    /// Returns the forces where lines begin at a surface: for each direction and sign one below an ordinary sphere, whose
+    /// forces are all equal, and those below all spheres with extra weight.
     fn at_surfaces(&self) -> Vec<ContactForce<BigRational>> {
-        let System {
-            shape,
-            loading,
-            increments,
-            ..
-        } = self.system();
+        let system = self.system();
+        let (shape, loading) = (system.shape, &system.loading);
         let floor = shape.layers() - 1;
-        let contact = |site, direction: Direction| ContactForce {
+        let contact = |site: Site, direction: Direction| ContactForce {
             site,
             direction,
-            force: formula::force(loading.total(site), &increments[direction.index()]),
+            force: self.own_increments(site)[direction.index()].clone(),
         };
         let pushed = loading.pushes();
         let extras = loading.extras().map(|(site, _)| site);
         let special: BTreeSet<Site> = extras.chain(pushed.keys().copied()).collect();
         let directions = self.dimension().directions();
         // Every line through the top layer begins there. In each layer inside a run, lines begin in the first row.
-        let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
-        let inside = runs.flat_map(|run| run.from + 1..run.to);
-        let layers = || {
-            core::iter::once(0)
-                .chain(inside.clone())
-                .take_while(|k| *k < floor)
+        let layers = |sign| {
+            let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
+            let runs = runs.filter(move |run| run.sign == sign);
+            let layers = runs.flat_map(|run| run.from + i128::from(run.index > 0)..run.to);
+            layers.take_while(|k| *k < floor)
         };
         let mut least = Vec::new();
-        for direction in directions {
-            let sites = layers()
+        for (direction, sign) in directions
+            .iter()
+            .flat_map(|direction| [Sign::Plus, Sign::Minus].map(|sign| (direction, sign)))
+        {
+            let sites = layers(sign)
                 .filter_map(|k| shape.rows(Selection::Layer(k)).ok())
                 .flatten();
             let mut fresh = sites
@@ -320,18 +328,37 @@ impl Pile {
         least
     }
 
-    /// Returns the contacts below spheres with horizontal forces. Only there can the force along a line decrease within
-    /// a run.
-    fn at_pushes(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
+    /// Returns the contacts below spheres with horizontal contact forces, and those around spheres with other loads or
+    /// weights. Only there can a decrease along a line begin or end within a run.
+    fn at_special_spheres(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
+        let system = self.system();
+        let (shape, loading) = (system.shape, &system.loading);
+        let falls = |sign| system.ordinary(sign).iter().any(Signed::is_negative);
+        let everywhere = falls(Sign::Plus) || falls(Sign::Minus);
+        let is_negative = |extra: &Extra| {
+            let own = self.own_increments(extra.site);
+            own.iter().any(Signed::is_negative)
+        };
+        let extras = system.extras();
+        let extras = extras.filter(|extra| everywhere || is_negative(extra));
+        let mut sites: BTreeSet<Site> = loading.pushes().keys().copied().collect();
+        for Extra { site, .. } in extras {
+            sites.insert(site);
+            if everywhere {
+                let above = Direction::ALL.map(|direction| shape.above(site, direction));
+                sites.extend(above.into_iter().flatten());
+            }
+        }
         let forces = self.forces::<BigRational>();
-        let sites = self.loading().pushes().keys();
-        let contacts = sites.map(|site| forces.contacts(Selection::One(*site)));
+        let contacts = sites
+            .into_iter()
+            .map(|site| forces.contacts(Selection::One(site)));
         let contacts: Vec<_> = contacts.collect::<Result<_, _>>()?;
         contacts.into_iter().flatten().collect()
     }
 
-    /// Returns the smallest force below each of these layers, at which the sign changes.
-    fn at_changes(&self, layers: &[i128]) -> Result<Vec<ContactForce<BigRational>>, Error> {
+    /// Returns the smallest force below each of these layers.
+    fn below_layers(&self, layers: &[i128]) -> Result<Vec<ContactForce<BigRational>>, Error> {
         let shape = self.shape();
         let Some(last) = layers.last() else {
             return Ok(Vec::new());
@@ -353,8 +380,14 @@ impl Pile {
                 MAX_NUMBERS,
                 "move the sign changes closer to the top",
             )?;
-            layers.iter().map(|k| least_at_ends(&lines, *k)).collect()
+            let directions = self.dimension().directions();
+            let least = layers.iter().map(|k| least_at_ends(&lines, directions, *k));
+            least.collect()
         };
+        // Sweeps are for spheres.
+        if self.dimension() == Dimension::Two {
+            return by_trees();
+        }
         if Grid::numbers(shape, last + 1, planes).is_err() {
             return by_trees();
         }
@@ -396,9 +429,10 @@ impl Packing<'_> {
     }
 }
 
-/// Returns the smallest force below a layer with a sign change, among the spheres between which the forces are linear.
+/// Returns the smallest force below a layer, among the spheres between which the forces are linear.
 fn least_at_ends(
     lines: &Lines<'_, BigRational>,
+    directions: &[Direction],
     k: i128,
 ) -> Result<ContactForce<BigRational>, Error> {
     let mut least: Option<(BigInt, Site, Direction)> = None;
@@ -411,7 +445,7 @@ fn least_at_ends(
             let Received { forces, changes } =
                 lines.to_below(site, Received { forces, changes }, Meter::NONE);
             denominator = lines.scale(changes);
-            for (force, direction) in forces.into_iter().zip(Direction::ALL) {
+            for (force, direction) in forces.into_iter().zip(directions.iter().copied()) {
                 if least.as_ref().is_none_or(|(least, ..)| force < *least) {
                     least = Some((force, site, direction));
                 }
@@ -427,21 +461,30 @@ fn least_at_ends(
     })
 }
 
-/// Returns the smallest force below the current layer of a sweep, where the sign has just changed.
+/// Returns the smallest force below the current layer of a sweep.
 fn least_transmitted(
     sweep: &mut Descent<'_, BigRational, Planes>,
     lines: &Lines<'_, BigRational>,
 ) -> Result<ContactForce<BigRational>, Error> {
     sweep.add_extras_here()?;
-    let (least, k) = (sweep.least()?, sweep.k());
-    let changes = sweep.turned_already();
-    let [i, j] = least.place;
-    // Sign changes occur only in piles whose directions are all alike.
-    let [own, ..] = lines.increments_after(changes);
-    let force = formula::transmitted(least.numerator, &own);
+    let (k, changes) = (sweep.k(), sweep.turned_already());
+    let own = lines.increments_after(changes);
+    let transmitted = sweep.least()?.into_iter().zip(&own).map(|(least, own)| {
+        let [i, j] = least.place;
+        let force = formula::transmitted(least.numerator, own);
+        (force, Site { i, j, k }, least.direction)
+    });
+    let least = transmitted.min_by(|one, other| {
+        // The first in the order of tables, of equal forces.
+        let place = |(_, Site { i, j, .. }, direction): &(_, _, _)| (*j, *i, *direction);
+        one.0
+            .cmp(&other.0)
+            .then_with(|| place(one).cmp(&place(other)))
+    });
+    let (force, site, direction) = least.ok_or_else(|| bug("there are three directions"))?;
     Ok(ContactForce {
-        site: Site { i, j, k },
-        direction: least.direction,
+        site,
+        direction,
         force: BigRational::new(force, lines.scale(changes)),
     })
 }

@@ -128,10 +128,12 @@ class Pile:
 
     def __init__(self, given):
         # The pile of a certificate has no horizontal forces; an empty list of them is allowed.
-        if isinstance(given, dict) and given.get("horizontal") == []:
-            given = {key: value for key, value in given.items() if key != "horizontal"}
-        dimension, sine, stacking, anchor, weightless, weights, loads = record(
-            given, "dimension sin_phi stacking anchor weightless weights loads"
+        if isinstance(given, dict):
+            given = {"tilt": {"x": "0", "y": "0"}} | given
+            if given.get("horizontal") == []:
+                del given["horizontal"]
+        dimension, sine, stacking, anchor, weightless, tilt, weights, loads = record(
+            given, "dimension sin_phi stacking anchor weightless tilt weights loads"
         )
         if dimension not in (2, 3) or isinstance(dimension, bool) or not isinstance(weightless, bool):
             raise Unreadable("dimension must be 2 or 3, and weightless true or false")
@@ -154,13 +156,19 @@ class Pile:
         self.ordinary = 0 if weightless else 1
         if weightless:
             self.own = dict.fromkeys(self.own, 0)
+        self.tilt = [number(part) for part in record(tilt, "x y")]
         self.loads = {}
         for one in loads if isinstance(loads, list) else [None]:
-            site, load = weight_at(*record(one, "site weight"))
-            self.loads[site] = self.loads.get(site, 0) + load
-        for held in (self.own, self.loads):
-            if any(site not in self or weight < 0 for site, weight in held.items()):
-                raise Unreadable("a weight is negative, or its site is not in the pile")
+            one = {"x": "0", "y": "0"} | one if isinstance(one, dict) else one
+            site, *load = record(one, "site weight x y")
+            site, load = sphere(site), [number(part) for part in load]
+            if load[0] < 0:
+                raise Unreadable("a load is negative")
+            self.loads[site] = [a + b for a, b in zip(self.loads.get(site, [0, 0, 0]), load)]
+        if any(site not in self for site in [*self.own, *self.loads]) or any(w < 0 for w in self.own.values()):
+            raise Unreadable("a weight is negative, or the site of a weight or load is not in the pile")
+        if dimension == 2 and (self.tilt[1] or any(load[2] for load in self.loads.values())):
+            raise Unreadable("a force on discs has a component along y")
 
     def grown(self, side, sites):
         """Return the layers: every support below a top, or all sites above a base whose supports exist."""
@@ -191,8 +199,19 @@ class Pile:
         row_order = lambda site: site[::-1]
         return ((k, i, j) for k in range(self.floor) for i, j in sorted(self.layers[k], key=row_order))
 
-    def weight(self, site):
-        return self.own.get(site, self.ordinary) + self.loads.get(site, 0)
+    def force(self, site):
+        """Return gravity and load on a sphere: downwards in mg, along x in mg tan(theta), along y in sqrt(3) mg tan(theta)."""
+        weight = self.own.get(site, self.ordinary)
+        gravity = [weight, weight * self.tilt[0], weight * self.tilt[1]]
+        return [a + b for a, b in zip(gravity, self.loads.get(site, [0, 0, 0]))]
+
+    def shares(self, site):
+        """Return what gravity and load on a sphere add to its lines: they balance this force."""
+        down, x, y = self.force(site)
+        x, y = self.signs[site[0]] * x, self.signs[site[0]] * y
+        if self.directions == ["alpha", "beta"]:
+            return {"alpha": down - x, "beta": down + x}
+        return {"alpha": down - x - 3 * y, "beta": down - x + 3 * y, "gamma": down + 2 * x}
 
     def support(self, site, direction):
         (k, i, j), (x, y) = site, OFFSETS[direction]
@@ -274,8 +293,9 @@ class Certificate:
         self.transmitted = {}
         for site in pile.above_floor():
             g = received.setdefault(site, dict.fromkeys(pile.directions, 0))
+            own = pile.shares(site)
             for direction, force in pile.crossed(site[0], g).items():
-                force += pile.weight(site)
+                force += own[direction]
                 if site in pushed:
                     force -= pile.signs[site[0]] * pushed[site][direction]
                 need(force >= 0, f"f = {force} >= 0 at (k,i,j) = {site}, {direction}")
@@ -302,7 +322,8 @@ class Certificate:
 
     def work(self):
         """Return the virtual work: the sum of w phi over spheres and directions."""
-        return sum(self.pile.weight(site) * sum(self.field(site).values()) for site in self.phi)
+        pairs = ((self.pile.shares(site), self.field(site)) for site in self.phi)
+        return sum(own[direction] * phi for own, field in pairs for direction, phi in field.items())
 
     def one_sided(self, side, needed):
         """Check the sign conditions: D at most (side 1) or at least (side -1) `needed`, and c likewise with zero."""
@@ -323,7 +344,7 @@ class Certificate:
         pile = self.pile
         need(site in pile and site[0] == pile.floor, f"no sphere at (k,i,j) = {site} on the floor")
         self.one_sided(1 if kind == "least" else -1, lambda support: int(support == site))
-        normal = lambda total: pile.weight(site) + Fraction(total) / len(pile.directions)
+        normal = lambda total: pile.force(site)[0] + Fraction(total) / len(pile.directions)
         proved = normal(self.work())
         need(proved == claimed, f"N = w + (sum of w phi)/{len(pile.directions)} = {proved}, not {claimed}")
         if attained:

@@ -14,7 +14,7 @@ use crate::data::number;
 use crate::lattice::{Dimension, HorizontalContact, Region, Site};
 use crate::shape::Anchor;
 use crate::stacking::Stacking;
-use crate::{Error, Pile};
+use crate::{Error, Load, Pile};
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Pile", deny_unknown_fields)]
@@ -26,8 +26,10 @@ struct Parts {
     stacking: Stacking,
     anchor: Anchor,
     weightless: bool,
-    weights: Vec<OnSite>,
-    loads: Vec<OnSite>,
+    #[serde(default)]
+    tilt: Tilt,
+    weights: Vec<Weight>,
+    loads: Vec<Loaded>,
     #[serde(default, with = "listed")]
     horizontal: BTreeMap<HorizontalContact, BigRational>,
 }
@@ -35,18 +37,51 @@ struct Parts {
 /// The weight of a sphere, or the load on it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct OnSite {
+struct Weight {
     site: Site,
     #[serde(with = "number")]
     weight: BigRational,
 }
 
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Loaded {
+    site: Site,
+    /// The force downwards.
+    #[serde(with = "number")]
+    weight: BigRational,
+    #[serde(default, with = "number")]
+    x: BigRational,
+    #[serde(default, with = "number")]
+    y: BigRational,
+}
+
+/// The horizontal part of gravity.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Tilt {
+    #[serde(with = "number")]
+    x: BigRational,
+    #[serde(with = "number")]
+    y: BigRational,
+}
+
 impl Parts {
     fn of(pile: &Pile) -> Self {
-        let on_sites = |(site, weight): (Site, &BigRational)| OnSite {
+        let weighed = |(site, weight): (Site, &BigRational)| Weight {
             site,
             weight: weight.clone(),
         };
+        let loaded = |(site, load): (Site, &Load)| {
+            let Load { down, x, y } = load.clone();
+            Loaded {
+                site,
+                weight: down,
+                x,
+                y,
+            }
+        };
+        let [x, y] = pile.tilt().clone();
         let (shape, loading) = (pile.shape(), pile.loading());
         Self {
             dimension: pile.dimension(),
@@ -54,19 +89,21 @@ impl Parts {
             stacking: shape.stacking().clone(),
             anchor: shape.anchor(),
             weightless: loading.is_weightless(),
-            weights: loading.weights().map(on_sites).collect(),
-            loads: loading.loads().map(on_sites).collect(),
+            tilt: Tilt { x, y },
+            weights: loading.weights().map(weighed).collect(),
+            loads: loading.loads().map(loaded).collect(),
             horizontal: loading.horizontal().map(|(c, f)| (c, f.clone())).collect(),
         }
     }
 
     fn pile(self) -> Result<Pile, Invalid> {
         let mut pile = self.bare()?;
-        for OnSite { site, weight } in self.weights {
+        pile = pile.with_tilt([self.tilt.x, self.tilt.y])?;
+        for Weight { site, weight } in self.weights {
             pile = pile.with_weight(site, weight)?;
         }
-        for OnSite { site, weight } in self.loads {
-            pile = pile.with_load(site, weight)?;
+        for Loaded { site, weight, x, y } in self.loads {
+            pile = pile.with_load(site, Load { down: weight, x, y })?;
         }
         for (contact, force) in self.horizontal {
             pile = pile.with_horizontal_force(contact, force)?;

@@ -71,7 +71,7 @@ impl<T: Algebra> Lines<'_, T> {
         direction: Direction,
         n: i128,
     ) -> T::Numerator {
-        let ordinary = self.ordinary(T::Numerator::from_i128(n), direction.index());
+        let ordinary = self.ordinary_in(run.index, T::Numerator::from_i128(n), direction.index());
         if self.extras.is_empty() {
             return ordinary;
         }

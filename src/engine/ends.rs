@@ -36,7 +36,7 @@ impl<T: Algebra> Lines<'_, T> {
             Some(run) if run.index > 0 => self.shape.layer(run.from)?.site_count(),
             _ => BigUint::ZERO,
         };
-        Ok(rows * ENDS_OF_A_ROW + (starts + self.extra_weights.len()) * 9_u32)
+        Ok(rows * ENDS_OF_A_ROW + (starts + self.extra_loads.len()) * 9_u32)
     }
 
     /// Returns the rows of layer `k`, each with the sites at which a linear piece of the forces ends.

@@ -8,7 +8,8 @@
 //! After d sign changes every force is an integer over D·3^d, with D the common denominator of weights and loads
 //! ([`paper`](crate::paper#transfer)). A sign change triples the numerators, 3G g = 2Σg − 3g, so nothing is divided.
 //!
-//! Let the spheres have the weight u and the loads e, in mg. Let w be the weights and loads in one layer, g the forces
+//! Let the spheres have the weight u and the loads e, in mg. If gravity leans or a load does, these are the largest
+//! absolute values of what it adds to a line. Let w be the weights and loads in one layer, g the forces
 //! that the layer receives, and f those that it transmits. G is orthogonal, and each line of a layer continues as one
 //! line of the next. So in the ℓ² norm over a layer ‖f‖ ≤ ‖g‖ + √3·‖w‖. For K layers of N spheres in all, the
 //! Cauchy–Schwarz inequality gives
@@ -234,24 +235,24 @@ impl Planes {
         check(fits)
     }
 
-    /// Returns the smallest number on the lines of the layer that a pass leads to, and its first position and direction
-    /// in row order. Carries all limbs before the search.
+    /// Returns the smallest number of a layer along each direction, and its first position in row order. If only a third
+    /// of the layer is stored, it is the first position among the images, whose direction may differ.
     ///
     /// # Errors
     /// [`Error::Bug`].
-    pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Result<Least, Error> {
+    pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Result<[Least; 3], Error> {
         assert_none_deferred(&self.deferred);
         self.carry()?;
-        let mut least: Option<(Vec<i64>, (i128, i128, Direction))> = None;
+        let mut least: [Option<(Vec<i64>, Place)>; 3] = [None, None, None];
         for row in pass.part.rows(pass.k) {
             let cells = grid.row(row.j, &row.i, pass.shift)?;
             let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
-                for direction in Direction::ALL {
+                for (direction, least) in Direction::ALL.into_iter().zip(&mut least) {
                     // Limbs in [−2^54, 2^54) compare like digits, from the top limb down: the lower limbs together are
                     // less than one unit of the limb above.
                     let limbs = rows.iter().map(|row| row[direction.index()][n]);
-                    let order = match &least {
+                    let order = match least {
                         Some((least, ..)) => limbs.clone().cmp(least.iter().copied()),
                         None => Less,
                     };
@@ -259,20 +260,24 @@ impl Planes {
                     // precede the stored line.
                     if order == Less || order == Equal && grid.corner.is_some() {
                         let first = grid.first_image([i, row.j], direction, pass.k)?;
-                        match &mut least {
+                        match least {
                             Some((_, place)) if order == Equal => *place = first.min(*place),
-                            _ => least = Some((limbs.collect(), first)),
+                            _ => *least = Some((limbs.collect(), first)),
                         }
                     }
                 }
             }
         }
-        let least = least.map(|(limbs, (j, i, direction))| Least {
-            numerator: value(limbs.iter()),
-            place: [i, j],
-            direction,
-        });
-        least.ok_or_else(|| bug("a layer has a sphere"))
+        let one = |least: Option<(Vec<i64>, _)>| -> Result<Least, Error> {
+            let (limbs, (j, i, direction)) = least.ok_or_else(|| bug("a layer has a sphere"))?;
+            Ok(Least {
+                numerator: value(limbs.iter()),
+                place: [i, j],
+                direction,
+            })
+        };
+        let [alpha, beta, gamma] = least;
+        Ok([one(alpha)?, one(beta)?, one(gamma)?])
     }
 }
 
@@ -280,7 +285,10 @@ fn check(fits: bool) -> Result<(), Error> {
     if fits { Ok(()) } else { Err(bug(WIDE_ENOUGH)) }
 }
 
-/// The smallest number of a layer, with its position and direction.
+/// The place of a line in a layer, in row order: j, i and the direction.
+type Place = (i128, i128, Direction);
+
+/// The smallest number of a layer along a direction, with its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Least {
     pub(crate) numerator: BigInt,
@@ -459,7 +467,7 @@ mod tests {
             planes.limbs[0].add_to(cells, &lower);
             planes.limbs[1].add_to(cells, &top);
         }
-        let least = planes.least(&grid, &pass).unwrap();
+        let [_, least, _] = planes.least(&grid, &pass).unwrap();
         assert_eq!(least.numerator, BigInt::from(one + 5));
         assert_eq!((least.place, least.direction), ([1, 0], Direction::Beta));
     }

@@ -17,11 +17,10 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use super::meter::Meter;
-use crate::formula;
-use crate::formula::{force, half_turn, transmitted};
-use crate::lattice::Sign;
-use crate::lattice::{Direction, Row, Site};
-use crate::pile::System;
+use crate::formula::{self, force, half_turn, transmitted};
+use crate::geometry::{Load, Vector};
+use crate::lattice::{Direction, Row, Sign, Site};
+use crate::pile::{Extra, System};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
 
@@ -39,13 +38,16 @@ pub(crate) struct Received<T: Algebra> {
 #[derive(Clone, Debug)]
 pub(crate) struct Lines<'p, T: Algebra> {
     pub(super) shape: &'p Shape,
-    /// The increments of an ordinary sphere.
-    pub(super) ordinary: [T::Numerator; 3],
+    /// The increments of an ordinary sphere, under the sign of the runs with an even index and under the other one.
+    /// They differ only under gravity that leans.
+    ordinary: [[T::Numerator; 3]; 2],
+    /// Gravity on an ordinary sphere, in mg/W, where W is the sum of the three increments of a weight.
+    gravity: Vector<T::Numerator>,
     /// The further increments of some spheres, by line and layer, from extra weights, loads and horizontal contacts.
     pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
-    /// The weight of some spheres and their loads, less an ordinary weight, in mg/W, where W is the sum of the three
-    /// increments. The value is 0 for a sphere with horizontal contacts only.
-    pub(super) extra_weights: BTreeMap<Site, T::Numerator>,
+    /// The forces of gravity and loads on some spheres, less gravity on an ordinary one, in mg/W. The value is 0 for a
+    /// sphere with horizontal contacts only.
+    pub(super) extra_loads: BTreeMap<Site, Vector<T::Numerator>>,
     scale: T::Numerator,
     /// Whether a sign change triples the denominator. It does if the ring of numerators does not contain 1/3.
     triples: bool,
@@ -65,42 +67,96 @@ fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerato
     value
 }
 
+/// Returns a load in mg/W, as a vector whose z axis points down. Its x and y axes are those of the symbolic basis.
+fn vector<N: Ring>(load: Load<N>, w: &N) -> Vector<N> {
+    let Load { down, x, y } = load.map(|part| force(part, w));
+    Vector { x, y, z: down }
+}
+
 impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn new(system: &System<'p>) -> Self {
-        let increments = &system.increments;
-        let own = system.loading.ordinary();
-        // One denominator serves the increments, and the products of increments with weights and loads.
+        // One denominator serves all increments and loads.
         let least = BigRational::new(BigInt::one(), system.denominator());
         let (_, scale) = T::numerators(core::array::from_ref(&least));
-        let ordinary = increments
-            .each_ref()
-            .map(|w| numerator::<T>(force(own.clone(), w), &least));
+        let numerator = |value| numerator::<T>(value, &least);
+        let w = formula::weight(&system.increments);
+        let first = system.shape.sign_below(0).unwrap_or(Sign::Plus);
         let mut lines = Self {
             shape: system.shape,
-            ordinary,
+            ordinary: [first, first.opposite()].map(|sign| system.ordinary(sign).map(numerator)),
+            gravity: vector(system.loading.ordinary(), &w).map(numerator),
             extras: BTreeMap::new(),
-            extra_weights: BTreeMap::new(),
+            extra_loads: BTreeMap::new(),
             scale,
             triples: formula::triples::<T>(),
         };
-        for extra in system.extras() {
-            let site = extra.site;
-            let run_below = lines
-                .shape
-                .stretch_to(site.k + 1)
-                .filter(|run| site.k < run.to);
-            if let Some(run) = run_below {
-                for (direction, own) in Direction::ALL.into_iter().zip(extra.lines) {
-                    let line = Line::through(site, direction, run);
-                    let own = numerator::<T>(own, &least);
-                    lines.extras.insert((line, site.k), own);
-                }
-            }
-            let weight = force(extra.weight, &formula::weight(increments));
-            let weight = numerator::<T>(weight, &least);
-            lines.extra_weights.insert(site, weight);
+        for Extra {
+            site,
+            load,
+            lines: own,
+        } in system.extras()
+        {
+            let load = vector(load, &w).map(numerator);
+            lines.add(site, own.map(numerator), &load);
         }
         lines
+    }
+
+    /// Adds to the load on a sphere, in a scalar that is its own numerator.
+    pub(crate) fn add_load(&mut self, system: &System<'_>, site: Site, load: Load<T::Numerator>) {
+        let (s, w) = Self::constants(system);
+        let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
+        let own = system.load_increments_of(&load, &s, sign);
+        self.add(site, own, &vector(load, &w));
+    }
+
+    /// Adds to the tilt of gravity, in a scalar that is its own numerator.
+    pub(crate) fn add_tilt(&mut self, system: &System<'_>, [x, y]: [T::Numerator; 2]) {
+        let (s, w) = Self::constants(system);
+        let leaning = |weight: BigRational| {
+            let ([weight], _) = T::numerators(&[weight]);
+            let [x, y] = [&x, &y].map(|part| force(weight.clone(), part));
+            Load {
+                down: T::Numerator::zero(),
+                x,
+                y,
+            }
+        };
+        let ordinary = leaning(system.loading.ordinary_weight());
+        let first = self.shape.sign_below(0).unwrap_or(Sign::Plus);
+        for (sign, lines) in [first, first.opposite()]
+            .into_iter()
+            .zip(&mut self.ordinary)
+        {
+            let own = system.load_increments_of(&ordinary, &s, sign);
+            *lines = add(lines.clone(), &own);
+        }
+        self.gravity = self.gravity.clone() + &vector(ordinary, &w);
+        for (site, weight) in system.loading.extra_weights() {
+            self.add_load(system, site, leaning(weight));
+        }
+    }
+
+    /// Returns s and W, in a scalar that is its own numerator.
+    fn constants(system: &System<'_>) -> (T::Numerator, T::Numerator) {
+        let constants = [system.sin_phi.clone(), formula::weight(&system.increments)];
+        let ([s, w], _) = T::numerators(&constants);
+        (s, w)
+    }
+
+    /// Adds to the forces of a sphere, all over the denominator before any sign change: `own` on its three lines, and
+    /// the load in mg/W that they balance.
+    fn add(&mut self, site: Site, own: [T::Numerator; 3], load: &Vector<T::Numerator>) {
+        let run_below = self.shape.stretch_to(site.k + 1);
+        if let Some(run) = run_below.filter(|run| site.k < run.to) {
+            for (direction, own) in Direction::ALL.into_iter().zip(own) {
+                let place = (Line::through(site, direction, run), site.k);
+                let sum = self.extras.entry(place).or_insert_with(T::Numerator::zero);
+                *sum = transmitted(sum.clone(), &own);
+            }
+        }
+        let sum = self.extra_loads.entry(site).or_insert_with(Vector::zero);
+        *sum = sum.clone() + load;
     }
 
     /// Returns the denominator of forces after `changes` sign changes.
@@ -122,29 +178,36 @@ impl<'p, T: Algebra> Lines<'p, T> {
         self.scaled(numerator, to.saturating_sub(from))
     }
 
-    /// Returns the weight of a sphere and its load, in mg/W, over the denominator after `changes` sign changes.
-    pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
-        let ordinary = self.ordinary_weight(changes);
-        match self.extra_weights.get(&site) {
-            Some(extra) => self.scaled(extra.clone(), changes) + &ordinary,
-            None => ordinary,
-        }
+    /// Returns the force of gravity and of the load on a sphere, in mg/W, over the denominator after `changes` sign
+    /// changes.
+    pub(crate) fn load(&self, site: Site, changes: usize) -> Vector<T::Numerator> {
+        let load = match self.extra_loads.get(&site) {
+            Some(extra) => self.gravity.clone() + extra,
+            None => self.gravity.clone(),
+        };
+        load.map(|part| self.scaled(part, changes))
     }
 
-    /// Returns the weight of an ordinary sphere, in mg/W, over the denominator after `changes` sign changes.
-    pub(crate) fn ordinary_weight(&self, changes: usize) -> T::Numerator {
-        self.scaled(formula::weight(&self.ordinary), changes)
+    /// Returns the force of gravity on an ordinary sphere, in mg/W, over the denominator after `changes` sign changes.
+    pub(crate) fn ordinary_load(&self, changes: usize) -> Vector<T::Numerator> {
+        self.gravity.clone().map(|part| self.scaled(part, changes))
     }
 
-    /// Returns the sum of the increments of `n` ordinary spheres, over the denominator before any sign change. `line`
-    /// is the index of the direction.
+    /// Returns the sum of the increments of `n` ordinary spheres in the first run, over the denominator before any sign
+    /// change. `line` is the index of the direction.
     pub(crate) fn ordinary(&self, n: T::Numerator, line: usize) -> T::Numerator {
-        force(n, &self.ordinary[line])
+        self.ordinary_in(0, n, line)
     }
 
-    /// Returns the increments of an ordinary sphere, over the denominator after `changes` sign changes.
+    /// Returns the sum of the increments of `n` ordinary spheres in a run, over the denominator before any sign change.
+    pub(super) fn ordinary_in(&self, run: usize, n: T::Numerator, line: usize) -> T::Numerator {
+        force(n, &self.ordinary[run % 2][line])
+    }
+
+    /// Returns the increments of an ordinary sphere above which the sign changes `changes` times, over the denominator
+    /// after these changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
-        let ordinary = self.ordinary.each_ref();
+        let ordinary = self.ordinary[changes % 2].each_ref();
         ordinary.map(|w| self.scaled(w.clone(), changes))
     }
 
@@ -168,7 +231,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn extras_in_row(&self, row: &Row) -> impl Iterator<Item = Site> + '_ {
         let Row { k, j, ref i } = *row;
         let [start, end] = [i.start, i.end].map(|i| Site { i, j, k });
-        let sites = self.extra_weights.range(start..end.max(start));
+        let sites = self.extra_loads.range(start..end.max(start));
         sites.map(|(site, _)| *site)
     }
 
@@ -183,7 +246,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
             k,
         };
         let sites = self
-            .extra_weights
+            .extra_loads
             .range(first(layers.start)..first(layers.end));
         sites.map(|(site, _)| *site)
     }
@@ -211,7 +274,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         changes: usize,
     ) -> Received<T> {
         let mut forces = add(received, &self.increments_after(changes));
-        if !self.extra_weights.is_empty() && self.extra_weights.contains_key(&site) {
+        if !self.extra_loads.is_empty() && self.extra_loads.contains_key(&site) {
             forces = add(forces, &self.extra(site));
         }
         Received { forces, changes }

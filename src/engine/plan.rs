@@ -29,10 +29,10 @@ pub(crate) enum Keeping {
 }
 
 impl Keeping {
-    /// Returns the representation of the numerators of a scalar in a sweep.
-    pub(crate) fn of<T: Algebra>() -> Self {
+    /// Returns the representation of the numerators of a scalar in a sweep of a system.
+    pub(crate) fn of<T: Algebra>(system: &System<'_>) -> Self {
         match T::EXACTNESS {
-            Exactness::Exact => Self::Limbs,
+            Exactness::Exact if !system.has_scalar_loads => Self::Limbs,
             _ => Self::Words(size_of::<T::Numerator>().div_ceil(size_of::<i64>())),
         }
     }

@@ -87,7 +87,7 @@ pub(crate) fn plain_sweep<'p, T: Algebra>(
     system: &System<'_>,
     last: i128,
 ) -> Result<Descent<'p, T, Cells<T::Numerator>>, Error> {
-    let mut words = match Keeping::of::<T>() {
+    let mut words = match Keeping::of::<T>(system) {
         Keeping::Words(words) => words,
         Keeping::Limbs => size_of::<T::Numerator>().div_ceil(size_of::<i64>()),
     };

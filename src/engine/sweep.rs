@@ -216,17 +216,17 @@ impl Descent<'_, BigRational, Planes> {
     /// # Errors
     /// [`Error::Bug`] for a sphere that is not stored.
     pub(crate) fn are_alike(&self, [one, other]: [Site; 2]) -> Result<bool, Error> {
-        let extra = |site| self.lines.extra_weights.contains_key(&site);
+        let extra = |site| self.lines.extra_loads.contains_key(&site);
         let cells = |Site { i, j, k }| self.grid.site(i, j, k);
         let alike = self.layer.are_alike([cells(one)?, cells(other)?]);
         Ok(alike && !extra(one) && !extra(other))
     }
 
-    /// Returns the smallest number on the lines of the current layer, and its position.
+    /// Returns the smallest number on the lines of the current layer along each direction, and its position.
     ///
     /// # Errors
     /// [`Error::Bug`] at the top, where no line has begun.
-    pub(crate) fn least(&mut self) -> Result<Least, Error> {
+    pub(crate) fn least(&mut self) -> Result<[Least; 3], Error> {
         let pass = self.pass.as_ref();
         let pass = pass.ok_or_else(|| bug("lines are compared below the top"))?;
         self.layer.least(&self.grid, pass)

@@ -136,6 +136,13 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "the {quantity} of the sphere (i,j,k) = {site} must not be negative, but is {given}"
             ),
+            Error::OutOfPlane { quantity } => write!(
+                f,
+                "the {quantity} of a pile of discs has no component along y: set it to 0"
+            ),
+            Error::NoWeight => f.write_str(
+                "no sphere above the floor has a weight, so a tilt of gravity has no effect: give the pile weight",
+            ),
             Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")
             }

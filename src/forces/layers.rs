@@ -247,7 +247,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
 /// this margin only after half a million passes. A layer so far down does not fit in memory.
 fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
     let is_fine = matches!(T::EXACTNESS, Exactness::Rounded { bits: 24.. });
-    if !is_fine || triples::<T>() {
+    if !is_fine || triples::<T>() || system.has_scalar_loads {
         return true;
     }
     let twice = BigRational::new(system.bound_of_sweep(last) * 2, system.denominator());

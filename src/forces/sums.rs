@@ -11,7 +11,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::Forces;
-use super::terms::{Terms, to_scalar, to_scalars};
+use super::terms::{Terms, horizontal, to_scalar, to_scalars};
 use crate::Error;
 use crate::error::refuse_beyond;
 use crate::formula;
@@ -78,8 +78,8 @@ impl Forces<'_, BigRational> {
     }
 
     /// Returns the sums of the forces of a part on the floor: normal in mg, shear_x in mg·tanθ, shear_y in
-    /// 2cosφ·mg·tanθ. The terms are the items of [`base`](Self::base). Over the whole base, the normal force is the
-    /// weight of the pile with its loads, and the shears are zero.
+    /// 2cosφ·mg·tanθ. The terms are the items of [`base`](Self::base). Over the whole base, the sum is that of all loads
+    /// and weights, so the shears are zero unless gravity leans or a load does.
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::NotOnFloor`] for a part outside the base;
@@ -107,12 +107,15 @@ impl Forces<'_, BigRational> {
         terms.system.check_on_floor(&self.pile.rows(part)?)?;
         let lines = &terms.lines;
         let (received, changes) = terms.sum_layers(floor..floor, |_, _| ());
-        let ordinary = lines.ordinary_weight(changes);
+        let ordinary = lines.ordinary_load(changes);
         let spheres = BigInt::from(terms.system.shape.layer(floor)?.site_count());
         let extras = lines.extras_in(floor..floor + 1);
-        let extras = extras.map(|site| lines.weight(site, changes) - &ordinary);
-        let weight = (extras.sum::<BigInt>() + &ordinary * spheres) * &terms.direction_scale;
-        let force = formula::support_load(&received, &terms.directions_above(floor), &weight);
+        let load = extras.fold(ordinary.clone().scaled(&spheres), |sum, site| {
+            sum + &(lines.load(site, changes) - &ordinary)
+        });
+        let load = load.scaled(&terms.direction_scale);
+        let directions = terms.directions_above(floor);
+        let force = formula::support_load(&received, &directions, &load.z) + &horizontal(&load);
         let force = force.scaled(&terms.sum_scale);
         let unit = terms.floor_unit(changes);
         to_scalars("a sum of forces", [force.z, force.x, force.y], &unit)

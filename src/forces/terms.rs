@@ -1,5 +1,6 @@
 //! The constants of the forces, as numerators over known denominators.
 
+use alloc::vec::Vec;
 use core::array;
 
 use num_bigint::BigInt;
@@ -10,7 +11,7 @@ use super::FloorForce;
 use crate::Error;
 use crate::engine::{Lines, Readout, Received, Unit};
 use crate::formula;
-use crate::geometry::Vector;
+use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Sign, Site};
 use crate::pile::System;
 use crate::scalar::{Algebra, Ring, Surd};
@@ -44,6 +45,41 @@ impl<'p, T: Algebra> Terms<'p, T> {
                 Vector { x, y, z }
             }),
             direction_scale,
+        }
+    }
+
+    /// Adds to the loads on spheres.
+    pub(super) fn add_loads(&mut self, loads: Vec<(Site, Load<T>)>) {
+        let mut rational = false;
+        for (site, Load { down, x, y }) in loads {
+            match T::into_numerators([down, x, y]) {
+                Ok([down, x, y]) => {
+                    self.lines.add_load(&self.system, site, Load { down, x, y });
+                    self.system.has_scalar_loads = true;
+                }
+                Err([down, x, y]) => {
+                    let loading = self.system.loading.to_mut();
+                    loading.add_load(site, &Load { down, x, y });
+                    rational = true;
+                }
+            }
+        }
+        if rational {
+            *self = Self::new(self.system.clone());
+        }
+    }
+
+    /// Adds to the tilt of gravity.
+    pub(super) fn add_tilt(&mut self, tilt: [T; 2]) {
+        match T::into_numerators(tilt) {
+            Ok(tilt) => {
+                self.lines.add_tilt(&self.system, tilt);
+                self.system.has_scalar_loads = true;
+            }
+            Err(tilt) => {
+                self.system.loading.to_mut().add_tilt(tilt);
+                *self = Self::new(self.system.clone());
+            }
         }
     }
 
@@ -92,12 +128,13 @@ impl<'p, T: Algebra> Terms<'p, T> {
     ) -> (Vector<T::Numerator>, T::Numerator) {
         let Received { forces, changes } = above;
         let directions = self.directions_above(site.k);
-        let force = formula::support_load(forces, &directions, &self.weight(site, *changes));
+        let load = self.load(site, *changes);
+        let force = formula::support_load(forces, &directions, &load.z) + &horizontal(&load);
         (force.scaled(&self.sum_scale), self.floor_unit(*changes))
     }
 
     /// Returns the coefficients of [`floor_numerators`](Self::floor_numerators) for an ordinary sphere: the factor of
-    /// each force from above, and the contribution of the weight.
+    /// each force from above, and the contribution of gravity.
     fn floor_factors(
         &self,
         k: i128,
@@ -114,8 +151,12 @@ impl<'p, T: Algebra> Terms<'p, T> {
             support_load([&zero, &one, &zero], &zero),
             support_load([&zero, &zero, &one], &zero),
         ];
-        let weight = self.lines.ordinary_weight(changes) * &self.direction_scale;
-        (factors, support_load([&zero; 3], &weight))
+        let gravity = self
+            .lines
+            .ordinary_load(changes)
+            .scaled(&self.direction_scale);
+        let own = support_load([&zero; 3], &gravity.z);
+        (factors, own + &horizontal(&gravity).scaled(&self.sum_scale))
     }
 
     /// Returns the denominator of forces on the floor. One mg is W times the unit of forces along lines.
@@ -123,9 +164,9 @@ impl<'p, T: Algebra> Terms<'p, T> {
         self.lines.scale(changes) * &self.direction_scale * &self.increment_sum
     }
 
-    /// Returns the sum of weight and load of a sphere, over the common denominator of forces times directions.
-    pub(super) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
-        self.lines.weight(site, changes) * &self.direction_scale
+    /// Returns the sum of gravity and load on a sphere, over the common denominator of forces times directions.
+    pub(super) fn load(&self, site: Site, changes: usize) -> Vector<T::Numerator> {
+        self.lines.load(site, changes).scaled(&self.direction_scale)
     }
 
     /// Returns the unit vectors along the contacts above layer `k`. Above the top layer they are those of a + step.
@@ -184,6 +225,14 @@ impl Terms<'_, BigRational> {
         let shape = self.system.shape;
         let floor = shape.layers() - 1;
         (floor, shape.changes_above(floor))
+    }
+}
+
+/// Returns the horizontal part of a load.
+pub(super) fn horizontal<N: Ring>(load: &Vector<N>) -> Vector<N> {
+    Vector {
+        z: N::zero(),
+        ..load.clone()
     }
 }
 

@@ -25,7 +25,8 @@ pub(super) enum Walk<'p, T: Algebra> {
 
 impl<'p, T: Algebra> Walk<'p, T> {
     pub(super) fn new(plan: &Plan, rows: &Rows<'_>, terms: &Terms<'p, T>) -> Result<Self, Error> {
-        if T::EXACTNESS == Exactness::Exact {
+        // Integers cannot represent loads in another exact scalar.
+        if T::EXACTNESS == Exactness::Exact && !terms.system.has_scalar_loads {
             let terms = Terms::<BigRational>::new(terms.system.clone());
             let engine = Engine::exact(plan, rows, (&terms.lines, &terms.system))?;
             return Ok(Self::Exact(Box::new(terms), engine));

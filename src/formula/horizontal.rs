@@ -43,7 +43,8 @@ pub fn beside<T: Ring>(received: T, own: &T, pushed: &T, sign: Sign) -> T {
     transmitted(received, own) - &signed(pushed.clone(), sign)
 }
 
-fn signed<T: Ring>(x: T, sign: Sign) -> T {
+/// Returns σx.
+pub(super) fn signed<T: Ring>(x: T, sign: Sign) -> T {
     match sign {
         Sign::Plus => x,
         Sign::Minus => -x,

@@ -57,6 +57,15 @@ impl Sign {
         }
     }
 
+    /// Returns the other sign.
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::Plus => Self::Minus,
+            Self::Minus => Self::Plus,
+        }
+    }
+
     /// Returns `+` or `-`.
     ///
     /// # Examples

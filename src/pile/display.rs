@@ -6,6 +6,7 @@ use core::fmt;
 
 use exact_surd::layout::padded;
 use exact_surd::short::quoted;
+use num_traits::Zero;
 
 use crate::Pile;
 use crate::lattice::{Dimension, Region};
@@ -61,6 +62,16 @@ impl fmt::Display for Pile {
         } else {
             ""
         };
+        let [x, y] = self.tilt();
+        let tilt = if x.is_zero() && y.is_zero() {
+            String::new()
+        } else {
+            format!(
+                ", tilt {},{}",
+                quoted(&x.to_string()),
+                quoted(&y.to_string())
+            )
+        };
         let counted = |count: usize, one: &str| match count {
             0 => String::new(),
             1 => format!(", 1 {one}"),
@@ -71,7 +82,7 @@ impl fmt::Display for Pile {
         let pushes = counted(self.horizontal_forces().len(), "horizontal force");
         padded(
             f,
-            format_args!("{layers}{spheres}{angle}{weightless}{weights}{loads}{pushes}"),
+            format_args!("{layers}{spheres}{angle}{tilt}{weightless}{weights}{loads}{pushes}"),
         )
     }
 }

@@ -8,18 +8,21 @@ use num_traits::{One, Signed, Zero};
 
 use crate::Error;
 use crate::formula;
+use crate::geometry::Load;
 use crate::lattice::{HorizontalContact, Sign, Site};
 
-/// The weights of the spheres and the vertical loads on them, in mg, and the forces of horizontal contacts, in f₀. None
-/// is negative.
+/// The weights of the spheres, in mg, the loads on them, and the forces of horizontal contacts, in f₀. No weight,
+/// downward load or horizontal contact force is negative.
 ///
 /// In the equations a load acts like additional weight of its sphere, but it does not change the mass of the sphere.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Loading {
     weightless: bool,
+    /// The horizontal part of gravity along x and y, per unit of its vertical part and tanθ.
+    tilt: [BigRational; 2],
     /// The weights of the spheres whose weight is not mg.
     weights: BTreeMap<Site, BigRational>,
-    loads: BTreeMap<Site, BigRational>,
+    loads: BTreeMap<Site, Load>,
     horizontal: BTreeMap<HorizontalContact, BigRational>,
     /// The forces that the horizontal contacts of a sphere add to its lines, −σ H, by direction. Their sum is 0.
     pushes: BTreeMap<Site, [BigRational; 3]>,
@@ -31,11 +34,20 @@ impl Loading {
         self.weightless = true;
     }
 
+    /// Adds to the tilt of gravity.
+    pub(crate) fn add_tilt(&mut self, [x, y]: [BigRational; 2]) {
+        self.tilt[0] += x;
+        self.tilt[1] += y;
+    }
+
+    pub(crate) fn tilt(&self) -> &[BigRational; 2] {
+        &self.tilt
+    }
+
     /// Adds to the load on a sphere.
-    pub(crate) fn add_load(&mut self, site: Site, load: BigRational) -> Result<(), Error> {
-        let load = not_negative("load", site, load)?;
-        *self.loads.entry(site).or_default() += load;
-        Ok(())
+    pub(crate) fn add_load(&mut self, site: Site, load: &Load) {
+        let sum = self.loads.entry(site).or_default();
+        *sum = core::mem::take(sum) + load;
     }
 
     /// Sets the weight of a sphere.
@@ -96,13 +108,13 @@ impl Loading {
         &self.pushes
     }
 
-    /// Returns whether every sphere has the ordinary weight and carries no load or horizontal force.
+    /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
     pub(crate) fn is_ordinary(&self) -> bool {
         self.pushes.is_empty() && self.extras().next().is_none()
     }
 
     /// Returns the weight of an ordinary sphere.
-    pub(crate) fn ordinary(&self) -> BigRational {
+    pub(crate) fn ordinary_weight(&self) -> BigRational {
         if self.weightless {
             BigRational::zero()
         } else {
@@ -110,10 +122,15 @@ impl Loading {
         }
     }
 
+    /// Returns the force of gravity on an ordinary sphere.
+    pub(crate) fn ordinary(&self) -> Load {
+        Load::leaning(self.ordinary_weight(), &self.tilt)
+    }
+
     /// Returns the weight of a sphere.
     pub(crate) fn weight(&self, site: Site) -> BigRational {
         let special = self.special(site).cloned();
-        special.unwrap_or_else(|| self.ordinary())
+        special.unwrap_or_else(|| self.ordinary_weight())
     }
 
     /// Returns the weight that was set for a sphere, unless the pile is weightless.
@@ -122,14 +139,14 @@ impl Loading {
     }
 
     /// Returns the load on a sphere.
-    pub(crate) fn load(&self, site: Site) -> BigRational {
+    pub(crate) fn load(&self, site: Site) -> Load {
         // A sphere that is not in the list has no load.
         self.loads.get(&site).cloned().unwrap_or_default()
     }
 
-    /// Returns the sum of weight and load.
-    pub(crate) fn total(&self, site: Site) -> BigRational {
-        self.weight(site) + self.load(site)
+    /// Returns the sum of gravity and load on a sphere.
+    pub(crate) fn total(&self, site: Site) -> Load {
+        Load::leaning(self.weight(site), &self.tilt) + &self.load(site)
     }
 
     /// Returns the spheres whose weight was set, in their order, with their weights.
@@ -138,7 +155,7 @@ impl Loading {
     }
 
     /// Returns the loaded spheres, in their order, with their loads.
-    pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
+    pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &Load)> + '_ {
         self.loads.iter().map(|(site, load)| (*site, load))
     }
 
@@ -146,24 +163,33 @@ impl Loading {
         self.weightless
     }
 
-    /// Returns the spheres on which the vertical force differs from an ordinary weight, with the difference.
-    pub(crate) fn extras(&self) -> impl Iterator<Item = (Site, BigRational)> + '_ {
-        let loaded = self.loads.iter().map(|(site, load)| {
-            let extra = match self.special(*site) {
-                Some(weight) => weight - self.ordinary() + load,
-                None => load.clone(),
+    /// Returns the weights that differ from that of an ordinary sphere, with the difference.
+    pub(crate) fn extra_weights(&self) -> impl Iterator<Item = (Site, BigRational)> + '_ {
+        self.weights.keys().filter_map(|site| {
+            let extra = self.special(*site)? - self.ordinary_weight();
+            (!extra.is_zero()).then_some((*site, extra))
+        })
+    }
+
+    /// Returns the spheres on which the force differs from gravity on an ordinary sphere, with the difference.
+    pub(crate) fn extras(&self) -> impl Iterator<Item = (Site, Load)> + '_ {
+        let loaded = self.loads.keys();
+        let others = self.weights.keys();
+        let others = others.filter(|site| !self.loads.contains_key(site));
+        let extra = |site: &Site| {
+            let weight = match self.special(*site) {
+                Some(weight) => weight - self.ordinary_weight(),
+                None => BigRational::zero(),
             };
+            let extra = Load::leaning(weight, &self.tilt) + &self.load(*site);
             (*site, extra)
-        });
-        let others = self.weights.keys().filter_map(|site| {
-            let weight = self.special(*site)?;
-            (!self.loads.contains_key(site)).then(|| (*site, weight - self.ordinary()))
-        });
-        loaded.chain(others).filter(|(_, extra)| !extra.is_zero())
+        };
+        let extras = loaded.chain(others).map(extra);
+        extras.filter(|(_, extra)| !extra.is_zero())
     }
 }
 
-fn not_negative(
+pub(super) fn not_negative(
     quantity: &'static str,
     site: Site,
     given: BigRational,

@@ -1,5 +1,6 @@
 //! The data that determine the forces of a pile.
 
+use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 
 use num_bigint::BigInt;
@@ -8,9 +9,9 @@ use num_traits::{Signed, Zero};
 
 use super::Loading;
 use crate::formula;
-use crate::geometry::Vector;
-use crate::lattice::{Dimension, Site};
-use crate::scalar::{common_denominator, common_multiple};
+use crate::geometry::{Load, Vector};
+use crate::lattice::{Dimension, Sign, Site};
+use crate::scalar::{Ring, common_denominator, common_multiple};
 use crate::shape::Shape;
 
 /// The system of equations of a pile (paper, (4) and (5)): sites and steps, increments of an ordinary sphere,
@@ -18,71 +19,98 @@ use crate::shape::Shape;
 #[derive(Clone, Debug)]
 pub(crate) struct System<'p> {
     pub(crate) shape: &'p Shape,
-    /// The increments of an ordinary sphere of weight mg.
+    pub(crate) sin_phi: &'p BigRational,
+    /// The increments of a sphere of weight mg under vertical gravity.
     pub(crate) increments: [BigRational; 3],
     /// The directions under a + step.
     pub(crate) directions: [Vector<BigRational>; 3],
-    pub(crate) loading: &'p Loading,
+    pub(crate) loading: Cow<'p, Loading>,
+    /// Whether loads or a tilt in the scalar of the forces act on the pile as well.
+    pub(crate) has_scalar_loads: bool,
 }
 
-/// The force on a sphere in addition to an ordinary weight.
+/// The force on a sphere in addition to gravity on an ordinary sphere.
 pub(crate) struct Extra {
     pub(crate) site: Site,
-    /// The additional weight, in mg.
-    pub(crate) weight: BigRational,
+    pub(crate) load: Load,
     /// The additional forces along its lines, by direction.
     pub(crate) lines: [BigRational; 3],
 }
 
 impl System<'_> {
-    /// Returns the forces on spheres in addition to ordinary weights, in any order.
+    /// Returns what a sphere with a load adds to its lines above a step of the given sign.
+    pub(crate) fn load_increments(&self, load: &Load, sign: Sign) -> [BigRational; 3] {
+        self.load_increments_of(load, self.sin_phi, sign)
+    }
+
+    /// Returns the same in the ring of the load, which contains `s`, the value of sin φ.
+    pub(crate) fn load_increments_of<N: Ring>(&self, load: &Load<N>, s: &N, sign: Sign) -> [N; 3] {
+        match self.shape.dimension() {
+            Dimension::Two => formula::disc_load_increments(load, sign),
+            Dimension::Three => formula::load_increments(load, s, sign),
+        }
+    }
+
+    /// Returns the increments of an ordinary sphere above a step of the given sign.
+    pub(crate) fn ordinary(&self, sign: Sign) -> [BigRational; 3] {
+        self.load_increments(&self.loading.ordinary(), sign)
+    }
+
+    /// Returns the forces on spheres in addition to gravity on ordinary ones, in any order.
     pub(crate) fn extras(&self) -> impl Iterator<Item = Extra> {
         let pushes = self.loading.pushes();
-        let mut weights: BTreeMap<Site, BigRational> = self.loading.extras().collect();
+        let mut loads: BTreeMap<Site, Load> = self.loading.extras().collect();
         for site in pushes.keys() {
-            weights.entry(*site).or_default();
+            loads.entry(*site).or_default();
         }
-        weights.into_iter().map(move |(site, weight)| {
-            let own = |w: &BigRational| formula::force(weight.clone(), w);
-            let mut lines = self.increments.each_ref().map(own);
+        loads.into_iter().map(move |(site, load)| {
+            // The sphere below which there is no step is on the floor, and its lines carry nothing.
+            let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
+            let mut lines = self.load_increments(&load, sign);
             for (line, push) in lines
                 .iter_mut()
                 .zip(pushes.get(&site).into_iter().flatten())
             {
                 *line += push;
             }
-            Extra {
-                site,
-                weight,
-                lines,
-            }
+            Extra { site, load, lines }
         })
     }
 
-    /// Returns the common denominator D of all increments, of all extra weights and loads times increments, and of the
-    /// forces of horizontal contacts.
+    /// Returns the common denominator D of the increments of all spheres and of the horizontal components of all loads
+    /// times W.
     pub(crate) fn denominator(&self) -> BigInt {
-        let own = common_denominator(&self.increments);
-        let forces = self.loading.horizontal().map(|(_, force)| force);
-        let extras = self.loading.extras();
-        own * extras.fold(common_denominator(forces), |common, (_, weight)| {
-            common_multiple(common, weight.denom())
+        let w = formula::weight(&self.increments);
+        let horizontal =
+            |load: &Load| [&load.x, &load.y].map(|part| formula::force(part.clone(), &w));
+        let ordinary = horizontal(&self.loading.ordinary());
+        let signs = [Sign::Plus, Sign::Minus].map(|sign| self.ordinary(sign));
+        let own = common_denominator(
+            self.increments
+                .iter()
+                .chain(&ordinary)
+                .chain(signs.iter().flatten()),
+        );
+        self.extras().fold(own, |common, extra| {
+            let parts = horizontal(&extra.load);
+            let denominators = extra.lines.iter().chain(&parts).map(BigRational::denom);
+            denominators.fold(common, common_multiple)
         })
     }
 
     /// Returns two magnitudes, times the common denominator. The first is the largest increment of an ordinary sphere.
-    /// The second is the sum of the absolute values of all extra weights, loads and forces that horizontal contacts add
-    /// to lines.
+    /// The second is the sum, over all other spheres, of the largest absolute value that they add to a line beyond
+    /// this.
     pub(crate) fn magnitudes(&self) -> [BigInt; 2] {
         let denominator = self.denominator();
         // The results are integers, because the denominator is a multiple of all denominators.
         let over = |value: &BigRational| value.numer().abs() * (&denominator / value.denom());
-        let weights = self.loading.extras().map(|(_, extra)| over(&extra));
-        let pushes = self.loading.pushes().values().flatten().map(over);
-        let extras = weights.chain(pushes).sum();
-        let per_line = self.increments.iter();
-        let ordinary = per_line.map(|w| over(&formula::force(self.loading.ordinary(), w)));
-        [ordinary.fold(BigInt::zero(), BigInt::max), extras]
+        let greatest =
+            |lines: &[BigRational; 3]| lines.iter().map(over).fold(BigInt::zero(), BigInt::max);
+        let ordinary = [Sign::Plus, Sign::Minus].map(|sign| greatest(&self.ordinary(sign)));
+        let extras = self.extras().map(|extra| greatest(&extra.lines)).sum();
+        let [plus, minus] = ordinary;
+        [plus.max(minus), extras]
     }
 
     /// Returns whether each of the three directions has contacts in a layer. In a pile of discs the third line carries
@@ -96,9 +124,19 @@ impl System<'_> {
         self.shape.stacking().is_straight()
     }
 
-    /// Returns whether every sphere has the weight mg and carries no load or horizontal force. Then a straight pile has
-    /// few distinct forces.
+    /// Returns whether every sphere has the weight mg and carries no load or horizontal contact force. Then a straight
+    /// pile has few distinct forces.
     pub(crate) fn is_even(&self) -> bool {
-        !self.loading.is_weightless() && self.loading.is_ordinary()
+        !self.loading.is_weightless() && self.is_ordinary()
+    }
+
+    /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
+    pub(crate) fn is_ordinary(&self) -> bool {
+        !self.has_scalar_loads && self.loading.is_ordinary()
+    }
+
+    /// Returns whether gravity on ordinary spheres is vertical.
+    pub(crate) fn is_upright(&self) -> bool {
+        !self.has_scalar_loads && self.loading.ordinary().is_vertical()
     }
 }

@@ -41,6 +41,12 @@ impl Numerators for BigRational {
         (numerators, common)
     }
 
+    fn into_numerators<const N: usize>(
+        values: [BigRational; N],
+    ) -> Result<[BigInt; N], [BigRational; N]> {
+        Err(values)
+    }
+
     fn divide_numerator(_: BigInt, _: NonZeroI64) -> Option<BigInt> {
         // The numerators are integers, and a quotient of integers need not be one.
         None

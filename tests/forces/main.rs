@@ -26,6 +26,8 @@ mod forces {
     #[cfg(feature = "std")]
     mod contracts;
     #[cfg(feature = "std")]
+    mod directed;
+    #[cfg(feature = "std")]
     mod equilibrium;
     #[cfg(feature = "std")]
     mod error_bounds;
@@ -60,5 +62,7 @@ mod forces {
 mod packing {
     mod places;
     mod rounded;
+    #[cfg(feature = "std")]
+    mod sensitivity;
     mod vectors;
 }

@@ -10,4 +10,5 @@ mod census {
     mod all_stackings;
 }
 
+mod stability;
 mod theorem;

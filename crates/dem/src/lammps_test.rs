@@ -148,7 +148,7 @@ fn reactions(pile: &NumberedPile<'_>) -> Result<String, Error> {
     let off_the_floor = off_the_floor.map(|id| Ok(format!("  {id} 0.0 0.0 0.0\n")));
     let on_the_floor = pile.on_floor()?.map(|force| {
         let (id, force) = force?;
-        let load = pile.pile().load(force.site)?;
+        let load = pile.pile().load(force.site)?.down;
         let load = nearest_rational(&(load * pile.packing().sphere_weight()), "a load")?;
         // LAMMPS assigns a mass, and so a weight, to weightless spheres too.
         let weight = pile.pile().sphere_weight(force.site)?;

@@ -52,7 +52,7 @@ pub(super) fn greatest_extra(pile: &Pile) -> Result<BigRational, Error> {
     let ordinary = ordinary_weight(pile);
     let mut greatest = BigRational::zero();
     for site in special_sites(pile) {
-        let extra = pile.sphere_weight(site)? + pile.load(site)? - &ordinary;
+        let extra = pile.sphere_weight(site)? + pile.load(site)?.down - &ordinary;
         greatest = greatest.max(extra.abs());
     }
     Ok(greatest)
@@ -78,7 +78,7 @@ impl PerSphere {
     /// Returns the loads, in N: the downward forces in addition to the weights.
     pub(super) fn loads(pile: &NumberedPile<'_>) -> Result<Self, Error> {
         let (quantity, unit) = ("load", pile.packing().sphere_weight());
-        let special = |site| Ok(pile.pile().load(site)?);
+        let special = |site| Ok(pile.pile().load(site)?.down);
         Self::new(pile, quantity, &BigRational::zero(), special, &unit)
     }
 
@@ -138,7 +138,7 @@ pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<(u64, f64)>, Error>
     let special = special_sites(pile.pile()).into_iter();
     for site in special.filter(|site| site.k < floor) {
         let pulled = inertia(pile, site)? * packing.gravity() * &ordinary;
-        let total = pile.pile().sphere_weight(site)? + pile.pile().load(site)?;
+        let total = pile.pile().sphere_weight(site)? + pile.pile().load(site)?.down;
         let force = total * packing.sphere_weight() - pulled;
         if !force.is_zero() {
             let id = pile.numbering().id(site)?;

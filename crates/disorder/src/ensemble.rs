@@ -429,7 +429,7 @@ impl Ensemble {
     fn own_of_top(&self, increment: &BigRational) -> Result<Vec<BigRational>, Error> {
         let weight = self.weight();
         let own = |site| -> Result<_, Error> {
-            let total = weight.clone() + self.top.load(site)?;
+            let total = weight.clone() + self.top.load(site)?.down;
             Ok(formula::force(total, increment))
         };
         self.top.shape().sites().map(own).collect()
@@ -446,8 +446,9 @@ impl Ensemble {
             j: sum_of_j - site.j,
             ..site
         };
-        let has_same =
-            |(site, load): (Site, &BigRational)| self.top.load(image(site)).as_ref() == Ok(load);
+        let has_same = |(site, load): (Site, &cannonpile::Load)| {
+            self.top.load(image(site)).as_ref() == Ok(load)
+        };
         region.is_its_own_mirror_image() && self.top.loads().all(has_same)
     }
 }

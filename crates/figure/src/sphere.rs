@@ -4,7 +4,6 @@ use cannonpile::Pile;
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
 use num_rational::BigRational;
-use num_traits::Zero;
 
 use super::caption::caption;
 use super::colour::{BLACK, COMPRESSION, DIM, GREY, ORANGE, Scale, TENSION};
@@ -201,7 +200,7 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
     forces.push(Force::new(["w", "weight"], weight, DOWN, centre, None));
     let load = pile.load(site)?;
     if !load.is_zero() {
-        let load = subject.weight(load)?;
+        let load = subject.weight(load.down)?;
         forces.push(Force::new(["p", "load"], load, DOWN, UP, None));
     }
     Ok((forces, neighbours))

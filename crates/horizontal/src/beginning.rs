@@ -36,6 +36,7 @@ pub(crate) fn beginning(pile: &Pile, floor: i128) -> Result<Pile, cannonpile::Er
     if pile.is_weightless() {
         first = first.weightless();
     }
+    first = first.with_tilt(pile.tilt().clone())?;
     for (site, weight) in pile.weights().filter(|(site, _)| site.k <= floor) {
         first = first.with_weight(site, weight.clone())?;
     }

@@ -292,11 +292,12 @@ impl<'p> Solver<'p> {
     /// Returns the normal force that a field proves as a bound, in mg.
     fn normal_of(&self, field: &BTreeMap<Site, [BigRational; 3]>) -> BigRational {
         let directions = self.pile.dimension().number();
-        let work = field
-            .iter()
-            .map(|(site, [a, b, c])| self.pile.total_load(*site) * (a + b + c));
+        let work = field.iter().flat_map(|(site, field)| {
+            let own = self.pile.own_increments(*site);
+            own.into_iter().zip(field).map(|(own, field)| own * field)
+        });
         let work: BigRational = work.sum();
-        self.pile.total_load(self.site) + work / BigRational::from_integer(directions.into())
+        self.pile.total_load(self.site).down + work / BigRational::from_integer(directions.into())
     }
 
     /// Returns a certificate that the field proves the bound and that the horizontal forces, if given, attain it.

@@ -86,6 +86,7 @@ mod network;
 mod program;
 mod run;
 mod springs;
+mod stability;
 mod stand;
 mod straight;
 mod symmetry;
@@ -97,6 +98,7 @@ pub use base::{BaseBounds, base_bounds};
 pub use bounds::{NormalBound, NormalBounds, bounds};
 pub use elastic::{ElasticState, elastic};
 pub use error::Error;
+pub use stability::stability;
 pub use stand::equilibrium;
 
 const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();

@@ -67,8 +67,8 @@ impl<'p> Network<'p> {
         let contacts: Vec<_> = contacts.collect();
         let mut weights = Vec::with_capacity(spheres.len() * directions.len());
         for site in &spheres {
-            let weight = pile.total_load(*site);
-            weights.extend(directions.iter().map(|_| weight.clone()));
+            let own = pile.own_increments(*site);
+            weights.extend(own.into_iter().take(directions.len()));
         }
         let mut network = Self {
             pile,

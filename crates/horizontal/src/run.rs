@@ -79,13 +79,14 @@ fn edge(
         field
     };
     let minus_three = BigRational::from_integer((-3).into());
-    let mut work = pile.total_load(lowest) * &minus_three;
+    let own = |site| pile.own_increments(site)[direction.index()].clone();
+    let mut work = own(lowest) * &minus_three;
     let mut field = BTreeMap::from([(lowest, along(minus_three))]);
     let mut line = core::iter::successors(Some(lowest), |site| shape.above(*site, direction));
     let mut above = line.by_ref().skip(1).take(MAX_SPHERES);
     while !work.is_positive() {
         let site = above.next().filter(|site| site.k >= first)?;
-        work += pile.total_load(site);
+        work += own(site);
         field.insert(site, along(BigRational::one()));
     }
     Some(field)

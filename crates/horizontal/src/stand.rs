@@ -81,7 +81,8 @@ impl fmt::Display for DecidedBy {
 ///
 /// * A run that is too long before a sign change is detected first ([`census`](crate::census)).
 /// * If the pile is stable with sloping contacts alone, the cost is that of [`standing`](Pile::standing).
-/// * Below the last sign change all forces increase, so those layers need no test.
+/// * Below the last sign change all forces increase, so those layers need no test, unless a sphere has a negative
+///   increment: under gravity or a load that leans far.
 /// * The layers above it are tested as truncated piles, from the shortest on. A pile is stable only if all of its
 ///   truncated piles are.
 /// * For a pile of more than 10⁵ spheres the certificate is about its first layers, for the same reasons. Its
@@ -124,8 +125,13 @@ fn decided_bare(pile: &Pile) -> Result<(Certificate, DecidedBy), Error> {
     if let Some(certificate) = too_long_run(pile)? {
         return Ok((certificate, DecidedBy::Run));
     }
-    // The layer below the last sign change can be taken as fixed.
+    // The layer below the last sign change can be taken as fixed, if the forces below it grow.
     let held = run_starts(pile.shape()).last().map(|from| from + 1);
+    let held = if pile.forces_grow() {
+        held
+    } else {
+        held.map(|_| pile.layers() - 1)
+    };
     let Some(failure) = pile.first_failure()? else {
         let pile = match held {
             Some(layer) => certified_down_to(pile, layer)?,

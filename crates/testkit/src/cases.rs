@@ -1,8 +1,8 @@
 //! The piles of the tests. Each is built twice: for the library and for the oracle.
 
-use cannonpile::Pile;
 use cannonpile::lattice::{Axis, HorizontalContact, Region, Sign};
 use cannonpile::stacking::Stacking;
+use cannonpile::{Load, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -60,6 +60,8 @@ pub struct Case {
     pub pile: Pile,
     /// The form for the oracle.
     pub balance: Balance,
+    /// The tilt of gravity along x and y.
+    pub tilt: [BigRational; 2],
 }
 
 impl Case {
@@ -68,6 +70,7 @@ impl Case {
         Self {
             pile: Pile::under(top.region(), stacking(signs)).expect("a small pile"),
             balance: Balance::under(&top.sites(), signs),
+            tilt: Default::default(),
         }
     }
 
@@ -75,19 +78,67 @@ impl Case {
     pub fn on(base: &Bounds, signs: &str) -> Option<Self> {
         let balance = Balance::on(&base.sites(), signs)?;
         let pile = Pile::on(base.region(), stacking(signs)).expect("a pile that fits");
-        Some(Self { pile, balance })
+        Some(Self {
+            pile,
+            balance,
+            tilt: Default::default(),
+        })
+    }
+
+    /// The same pile under gravity that leans. It has no loads yet, and no weights of its own.
+    #[must_use]
+    pub fn with_tilt(mut self, tilt: [BigRational; 2]) -> Self {
+        self.pile = self.pile.with_tilt(tilt.clone()).expect("spheres");
+        let places: Vec<Place> = self.balance.places().collect();
+        for place in places {
+            let weight = self.balance.weight(place).clone();
+            self.balance
+                .push(place, tilt.each_ref().map(|t| t * &weight));
+        }
+        self.tilt = tilt;
+        self
+    }
+
+    /// The same pile with one more load of any direction on a sphere.
+    #[must_use]
+    pub fn with_directed_load(mut self, place: Place, load: &Load) -> Self {
+        self = self.with_load(place, &load.down);
+        let along = Load {
+            down: BigRational::zero(),
+            ..load.clone()
+        };
+        self.pile = self.pile.with_load(site(place), along).expect("a sphere");
+        self.balance.push(place, [load.x.clone(), load.y.clone()]);
+        self
+    }
+
+    /// The same pile with `n` more loads of any direction on random spheres.
+    #[must_use]
+    pub fn with_random_directed_loads(mut self, n: usize, random: &mut Random) -> Self {
+        let places: Vec<Place> = self.balance.places().collect();
+        for _ in 0..n {
+            let place = places[random.below(places.len())];
+            let [x, y] = [(); 2].map(|()| random.signed());
+            let down = random.rational();
+            self = self.with_directed_load(place, &Load { down, x, y });
+        }
+        self
     }
 
     /// The same pile with weightless spheres.
     #[must_use]
     pub fn weightless(self) -> Self {
-        let (pile, mut balance) = (self.pile.weightless(), self.balance);
+        let mut balance = self.balance;
         assert!(
-            balance.weights.is_empty(),
+            balance.weights.is_empty() && balance.horizontal.is_empty(),
             "make the spheres weightless before adding loads"
         );
         balance.ordinary = BigRational::zero();
-        Self { pile, balance }
+        Self {
+            pile: self.pile.weightless(),
+            balance,
+            tilt: self.tilt,
+        }
     }
 
     /// The same pile with one more load on a sphere.
@@ -100,6 +151,7 @@ impl Case {
         Self {
             pile: pile.expect("a sphere"),
             balance,
+            tilt: self.tilt,
         }
     }
 
@@ -108,10 +160,13 @@ impl Case {
     pub fn with_weight(self, place: Place, weight: &BigRational) -> Self {
         let (pile, mut balance) = (self.pile, self.balance);
         let pile = pile.with_weight(site(place), weight.clone());
+        let extra = weight - balance.weight(place);
+        balance.push(place, self.tilt.each_ref().map(|t| t * &extra));
         balance.weights.insert(place, weight.clone());
         Self {
             pile: pile.expect("a sphere"),
             balance,
+            tilt: self.tilt,
         }
     }
 
@@ -240,6 +295,11 @@ impl Random {
         let numer = [0, 1, 2, 7, 100, 12_345_678_901][self.below(6)];
         let denom = [1, 2, 3, 9, 10, 35, 1_000_003][self.below(7)];
         ratio(numer, denom)
+    }
+
+    /// A rational of either sign.
+    pub fn signed(&mut self) -> BigRational {
+        self.rational() * ratio([-1, 1][self.below(2)], 1)
     }
 
     /// A nonempty region of any form. Its bounds need not be tight.

@@ -10,6 +10,7 @@
 //! | [`claims`] | properties that hold for every input, as functions of bytes | some |
 //! | `codes` | contact tables as DEM codes write them | `dem` |
 //! | `disorder` | piles of random stackings, for the library and for an oracle | `disorder` |
+//! | [`dual`] | dual numbers, for derivatives | |
 //! | [`errors`] | checks of error messages | |
 //! | [`generators`] | random inputs from plain bytes | some |
 //! | `guide` | the Rust examples of the guide, as doc tests | some |
@@ -45,6 +46,7 @@ pub mod codes;
 pub mod compare;
 #[cfg(feature = "disorder")]
 pub mod disorder;
+pub mod dual;
 pub mod errors;
 pub mod generators;
 #[cfg(doctest)]

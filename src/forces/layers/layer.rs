@@ -251,7 +251,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
     ///
     /// Returns `None` if the scalar promises no precision, or if the bound would be 1 % of the bound on all forces or
     /// more. It also returns `None` for forces so small that errors from underflow are as large as errors from
-    /// rounding.
+    /// rounding, and for loads in the scalar itself, whose size is not known.
     ///
     /// Each operation of a sweep has an error of at most one unit in the last place. No partial sum of 3G g exceeds
     /// 2√3·‖g‖, and the transfer does not amplify errors. For n passes and sums, the error is at most 13·n units in the
@@ -281,6 +281,9 @@ impl<T: Algebra> Layer<'_, '_, T> {
             _ => return None,
         };
         let system = &self.layers.terms.system;
+        if system.has_scalar_loads {
+            return None;
+        }
         let changes = self.shape().changes_above(self.k + 1) + 1;
         let extras = self.layers.terms.lines.extras_in(0..self.k + 1).count();
         // The passes of the runs, the stops and the extras, and one more for the increments of the sphere itself.

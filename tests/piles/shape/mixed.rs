@@ -17,7 +17,7 @@ fn agrees(case: &Case) {
     neighbours(case);
 }
 
-fn sites_in_order(Case { pile, balance }: &Case) {
+fn sites_in_order(Case { pile, balance, .. }: &Case) {
     let places: Vec<Place> = balance.places().collect();
     let sites: Vec<Place> = pile.shape().sites().map(place).collect();
     assert_eq!(sites, places, "{}", balance.signs);
@@ -38,7 +38,7 @@ fn sites_in_order(Case { pile, balance }: &Case) {
     }
 }
 
-fn counts(Case { pile, balance }: &Case) {
+fn counts(Case { pile, balance, .. }: &Case) {
     let spheres: usize = balance.layers.iter().map(Sites::len).sum();
     let bottom = balance.layers.last().expect("a layer").len();
     assert_eq!(pile.layers(), i128::try_from(balance.layers.len()).unwrap());
@@ -49,7 +49,7 @@ fn counts(Case { pile, balance }: &Case) {
 }
 
 /// Compares every site and all positions around it.
-fn neighbours(Case { pile, balance }: &Case) {
+fn neighbours(Case { pile, balance, .. }: &Case) {
     let shape = pile.shape();
     let around = |(k, j, i): Place| {
         [

@@ -48,7 +48,8 @@ fn piles() {
     assert_eq!(
         back(&pile),
         r#"{"dimension":2,"sin_phi":"0","stacking":"+","anchor":{"top":"hexagon:1"},"weightless":false,"#.to_owned()
-            + r#""weights":[],"loads":[{"site":{"i":0,"j":0,"k":0},"weight":"1/3"}],"horizontal":[]}"#
+            + r#""tilt":{"x":"0","y":"0"},"weights":[],"#
+            + r#""loads":[{"site":{"i":0,"j":0,"k":0},"weight":"1/3","x":"0","y":"0"}],"horizontal":[]}"#
     );
 }
 

@@ -216,7 +216,8 @@ fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
         })?,
         None => return Ok(pile.weight()),
     };
-    let special = pile.loads().chain(pile.weights());
+    let loads = pile.loads().map(|(site, load)| (site, &load.down));
+    let special = loads.chain(pile.weights());
     let special = special
         .filter(|(site, _)| site.k <= k)
         .map(|(_, weight)| weight);

@@ -154,7 +154,7 @@ impl<'p> Balance<'p> {
         let mut forces = vec![[0.0, 0.0, 0.0 - ordinary]; above];
         let loaded = pile.loads().map(|(site, _)| site);
         for site in loaded.chain(pile.weights().map(|(site, _)| site)) {
-            let total = weight(pile.sphere_weight(site)? + pile.load(site)?)?;
+            let total = weight(pile.sphere_weight(site)? + pile.load(site)?.down)?;
             if let Some(force) = place(&mut forces, numbered.numbering().id(site)?) {
                 *force = [0.0, 0.0, 0.0 - total];
             }

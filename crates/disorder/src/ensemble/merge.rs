@@ -176,7 +176,8 @@ impl Tally {
             } = tally;
             let (stackings, top) = (ensemble.stackings(), ensemble.top());
             let none = || "none".to_owned();
-            let load = |(site, load): (Site, &BigRational)| format!("{},{}={load}", site.i, site.j);
+            let load =
+                |(site, load): (Site, &cannonpile::Load)| format!("{},{}={load}", site.i, site.j);
             let loads: Vec<_> = top.loads().map(load).collect();
             let loads = if loads.is_empty() {
                 none()

@@ -43,7 +43,7 @@ impl From<Ensemble> for EnsembleParts {
         let loads = ensemble.top.loads().map(|(site, weight)| Load {
             i: site.i,
             j: site.j,
-            weight: weight.clone(),
+            weight: weight.down.clone(),
         });
         Self {
             layers: ensemble.stackings.layers(),

@@ -87,10 +87,12 @@ impl Certificate {
     /// numbers.
     fn fits(&self) -> Result<(), Error> {
         let one = BigRational::one();
-        let weights = self.pile.weights().chain(self.pile.loads());
-        let weights = weights.map(|(_, weight)| weight);
+        let loads = self.pile.loads();
+        let loads = loads.flat_map(|(_, load)| [&load.down, &load.x, &load.y]);
         let balanced = core::iter::once(&one)
-            .chain(weights)
+            .chain(self.pile.weights().map(|(_, weight)| weight))
+            .chain(self.pile.tilt())
+            .chain(loads)
             .chain(self.horizontal.values());
         // Each half-turn adds a factor 3, less than two bits, to the denominator. The sums add less than one word.
         let turns: u64 = self.pile.shape().stacking().runs().map(|_| 2).sum();
@@ -140,10 +142,10 @@ impl Certificate {
     fn transmitted(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Result<Triple, Error> {
         let pile = &self.pile;
         let mut balance = turned(pile, site.k, &received(pile, forces, site));
-        let (own, horizontal, sign) = (weight(pile, site), self.pushed(site), sigma(pile, site.k)?);
+        let (own, horizontal, sign) = (own(pile, site), self.pushed(site), sigma(pile, site.k)?);
         for direction in pile.dimension().directions() {
             let l = direction.index();
-            balance[l] = beside(balance[l].clone(), &own, &horizontal[l], sign);
+            balance[l] = beside(balance[l].clone(), &own[l], &horizontal[l], sign);
         }
         Ok(balance)
     }
@@ -201,10 +203,10 @@ impl Certificate {
         let directions = self.pile.dimension().directions();
         let mut work = BigRational::zero();
         for (site, field) in &self.field {
-            let weight = weight(&self.pile, *site);
+            let own = own(&self.pile, *site);
             work += directions
                 .iter()
-                .map(|l| &weight * &field[l.index()])
+                .map(|l| &own[l.index()] * &field[l.index()])
                 .sum::<BigRational>();
         }
         work
@@ -288,7 +290,7 @@ impl Certificate {
         }
         self.one_sided(relation, Some(site))?;
         let directions = BigRational::from_integer(pile.dimension().number().into());
-        let normal = |sum: BigRational| weight(pile, site) + sum / &directions;
+        let normal = |sum: BigRational| pile.total_load(site).down + sum / &directions;
         let (claimed, proved) = (extreme.normal.clone(), normal(self.work()));
         if proved != claimed {
             return Err(Box::new(Refusal::Bound { claimed, proved }));
@@ -365,9 +367,9 @@ fn sigma(pile: &Pile, k: i128) -> Result<Sign, Error> {
     sign.ok_or_else(|| bug("every layer above the floor has a step below it"))
 }
 
-/// Returns weight plus load of a sphere, in mg. It is also its contribution to each contact line, in f₀.
-fn weight(pile: &Pile, site: Site) -> BigRational {
-    pile.total_load(site)
+/// Returns what gravity and the load on a sphere add to its contact lines, in f₀.
+fn own(pile: &Pile, site: Site) -> Triple {
+    pile.own_increments(site)
 }
 
 /// Returns the six possible horizontal contacts of a sphere, and whether each one leads away from it.

@@ -8,6 +8,7 @@ mod certificate;
 mod error;
 mod json;
 mod rounded;
+mod stability;
 mod states;
 mod theorem;
 

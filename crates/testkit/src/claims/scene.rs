@@ -55,7 +55,10 @@ fn is_as_described(scene: &Scene, pile: &Pile) -> Checked {
     same("weightless", &pile.is_weightless(), &scene.weightless)?;
     let given = scene.loads.iter().map(|(_, load)| load);
     let loads = pile.loads().map(|(_, load)| load);
-    let [given, loads] = [given.sum::<BigRational>(), loads.sum()];
+    let [given, loads] = [
+        given.sum::<BigRational>(),
+        loads.map(|load| load.down.clone()).sum(),
+    ];
     same("the loads", &loads, &given)
 }
 

@@ -130,6 +130,16 @@ impl Balance {
         }
     }
 
+    /// Adds a horizontal force on a sphere: x·mg·tanθ along x and y·√3·mg·tanθ along y.
+    ///
+    /// By [`on_floor`], a force f₀ along e₁ has y = 1/3, and along e₂ it has x = 1/2 and y = 1/6.
+    pub fn push(&mut self, place: Place, [x, y]: [BigRational; 2]) {
+        let horizontal = self.horizontal.entry(place).or_default();
+        let along_j = &x * ratio(2, 1);
+        horizontal[0] += y * ratio(3, 1) - &along_j / ratio(2, 1);
+        horizontal[1] += along_j;
+    }
+
     /// Tells whether the pile has this sphere.
     pub fn has(&self, (k, j, i): Place) -> bool {
         let layer = usize::try_from(k).ok().and_then(|k| self.layers.get(k));

@@ -1,0 +1,55 @@
+//! The tilts of gravity that a pile bears at a = R, with horizontal contacts.
+
+use cannonpile::Pile;
+use cannonpile::lattice::Dimension;
+use cannonpile::scalar::Ring;
+use cannonpile::stability::{Affine, Stability, bearable};
+use num_rational::BigRational;
+
+use crate::certificate::{Certificate, Claim};
+use crate::{Error, equilibrium};
+
+/// Returns the tilts of gravity that a pile bears at a = R, where horizontal contacts may help, in the units of
+/// [`Pile::with_tilt`].
+///
+/// The polygon is found as in [`Pile::stability`], with [`equilibrium`] in place of the forces of the sloping contacts. A
+/// certificate that the pile is unstable under some tilt has the virtual work Σ w φ > 0. This work is an affine function
+/// of the tilt, so the same field proves the pile unstable on one side of a line. The margin names the certificate of
+/// its line, for a tilt beyond it.
+///
+/// # Errors
+/// As for [`equilibrium`]; [`NoWeight`](cannonpile::Error::NoWeight) for a pile that no tilt affects.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Region;
+/// use cannonpile::{Pile, ratio};
+/// use cannonpile_horizontal::stability;
+///
+/// // Without horizontal contacts three layers of discs bear the tilt 1. With them they bear no more, as the top disc
+/// // rolls off.
+/// let stability = stability(&Pile::discs(3)?)?;
+/// assert_eq!(stability.margin.unwrap().squared, ratio!(1));
+/// # Ok::<(), cannonpile_horizontal::Error>(())
+/// ```
+pub fn stability(pile: &Pile) -> Result<Stability<Certificate>, Error> {
+    let pile = pile.clone().without_horizontal_forces();
+    bearable(&pile, |tilt| {
+        let certificate = equilibrium(&pile.clone().with_tilt(tilt.clone())?)?;
+        if certificate.claim == Claim::Stands {
+            return Ok(None);
+        }
+        let along_y = i128::from(pile.dimension() == Dimension::Three);
+        let work = |tilt: [i128; 2]| {
+            let tilt = tilt.map(BigRational::from_i128);
+            let leaning = pile.clone().with_tilt(tilt)?;
+            let work = certificate.field.iter().flat_map(|(site, field)| {
+                let own = leaning.own_increments(*site);
+                own.into_iter().zip(field).map(|(own, field)| own * field)
+            });
+            Ok::<_, Error>(-work.sum::<BigRational>())
+        };
+        let force = Affine::through([work([0, 0])?, work([1, 0])?, work([0, along_y])?]);
+        Ok(Some((force, certificate)))
+    })
+}

@@ -1,0 +1,307 @@
+//! The directions of gravity that a pile bears.
+//!
+//! Under gravity that leans by the tilt t = (x, y), every contact force is an affine function c + a·x + b·y with
+//! rational c, a and b. A pile bears a tilt if no force is negative. So the tilts that it bears are a convex polygon
+//! with rational corners. A side of it is the line on which a contact opens. In real units the square of the tilt is
+//! |t|² = x² + 4cos²φ·y², times tan²θ, so this line is at the distance t_c with t_c² = c²/(a² + b²/(4cos²φ)) from upright
+//! gravity.
+//!
+//! # Search
+//! The polygon is found by its corners. The search begins with a square. It asks for the smallest contact force at each
+//! corner. If this force is negative, the line on which it is zero cuts the corner off. The search ends when the pile
+//! bears every corner, because then it bears the whole polygon. There are finitely many contacts, and each cuts at most
+//! once.
+//!
+//! # Known margins
+//! A straight pile under any top bears the triangle of tilts that one sphere alone bears, so t_c = ½ (theorem `tilt`).
+//! Of the eleven stackings that are stable under one sphere, two have the margin 0.
+
+use alloc::vec::Vec;
+
+use num_bigint::BigUint;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use crate::engine::check_interrupt;
+use crate::error::bug;
+use crate::lattice::{Dimension, Direction, Site};
+use crate::scalar::Ring;
+use crate::shape::Anchor;
+use crate::stacking::{Run, Stacking};
+use crate::{Error, Pile};
+
+/// A tilt of gravity (x, y), in the units of [`Pile::with_tilt`].
+pub type Tilt = [BigRational; 2];
+
+/// A contact force as a function of the tilt, c + a·x + b·y in f₀, or another quantity that is negative for tilts that a
+/// pile does not bear.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Affine {
+    /// The value under upright gravity.
+    pub c: BigRational,
+    /// The factor of x.
+    pub a: BigRational,
+    /// The factor of y.
+    pub b: BigRational,
+}
+
+impl Affine {
+    /// Returns the function with the values at the tilts (0, 0), (1, 0) and (0, 1).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::ratio;
+    /// use cannonpile::stability::Affine;
+    ///
+    /// let force = Affine::through([ratio!(1), ratio!(0), ratio!(-2)]);
+    /// assert_eq!(force.at(&[ratio!(1/2), ratio!(1/6)]), ratio!(0));
+    /// ```
+    #[must_use]
+    pub fn through([c, at_x, at_y]: [BigRational; 3]) -> Self {
+        Self {
+            a: at_x - &c,
+            b: at_y - &c,
+            c,
+        }
+    }
+
+    /// Returns the value at a tilt.
+    #[must_use]
+    pub fn at(&self, [x, y]: &Tilt) -> BigRational {
+        &self.a * x + &self.b * y + &self.c
+    }
+
+    /// Returns the tilt of least |t| at which the function is zero, and |t|². `across` is 4cos²φ. `None` for a constant.
+    fn nearest_zero(&self, across: &BigRational) -> Option<(BigRational, Tilt)> {
+        let gradient = [self.a.clone(), &self.b / across];
+        let square = &self.a * &gradient[0] + &self.b * &gradient[1];
+        if square.is_zero() {
+            return None;
+        }
+        let along = -&self.c / &square;
+        let tilt = gradient.map(|part| part * &along);
+        Some((&self.c * &self.c / square, tilt))
+    }
+}
+
+/// The tilts of gravity that a pile bears.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Region;
+/// use cannonpile::{Pile, ratio};
+///
+/// let pile = Pile::under(Region::SITE, "+-+++".parse()?)?;
+/// let stability = pile.stability()?;
+/// assert_eq!(stability.margin.unwrap().squared, ratio!(1/43));
+/// // Gravity may lean further in other directions.
+/// assert!(stability.corners.len() >= 3);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Stability<C = (Site, Direction)> {
+    /// The least tilt at which a contact opens, or `None` if the pile does not stand upright.
+    pub margin: Option<Margin<C>>,
+    /// The corners of the polygon of tilts that the pile bears, counterclockwise. For discs these are the two ends of an
+    /// interval along x. Empty if the pile bears no tilt.
+    pub corners: Vec<Tilt>,
+}
+
+/// The least tilt at which a contact opens.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Margin<C = (Site, Direction)> {
+    /// t_c²: the square of tan(tilt)/tanθ.
+    pub squared: BigRational,
+    /// The tilt. Of several, it is one of them.
+    pub tilt: Tilt,
+    /// The contact that opens there.
+    pub opens: C,
+}
+
+impl Pile {
+    /// Returns the tilts of gravity that the pile bears in addition to its own, and the least one at which a contact
+    /// opens.
+    ///
+    /// The answer applies to spacings without contacts other than α, β and γ. The cost is that of some ten verdicts
+    /// ([`standing`](Self::standing)) on tilted piles.
+    ///
+    /// # Errors
+    /// [`Error::NoWeight`] for a pile that no tilt affects; otherwise as for [`standing`](Self::standing).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Pile, ratio};
+    ///
+    /// // tan(tilt) = ½ tanθ, for every number of layers.
+    /// let pile = Pile::triangular(10_i128.pow(30))?;
+    /// assert_eq!(pile.stability()?.margin.unwrap().squared, ratio!(1/4));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn stability(&self) -> Result<Stability, Error> {
+        bearable(self, |tilt| {
+            let least = self
+                .clone()
+                .with_tilt(tilt.clone())?
+                .standing_until(true)?
+                .least;
+            let Some(least) = least.filter(|least| least.force.is_negative()) else {
+                return Ok(None);
+            };
+            let (site, direction) = (least.site, least.direction);
+            Ok(Some((
+                self.force_by_tilt(site, direction)?,
+                (site, direction),
+            )))
+        })
+    }
+
+    /// Returns the margin of the pile, as [`stability`](Self::stability) does. A pile of spheres of weight mg under a top
+    /// is cut off below its last sign change: no further layer changes the margin, because the tilt at which the top
+    /// spheres alone roll, t = ½, leaves every increment positive or zero.
+    ///
+    /// # Errors
+    /// As for [`stability`](Self::stability).
+    pub fn margin(&self) -> Result<Option<Margin>, Error> {
+        let short = self.above_last_run()?;
+        Ok(short.as_ref().unwrap_or(self).stability()?.margin)
+    }
+
+    /// Returns the upper part of the pile, to one step below the last sign change, if the margin depends on it alone.
+    fn above_last_run(&self) -> Result<Option<Self>, Error> {
+        let (Anchor::Top(top), true) = (self.shape().anchor(), self.is_uniform()) else {
+            return Ok(None);
+        };
+        if self.dimension() == Dimension::Two || !self.is_regular() || self.layers() < 3 {
+            return Ok(None);
+        }
+        let mut runs: Vec<Run> = self.shape().stacking().runs().collect();
+        if let Some(last) = runs.last_mut() {
+            last.steps = 1;
+        }
+        Self::under(top, Stacking::from_runs(runs)?).map(Some)
+    }
+
+    /// Returns the force of a contact as a function of a further tilt.
+    ///
+    /// # Errors
+    /// As for [`Forces::contact`](crate::Forces::contact).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Pile, ratio};
+    ///
+    /// let force = Pile::triangular(10)?.force_by_tilt(Site::APEX, Direction::Alpha)?;
+    /// assert_eq!([force.c, force.a, force.b], [ratio!(1), ratio!(-1), ratio!(-3)]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn force_by_tilt(&self, site: Site, direction: Direction) -> Result<Affine, Error> {
+        let along_y = i128::from(self.dimension() == Dimension::Three);
+        let at = |tilt: [i128; 2]| {
+            let forces = self.forces::<BigRational>();
+            let forces = forces.with_tilt(tilt.map(BigRational::from_i128))?;
+            forces.contact(site, direction)
+        };
+        let values = [at([0, 0])?, at([1, 0])?, at([0, along_y])?];
+        Ok(Affine::through(values))
+    }
+}
+
+/// Returns the tilts that a pile bears, by an oracle. For a tilt that it does not bear, the oracle returns a function
+/// that is negative there and nowhere in the polygon, and what the function belongs to.
+///
+/// # Errors
+/// [`Error::NoWeight`] if no sphere above the floor has a weight; those of the oracle.
+pub fn bearable<C: Clone, E: From<Error>>(
+    pile: &Pile,
+    mut refute: impl FnMut(&Tilt) -> Result<Option<(Affine, C)>, E>,
+) -> Result<Stability<C>, E> {
+    check_weight(pile)?;
+    let (mut cuts, mut borne): (Vec<(Affine, C)>, Vec<Tilt>) = (Vec::new(), Vec::new());
+    let mut reach = BigRational::from_i128(4);
+    let corners = loop {
+        let mut corners = square(&reach, pile.dimension());
+        for (force, _) in &cuts {
+            corners = cut(&corners, force);
+        }
+        while let Some(corner) = corners.iter().find(|corner| !borne.contains(corner)) {
+            check_interrupt()?;
+            let corner = corner.clone();
+            match refute(&corner)? {
+                None => borne.push(corner),
+                Some((force, label)) if force.at(&corner).is_negative() => {
+                    corners = cut(&corners, &force);
+                    cuts.push((force, label));
+                }
+                Some(_) => return Err(bug("a force that refutes a tilt is negative there").into()),
+            }
+        }
+        // A pile with a weight bears no tilt beyond some square.
+        let is_inside = |corner: &Tilt| corner.iter().all(|part| part.abs() < reach);
+        if corners.iter().all(is_inside) {
+            break corners;
+        }
+        reach *= BigRational::from_i128(1 << 16);
+    };
+    let s = pile.sin_phi();
+    let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
+    let stands = !cuts.iter().any(|(force, _)| force.c.is_negative());
+    let margins = cuts.into_iter().filter_map(|(force, opens)| {
+        let (squared, tilt) = force.nearest_zero(&across)?;
+        Some(Margin {
+            squared,
+            tilt,
+            opens,
+        })
+    });
+    let least = margins.min_by(|one, other| one.squared.cmp(&other.squared));
+    Ok(Stability {
+        margin: least.filter(|_| stands),
+        corners,
+    })
+}
+
+/// Returns an error for a pile on which a tilt of gravity has no effect.
+fn check_weight(pile: &Pile) -> Result<(), Error> {
+    let floor = pile.layers() - 1;
+    let above = || pile.weights().filter(|(site, _)| site.k < floor);
+    let without = above().filter(|(_, weight)| weight.is_zero()).count();
+    let spheres = pile.shape().spheres_in(0..floor);
+    if pile.is_weightless() || BigUint::from(without) == spheres {
+        return Err(Error::NoWeight);
+    }
+    Ok(())
+}
+
+/// Returns the corners of the square |x|, |y| ≤ `reach`, counterclockwise. For discs, the ends of an interval along x.
+fn square(reach: &BigRational, dimension: Dimension) -> Vec<Tilt> {
+    let corner = |x: i128, y: i128| [x, y].map(|sign| reach * BigRational::from_i128(sign));
+    match dimension {
+        Dimension::Two => Vec::from([corner(-1, 0), corner(1, 0)]),
+        Dimension::Three => Vec::from([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)]),
+    }
+}
+
+/// Returns the corners of the part of a convex polygon in which a function is not negative.
+fn cut(corners: &[Tilt], force: &Affine) -> Vec<Tilt> {
+    let mut kept: Vec<Tilt> = Vec::new();
+    let next = corners.iter().cycle().skip(1);
+    for (here, next) in corners.iter().zip(next) {
+        let [value, beyond] = [force.at(here), force.at(next)];
+        if !value.is_negative() {
+            kept.push(here.clone());
+        }
+        if (&value * &beyond).is_negative() {
+            let share = &value / (&value - beyond);
+            let [x, y] = [0, 1].map(|axis| &here[axis] + (&next[axis] - &here[axis]) * &share);
+            kept.push([x, y]);
+        }
+    }
+    kept.dedup();
+    if kept.len() > 1 && kept.first() == kept.last() {
+        kept.pop();
+    }
+    kept
+}
