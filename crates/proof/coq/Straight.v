@@ -93,16 +93,18 @@ Proof.
           intros (a & b & c); destruct N as [_ N]; destruct N as (x & y & z)]; repeat split; lra.
 Qed.
 
-(** The closed form is the force received by the recursion, if the spheres above transmit the closed form. *)
-Lemma received_of_closed_form : forall s f k i j, occupied k i j = true ->
-  (forall m a b, (m < k)%nat -> occupied m a b = true -> f m a b =3= closed_form s (q a) (q b) (n_of m)) ->
-  received f k i j =3= brought s (q i) (q j) (n_of k).
+(** If each sphere above transmits w for each sphere on its lines and for itself, then by the recursion a sphere
+    receives w for each sphere above. *)
+Lemma received_of_counts : forall w f k i j, occupied k i j = true ->
+  (forall m a b, (m < k)%nat -> occupied m a b = true ->
+    f m a b =3= by_line transmitted (by_line force (above (q a) (q b) (n_of m)) w) w) ->
+  received f k i j =3= by_line force (above (q i) (q j) (n_of k)) w.
 Proof.
-  intros s f [|m] i j H Hf.
+  intros w f [|m] i j H Hf.
   - apply occupied_iff in H. simpl in H. assert (i = 0)%Z by lia. assert (j = 0)%Z by lia. subst.
-    unfold brought. cbn [received]. by_components.
+    cbn [received]. by_components.
   - apply occupied_iff in H. rewrite Nat2Z.inj_succ in H.
-    assert (A : forall d, on d (received f (S m) i j) == on d (brought s (q i) (q j) (n_of (S m)))).
+    assert (A : forall d, on d (received f (S m) i j) == on d (by_line force (above (q i) (q j) (n_of (S m))) w)).
     { intros d.
       assert (R : on d (received f (S m) i j) =
                   let (a, b) := above_on d i j in if occupied m a b then on d (f m a b) else 0)
@@ -112,15 +114,21 @@ Proof.
         match goal with |- context [occupied m ?a ?b] => destruct (occupied m a b) eqn:E end.
       1, 3, 5: specialize (Hf m _ _ (Nat.lt_succ_diag_r m) E); destruct Hf as (Ha & Hb & Hc);
         cbn [on]; (rewrite Ha || rewrite Hb || rewrite Hc);
-        unfold closed_form, brought, Z.sub; formulas; rewrite ?n_of_S;
+        unfold Z.sub; formulas; rewrite ?n_of_S;
         rewrite ?inject_Z_plus, ?inject_Z_opp; cbn [q]; unfold n_of; cbn [Z.opp]; ring.
-      all: apply not_true_iff_false in E; rewrite occupied_iff in E; unfold brought; formulas.
+      all: apply not_true_iff_false in E; rewrite occupied_iff in E; formulas.
       - assert (Z.of_nat m = i + j - 1)%Z by lia. rewrite n_of_S. unfold n_of. rewrite H0.
         unfold Z.sub. rewrite !inject_Z_plus, inject_Z_opp. ring.
       - assert (i = 0)%Z by lia. subst. ring.
       - assert (j = 0)%Z by lia. subst. ring. }
     exact (conj (A Alpha) (conj (A Beta) (A Gamma))).
 Qed.
+
+(** The closed form is the force received by the recursion, if the spheres above transmit the closed form. *)
+Lemma received_of_closed_form : forall s f k i j, occupied k i j = true ->
+  (forall m a b, (m < k)%nat -> occupied m a b = true -> f m a b =3= closed_form s (q a) (q b) (n_of m)) ->
+  received f k i j =3= brought s (q i) (q j) (n_of k).
+Proof. intros s. exact (received_of_counts (increments s)). Qed.
 
 (** Every sphere of L layers is in balance if and only if all forces are those of the closed form: it is the only
     solution of the recursion. *)
