@@ -58,6 +58,7 @@ mod dimensions;
 
 mod display;
 mod formulas;
+mod loads;
 #[doc(hidden)]
 pub mod setting;
 mod stackings;
@@ -290,6 +291,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         base::THEOREMS,
         dimensions::THEOREMS,
         stackings::THEOREMS,
+        loads::THEOREMS,
     ]
     .into_iter()
     .flatten()

@@ -2,7 +2,7 @@
 
 use crate::formula;
 use crate::geometry;
-use crate::geometry::Vector;
+use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Sign, count};
 use crate::scalar::{Algebra, Polynomial};
 
@@ -50,6 +50,10 @@ pub struct Formulas<P = Polynomial> {
     pub squared_distance: fn(&Three<P>, &P, &P) -> P,
     /// [`formula::increments`].
     pub increments: fn(&P) -> Three<P>,
+    /// [`formula::load_increments`].
+    pub load_increments: fn(&Load<P>, &P, Sign) -> Three<P>,
+    /// [`formula::disc_load_increments`].
+    pub disc_load_increments: fn(&Load<P>, Sign) -> Three<P>,
     /// [`formula::weight`].
     pub weight: fn(&[P]) -> P,
     /// [`formula::force`].
@@ -109,6 +113,8 @@ impl<P: Algebra<Numerator = P>> Formulas<P> {
         position: geometry::position,
         squared_distance: geometry::squared_distance,
         increments: formula::increments,
+        load_increments: formula::load_increments,
+        disc_load_increments: formula::disc_load_increments,
         weight: formula::weight,
         force: formula::force,
         transmitted: formula::transmitted,

@@ -33,7 +33,7 @@ fn names_are_unique_and_found() {
 }
 
 /// The subject that each statement must name.
-const SUBJECTS: [(&str, &str); 29] = [
+const SUBJECTS: [(&str, &str); 32] = [
     ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
     ("rotation", "rotation"),
     ("spheres", "L(L+1)(L+2)/6 spheres"),
@@ -63,6 +63,12 @@ const SUBJECTS: [(&str, &str); 29] = [
     ("change-of-sign", "Equilibrium at a sign change"),
     ("edge", "no run of five steps or more"),
     ("point-load", "Σv r² = n²ρ²"),
+    ("load", "A load of any direction"),
+    ("tilt", "Gravity that leans"),
+    (
+        "tilt-total",
+        "Total force and moment under gravity that leans",
+    ),
 ];
 
 #[test]
@@ -93,7 +99,7 @@ macro_rules! fields {
 fn every_formula_has_a_fault() {
     let fields = fields! {
         above bounds_above descent spheres spheres_in_layer contacts contacts_of_strength directions
-        disc_directions turned_about_z position squared_distance increments weight force transmitted
+        disc_directions turned_about_z position squared_distance increments load_increments disc_load_increments weight force transmitted
         resultant support_load unbalanced half_turn tripled_half_turn tripled_apart pushed beside
     };
     ATTEMPTS.are_faults_of(&fields);
@@ -112,7 +118,7 @@ fn a_printed_proof_reports_its_failure() {
 }
 
 /// The number of steps of each proof, counted by cases. The theorem `dimensions` has 2d + 4 for each d from 2 to 6.
-const STEPS: [(&str, usize); 29] = [
+const STEPS: [(&str, usize); 32] = [
     ("counts", 15),
     ("rotation", 3),
     ("spheres", 3),
@@ -142,6 +148,9 @@ const STEPS: [(&str, usize); 29] = [
     ("change-of-sign", 6),
     ("edge", 24),
     ("point-load", 29),
+    ("load", 36),
+    ("tilt", 19),
+    ("tilt-total", 6),
 ];
 
 /// The numbers of steps equal the numbers of cases, so none is missing.

@@ -11,7 +11,7 @@ Ltac formulas :=
   cbv beta iota zeta delta
     [above spheres_3 spheres_in_layer_3 contacts_3 contacts_of_strength_3 directions disc_directions
      turned_about_z position squared_distance increments force transmitted resultant support_load unbalanced weight
-     half_turn tripled_half_turn tripled_apart pushed beside contact_drop compression elastic_field corner_field
+     half_turn tripled_half_turn tripled_apart load_increments disc_load_increments pushed beside contact_drop compression elastic_field corner_field
      least_on_corner greatest_on_corner greatest_inside greatest_on_edge arch
      spheres_2 spheres_in_layer_2 weight_2 third_moment fourth_moment fourth_moment_of_pair mean_third_moment
      mean_fourth_moment_of_pairs wave registry_excess
@@ -23,7 +23,7 @@ Ltac by_components := cbv zeta; repeat split; formulas; ring.
 Ltac formulas_in H :=
   cbv beta iota zeta delta
     [above directions turned_about_z position increments force transmitted resultant support_load unbalanced weight
-     half_turn beside pushed alpha beta gamma along_x along_y along_z on each map by_line sum nothing same same_vector]
+     half_turn load_increments disc_load_increments beside pushed alpha beta gamma along_x along_y along_z on each map by_line sum nothing same same_vector]
     in H.
 
 (** The sum of c_m v_m. *)

@@ -18,6 +18,7 @@ const BY_HAND: &[(&str, &str)] = &[
     ("Stackings.v", include_str!("../coq/Stackings.v")),
     ("Census.v", include_str!("../coq/Census.v")),
     ("Regions.v", include_str!("../coq/Regions.v")),
+    ("Loads.v", include_str!("../coq/Loads.v")),
     ("Horizontal.v", include_str!("../coq/Horizontal.v")),
     ("Virtual.v", include_str!("../coq/Virtual.v")),
     ("Bounds.v", include_str!("../coq/Bounds.v")),

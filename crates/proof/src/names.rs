@@ -177,6 +177,39 @@ const NAMES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "load",
+        &[
+            "Loads.loaded_sphere",
+            "Loads.loaded_sphere_in_any_stacking",
+            "Loads.loaded_disc",
+            "Loads.vertical_load",
+            "Loads.mirrored_load",
+            "Loads.loads_add",
+            "Loads.loads_determine_forces",
+        ],
+    ),
+    (
+        "tilt",
+        &[
+            "Loads.closed_form_under_tilt_is_the_only_solution",
+            "Loads.forces_are_multiples",
+            "Loads.straight_pile_bears",
+            "Loads.nearest_tilt",
+            "Loads.margin_is_borne",
+            "Loads.margin_is_sharp",
+            "Loads.critical_tilt",
+            "Loads.critical_tilt_of_discs",
+        ],
+    ),
+    (
+        "tilt-total",
+        &[
+            "Loads.on_floor_under_tilt_is_what_arrives",
+            "Loads.total_under_tilt",
+            "Loads.moment_under_tilt",
+        ],
+    ),
+    (
         "horizontal-balance",
         &[
             "Horizontal.neighbours_touch",

@@ -52,7 +52,7 @@ mod horizontal;
 mod places;
 
 use disorder::disorder;
-use forces::{forces, tripled_apart, tripled_half_turn, turns, weights};
+use forces::{forces, loads, tripled_apart, tripled_half_turn, turns, weights};
 use horizontal::{horizontal, with_horizontal_contacts};
 use places::{above, bounds_above, counts, descent, places};
 
@@ -131,6 +131,7 @@ pub(super) fn over_rationals(f: &Formulas<E>) -> Vec<Definition> {
     all.extend(counts(core));
     all.extend(places(core));
     all.extend(forces(core));
+    all.extend(loads(core));
     all.extend(weights(core));
     all.extend(turns(core));
     all.extend(horizontal(f));

@@ -1,10 +1,11 @@
 //! Forces of a sphere: received, added and transmitted.
 
-use cannonpile::geometry::Vector;
+use cannonpile::geometry::{Load, Vector};
+use cannonpile::lattice::Sign;
 use cannonpile::theorem::Formulas;
 
-use super::{E, of_numbers, plain, symbol};
-use crate::definition::{Definition, Kind, Value};
+use super::{E, SIGNS, by_cases, of_numbers, plain, symbol};
+use crate::definition::{CaseValue, Definition, Kind, Value};
 
 pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {
     let [s, n, increment, received, own, weight] =
@@ -63,6 +64,31 @@ pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {
                 &vectors!("over"),
                 &weight,
             )),
+        ),
+    ]
+}
+
+/// Returns what a load of any direction adds to the lines. In Coq a load is a vector whose component down is along z.
+pub(super) fn loads(f: &Formulas<E>) -> Vec<Definition> {
+    let Vector { x, y, z: down } = vector!("load");
+    let (load, s) = (Load { down, x, y }, symbol("s"));
+    let cases = |increments: &dyn Fn(Sign) -> [E; 3]| {
+        let cases = SIGNS.map(|sign| (vec![CaseValue::Sign(sign)], Value::Three(increments(sign))));
+        Vec::from(cases)
+    };
+    let [of_load, of_sign] = [("load", Kind::Vector), ("sign", Kind::Sign)];
+    vec![
+        by_cases(
+            "load_increments",
+            "The force increments of a sphere with a load of any direction; the sign is that of the step below it.",
+            &[of_load, ("s", Kind::Number), of_sign],
+            cases(&|sign| (f.load_increments)(&load, &s, sign)),
+        ),
+        by_cases(
+            "disc_load_increments",
+            "The force increments of a disc with a load of any direction.",
+            &[of_load, of_sign],
+            cases(&|sign| (f.disc_load_increments)(&load, sign)),
         ),
     ]
 }

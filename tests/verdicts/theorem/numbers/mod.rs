@@ -4,6 +4,7 @@ mod balance;
 mod base;
 mod counts;
 mod dimensions;
+mod loads;
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;

@@ -20,14 +20,15 @@ pub(super) fn faults() -> Vec<Fault> {
         } => ["counts"];
         "every sphere is above itself": above = |i, j, k| (RIGHT.above)(i, j, k).map(|n| n + &P::one())
             => ["counts", "strengths", "surface", "central-force", "base-normal", "weight", "total-moment",
-                "second-moment", "shear-ratio", "discs", "region-counts", "elastic-energy", "settlement"];
+                "second-moment", "shear-ratio", "discs", "region-counts", "tilt-total", "elastic-energy",
+                "settlement"];
         "α for β": above = |i, j, k| swapped(&(RIGHT.above)(i, j, k))
             => ["counts", "rotation", "surface", "action-reaction", "central-force", "shear", "shear-on-axis",
                 "discs", "region-counts", "elastic-straight"];
         "k for k−i−j": above = |i, j, k| [k.clone(), i.clone(), j.clone()]
-            => ["counts", "rotation", "surface", "central-force", "base-normal", "uniform-base", "weight", "shear",
-                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
-                "region-counts", "elastic-straight", "elastic-energy", "settlement"];
+            => ["counts", "rotation", "surface", "central-force", "base-normal", "uniform-base", "weight",
+                "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio",
+                "discs", "region-counts", "tilt-total", "elastic-straight", "elastic-energy", "settlement"];
 
         "β goes down along j, γ along i": descent = |sign, direction| {
             let [di, dj] = sign.descent(direction);
@@ -50,7 +51,7 @@ pub(super) fn faults() -> Vec<Fault> {
             => ["counts", "action-reaction", "region-counts", "elastic-straight", "elastic-monotone"];
 
         "the bottom layer not counted": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
-            => ["spheres", "contacts", "weight", "discs", "dimensions"];
+            => ["spheres", "contacts", "weight", "discs", "dimensions", "tilt-total"];
         "square pyramids in four dimensions": spheres = |l, d| {
             let right = (RIGHT.spheres)(l, d);
             if d == 4 { right + &(RIGHT.spheres)(&one_less(l), d) } else { right }

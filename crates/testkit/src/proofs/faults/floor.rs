@@ -29,26 +29,25 @@ pub(super) fn faults() -> Vec<Fault> {
     faults! {
         "the bottom layer's weight left out": support_load = |from_above, directions, _| {
             (RIGHT.resultant)(from_above, directions)
-        } => ["equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio",
-              "discs"];
+        } => ["equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio", "discs",
+                "tilt-total"];
         "the shear reversed": support_load = force!(|f, above| x = -f.x, y = -f.y)
-            => ["equilibrium", "shear", "shear-on-axis", "discs"];
+            => ["equilibrium", "shear", "shear-on-axis", "discs", "tilt-total"];
         "the shear rotated by 90°": support_load = force!(|f, above| x = -f.y, y = f.x)
-            => ["equilibrium", "shear", "total-moment", "shear-on-axis", "shear-ratio", "discs"];
+            => ["equilibrium", "shear", "total-moment", "shear-on-axis", "shear-ratio", "discs",
+                "tilt-total"];
         "twice the shear": support_load = force!(|f, above| x = twice(&f.x), y = twice(&f.y))
-            => ["equilibrium", "shear", "shear-on-axis", "shear-ratio", "discs"];
+            => ["equilibrium", "shear", "shear-on-axis", "shear-ratio", "discs", "tilt-total"];
         "a constant shear along x": support_load = force!(|f, above| x = f.x + &P::one())
-            => ["equilibrium", "shear", "total-shear", "shear-on-axis", "shear-ratio", "discs"];
+            => ["equilibrium", "shear", "total-shear", "shear-on-axis", "shear-ratio", "discs", "tilt-total"];
         "a constant shear along y": support_load = force!(|f, above| y = f.y + &P::one())
-            => ["equilibrium", "shear", "total-shear", "total-moment", "shear-on-axis",
-                "shear-ratio", "discs"];
+            => ["equilibrium", "shear", "total-shear", "total-moment", "shear-on-axis", "shear-ratio",
+                "discs", "tilt-total"];
         "load shifted from γ to α": support_load = force!(|f, above| z = f.z + &above[0] - &above[2])
             => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
-                "shear-ratio",
-                "discs"];
+                "shear-ratio", "discs", "tilt-total"];
         "load shifted from the rim to the middle": support_load = force!(|f, above| z = f.z + &squeeze(above))
             => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
-                "shear-ratio",
-                "discs"];
+                "shear-ratio", "discs", "tilt-total"];
     }
 }

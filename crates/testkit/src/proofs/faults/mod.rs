@@ -4,6 +4,7 @@ mod counts;
 mod floor;
 mod forces;
 mod horizontal;
+mod loads;
 mod places;
 
 use core::num::NonZeroI64;
@@ -53,6 +54,7 @@ pub fn of_the_core() -> Vec<Fault> {
         places::faults(),
         forces::faults(),
         floor::faults(),
+        loads::faults(),
         horizontal::faults(),
     ]
     .into_iter()
