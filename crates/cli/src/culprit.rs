@@ -113,7 +113,9 @@ fn of_core(error: &cannonpile::Error) -> Option<Culprit> {
         Error::SinPhi { .. } | Error::NoSpacing { .. } | Error::NoHorizontalContacts { .. } => {
             Key::SinPhi.into()
         }
-        Error::NegativeLoad { .. } => Key::Load.into(),
+        Error::OutOfPlane { quantity, .. } if *quantity == Key::Tilt.name() => Key::Tilt.into(),
+        Error::NegativeLoad { .. } | Error::OutOfPlane { .. } => Key::Load.into(),
+        Error::NoWeight => Key::Weightless.into(),
         Error::Overlap { .. } | Error::TooFlat { .. } | Error::NotTouching { .. } => {
             Key::Spacing.into()
         }
@@ -176,7 +178,7 @@ mod tests {
     use cannonpile::geometry::Spacing;
     use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Site};
     use cannonpile::stacking::Pattern;
-    use cannonpile::{Packing, Pile};
+    use cannonpile::{Load, Packing, Pile};
     use cannonpile_dem::scene::{Case, Scene, parse};
     use cannonpile_dem::table::WriteError;
     use cannonpile_dem::{PileExport, PileFile};
@@ -232,6 +234,23 @@ mod tests {
         let isosceles = Pile::isosceles(5, ratio(3, 2)).unwrap_err();
         assert_eq!(Error::from(isosceles.clone()).conflicts_with(), None);
         blames(Culprit::Key(Key::SinPhi), isosceles);
+        let out_of_plane = |scene: Scene| scene.pile().unwrap_err();
+        let discs = || Scene {
+            dimension: Dimension::Two,
+            ..Scene::default()
+        };
+        let tilt = [ratio(0, 1), ratio(1, 2)];
+        let [x, y] = tilt.clone();
+        let tilted = Scene { tilt, ..discs() };
+        blames(Culprit::Key(Key::Tilt), out_of_plane(tilted));
+        let (at, down) = (parse::at("0,0", Dimension::Two).unwrap(), x.clone());
+        let loads = vec![(at, Load { down, x, y })];
+        blames(
+            Culprit::Key(Key::Load),
+            out_of_plane(Scene { loads, ..discs() }),
+        );
+        let weightless = pile.clone().weightless().stability().unwrap_err();
+        blames(Culprit::Key(Key::Weightless), weightless);
         let misspelled = "++x".parse::<Pattern>();
         assert!(misspelled.is_err());
         blames(None, parse::rational("one").unwrap_err());

@@ -22,7 +22,7 @@ STIFFNESS = {stiffness}  # N/m; a contact of two spheres has E*R
 RADIUS = {radius}  # m
 REST = {rest}  # N, on a sphere: the effect of the rounding of coordinates
 MAX_STEPS = {most_steps}
-# Downward forces in addition to the weight, in N, by id.
+# Forces in addition to the weight, in N, by id: x, y and z (up).
 LOADS = {loads}
 # Masses other than that of an ordinary sphere, by id.
 MASSES = {masses}
@@ -45,7 +45,7 @@ def buildPile():
 		else:
 			body.state.blockedDOFs = '{blocked}'
 			if number in LOADS:
-				O.forces.setPermF(bodyId, (0, 0, -LOADS[number]))
+				O.forces.setPermF(bodyId, LOADS[number])
 		if number in MASSES:
 			body.state.mass = MASSES[number]
 	O.engines = [
@@ -56,7 +56,7 @@ def buildPile():
 	                [Ip2_FrictMat_FrictMat_FrictPhys()],
 	                [Law2_ScGeom_FrictPhys_CundallStrack()],
 	        ),
-	        NewtonIntegrator(gravity=(0, 0, -{gravity}), damping=0.3),
+	        NewtonIntegrator(gravity={gravity}, damping=0.3),
 	]
 	O.dt = {timestep}
 	return ids[0]

@@ -18,6 +18,9 @@ pub(super) fn write_spheres(
     let radius = nearest_rational(pile.packing().radius(), "radius")?;
     let place = Place::of(pile);
     let (masses, loads) = (PerSphere::masses(pile)?, PerSphere::loads(pile)?);
+    let along = has_horizontal_loads(pile).then(|| PerSphere::horizontal_loads(pile));
+    let along = along.transpose()?;
+    let axes = pile.pile().dimension().directions().len() - 1;
     let floor = pile.pile().layers() - 1;
     for (id, centre) in (1_u64..).zip(pile.centres()?) {
         let (site, [x, y, z]) = centre?;
@@ -25,10 +28,14 @@ pub(super) fn write_spheres(
         write!(out, "{id},")?;
         place.write(site, out)?;
         let fixed = u8::from(site.k == floor);
-        writeln!(
+        write!(
             out,
             ",{x:?},{y:?},{z:?},{radius:?},{mass:?},{fixed},{load:?}"
         )?;
+        for along in along.iter().flatten().take(axes) {
+            write!(out, ",{:?}", along.of(site))?;
+        }
+        writeln!(out)?;
         row();
     }
     Ok(())
@@ -98,12 +105,22 @@ pub(super) fn write_columns(
     Ok(())
 }
 
-/// Returns the lines of `columns.csv` for a pile: file, column, unit, meaning. Discs have no j and no shear along y.
+/// Returns the lines of `columns.csv` for a pile: file, column, unit, meaning. Discs have no j and no forces along y.
+/// Vertical loads have no components along x and y.
 fn columns(pile: &NumberedPile<'_>) -> impl Iterator<Item = &'static str> + use<> {
     let flat = pile.pile().dimension() == Dimension::Two;
-    let left_out = |line: &str| matches!(line.split(',').nth(1), Some("j" | "shear_y"));
+    let vertical = !has_horizontal_loads(pile);
     let lines = include_str!("columns.csv").lines();
-    lines.filter(move |line| !(flat && left_out(line)))
+    lines.filter(move |line| match line.split(',').nth(1) {
+        Some("j" | "shear_y") => !flat,
+        Some("load_x") => !vertical,
+        Some("load_y") => !vertical && !flat,
+        _ => true,
+    })
+}
+
+fn has_horizontal_loads(pile: &NumberedPile<'_>) -> bool {
+    pile.pile().loads().any(|(_, load)| !load.is_vertical())
 }
 
 fn write_heads(out: &mut dyn Write, file: &str, pile: &NumberedPile<'_>) -> std::io::Result<()> {

@@ -31,6 +31,8 @@ pub enum Key {
     SinPhi,
     /// Loads on spheres.
     Load,
+    /// The tilt of gravity.
+    Tilt,
     /// Weightless spheres.
     Weightless,
     /// a/R, half the distance between horizontal neighbours over the radius.
@@ -49,7 +51,7 @@ pub enum Key {
 
 impl Key {
     /// All keys, in the order of a written scene file.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Layers,
         Self::Stacking,
         Self::Top,
@@ -57,6 +59,7 @@ impl Key {
         Self::Dimension,
         Self::SinPhi,
         Self::Load,
+        Self::Tilt,
         Self::Weightless,
         Self::Spacing,
         Self::Radius,
@@ -84,6 +87,7 @@ impl Key {
             Self::Dimension => "dimension",
             Self::SinPhi => "sin-phi",
             Self::Load => "load",
+            Self::Tilt => "tilt",
             Self::Weightless => "weightless",
             Self::Spacing => "spacing",
             Self::Radius => "radius",

@@ -62,9 +62,9 @@ pub(super) fn write_data(
 /// Writes a script that relaxes the pile, and writes the forces of the final state.
 pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
     let springs = Springs::of(pile)?;
-    let weight = match springs.gravity {
-        0.0 => String::new(),
-        g => format!("fix             weight all gravity {g:?} vector 0 0 -1\n"),
+    let weight = match gravity(springs.gravity) {
+        None => String::new(),
+        Some(gravity) => format!("fix             weight all {gravity}\n"),
     };
     let plane = match pile.pile().dimension() {
         Dimension::Two => {
@@ -81,7 +81,7 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
             ("damping", number(springs.dashpot() / (springs.mass / 2.0))),
             ("skin", number(0.2 * springs.radius)),
             ("weight", weight),
-            ("loads", loads(pile, LOADS)?),
+            ("loads", loads(pile, "# Loads, in N.\n", WORDS)?),
             ("drag", number(springs.drag())),
             ("plane", plane.to_owned()),
             ("timestep", number(springs.timestep)),
@@ -93,25 +93,57 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
     Ok(out.write_all(script.as_bytes())?)
 }
 
-/// Returns the commands that apply loads to spheres, or an empty text without loads. Each set command begins with
-/// `set`. The other texts precede and follow the set commands.
+/// Returns the style and the arguments of the fix for this gravity, or `None` for weightless spheres.
+pub(super) fn gravity([x, y, z]: [f64; 3]) -> Option<String> {
+    if z == 0.0 {
+        return None;
+    }
+    Some(if x == 0.0 && y == 0.0 {
+        format!("gravity {:?} vector 0 0 -1", -z)
+    } else {
+        let magnitude = x.hypot(y).hypot(z);
+        format!("gravity {magnitude:?} vector {x:?} {y:?} {z:?}")
+    })
+}
+
+/// Returns the commands that apply loads to spheres, or an empty text without loads. Each command begins with the word
+/// of its kind: `fix`, `set` or `variable`. `note` precedes the commands.
 pub(super) fn loads(
     pile: &NumberedPile<'_>,
-    [before, set, after]: [&str; 3],
+    note: &str,
+    [fix, set, variable]: [&str; 3],
 ) -> Result<String, Error> {
     let burdens = burdens(pile)?;
     if burdens.is_empty() {
         return Ok(String::new());
     }
-    let sets = burdens.into_iter().map(|(id, force)| {
-        let upwards = -force;
-        format!("{set} atom {id} d_load {upwards:?}\n")
+    let is_used = |axis: usize| burdens.iter().any(|(_, force)| force[axis] != 0.0);
+    let names = match [0, 1].map(is_used) {
+        [false, false] => [None, None, Some("load")],
+        [along_x, along_y] => [
+            along_x.then_some("load_x"),
+            along_y.then_some("load_y"),
+            is_used(2).then_some("load_z"),
+        ],
+    };
+    let each = |words: &dyn Fn(&str) -> String| {
+        let words = names.iter().flatten().map(|name| words(name));
+        words.collect::<String>()
+    };
+    let properties = each(&|name| format!(" d_{name}"));
+    let sets = burdens.iter().map(|(id, force)| {
+        let parts = names.iter().zip(force);
+        let parts = parts.filter_map(|(name, part)| Some(format!(" d_{} {part:?}", (*name)?)));
+        format!("{set} atom {id}{}\n", parts.collect::<String>())
     });
-    Ok(format!("{before}{}{after}", sets.collect::<String>()))
+    let sets: String = sets.collect();
+    let variables = each(&|name| format!("{variable} {name} atom d_{name}\n"));
+    let forces = names.map(|name| name.map_or_else(|| "0.0".into(), |name| format!("v_{name}")));
+    let forces = forces.join(" ");
+    Ok(format!(
+        "{note}{fix} load all property/atom{properties}\n{sets}{variables}{fix} push all addforce {forces}\n"
+    ))
 }
 
-const LOADS: [&str; 3] = [
-    "# Loads, in N.\nfix             load all property/atom d_load\n",
-    "set            ",
-    "variable        load atom d_load\nfix             push all addforce 0.0 0.0 v_load\n",
-];
+/// The words of commands, in columns.
+const WORDS: [&str; 3] = ["fix            ", "set            ", "variable       "];

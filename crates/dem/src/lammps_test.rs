@@ -2,17 +2,20 @@
 
 use std::io::Write;
 
-use num_traits::Zero;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
 
-use super::lammps::loads;
+use super::lammps::{gravity, loads};
 use super::numbered::NumberedPile;
 use super::springs::{Springs, density};
 use super::suite::{Forces, Outcome, TOLERANCE};
 use super::sunk::Sunk;
 use super::template::fill;
-use super::weights::{inertias, nearest_rational};
+use super::vector::{minus, plus};
+use super::weights::{inertias, rounded_newtons};
 use crate::Error;
 use crate::table::WriteError;
+use cannonpile::Load;
 use cannonpile::lattice::Dimension;
 
 /// The accepted relative error of positions if every contact has a force, and if some contacts have none. A sphere
@@ -55,9 +58,9 @@ fn text(pile: &NumberedPile<'_>, title: &str, forces: &Forces) -> Result<String,
         let resolution = epsilon * middle(&at_rest) / overlap;
         format!("forces, to about {resolution:.0e} of the greatest")
     };
-    let weight = match springs.gravity {
-        0.0 => String::new(),
-        g => format!("  fix weight all gravity {g:?} vector 0 0 -1\n"),
+    let weight = match gravity(springs.gravity) {
+        None => String::new(),
+        Some(gravity) => format!("  fix weight all {gravity}\n"),
     };
     let plane = if flat {
         "  fix plane all setforce NULL 0.0 NULL\n"
@@ -80,7 +83,7 @@ fn text(pile: &NumberedPile<'_>, title: &str, forces: &Forces) -> Result<String,
             ("skin", number(0.2 * springs.radius)),
             ("timestep", number(springs.timestep)),
             ("weight", weight),
-            ("loads", loads(pile, LOADS)?),
+            ("loads", loads(pile, "", ["  fix", "  set", "  variable"])?),
             ("drag", number(springs.drag())),
             ("plane", plane.to_owned()),
             ("natoms", rigid.len().to_string()),
@@ -136,29 +139,25 @@ fn densities(pile: &NumberedPile<'_>, springs: &Springs) -> Result<String, Error
     masses.collect()
 }
 
-const LOADS: [&str; 3] = [
-    "  fix load all property/atom d_load\n",
-    "  set",
-    "  variable load atom d_load\n  fix push all addforce 0.0 0.0 v_load\n",
-];
-
 /// Returns the force on each sphere at rest, without the force from the floor: zero above the floor.
 fn reactions(pile: &NumberedPile<'_>) -> Result<String, Error> {
     let off_the_floor = 1..pile.numbering().first_on_floor();
     let off_the_floor = off_the_floor.map(|id| Ok(format!("  {id} 0.0 0.0 0.0\n")));
     let on_the_floor = pile.on_floor()?.map(|force| {
         let (id, force) = force?;
-        let load = pile.pile().load(force.site)?.down;
-        let load = nearest_rational(&(load * pile.packing().sphere_weight()), "a load")?;
+        let load = pile.pile().load(force.site)?;
+        let load = rounded_newtons(pile.packing(), load, "a load")?;
         // LAMMPS assigns a mass, and so a weight, to weightless spheres too.
         let weight = pile.pile().sphere_weight(force.site)?;
         let pulled = if weight.is_zero() && !pile.pile().is_weightless() {
-            nearest_rational(&pile.packing().sphere_weight(), "weight")?
+            let weight = Load::leaning(BigRational::one(), pile.pile().tilt());
+            rounded_newtons(pile.packing(), weight, "weight")?
         } else {
-            0.0
+            [0.0; 3]
         };
-        let down = force.normal - load + pulled;
-        let (x, y, z) = (force.shear_x + 0.0, force.shear_y + 0.0, 0.0 - down);
+        let on_floor = [force.shear_x, force.shear_y, -force.normal];
+        // Adding 0 turns −0 into 0.
+        let [x, y, z] = plus(minus(on_floor, load), pulled).map(|part| part + 0.0);
         Ok(format!("  {id} {x:?} {y:?} {z:?}\n"))
     });
     off_the_floor.chain(on_the_floor).collect()

@@ -41,6 +41,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[doc(hidden)]
+pub mod angle;
 mod arrays;
 #[doc(hidden)]
 pub mod card;

@@ -12,7 +12,7 @@ STIFFNESS = {stiffness}  # N/m; a contact of two spheres has E*R
 RADIUS = {radius}
 REST = {rest}  # N, on a sphere: the effect of the rounding of coordinates
 MAX_STEPS = {most_steps}
-# Downward forces in addition to the weight, in N, by id.
+# Forces in addition to the weight, in N, by id: x, y and z (up).
 LOADS = {loads}
 # Masses other than that of an ordinary sphere, by id.
 MASSES = {masses}
@@ -40,7 +40,7 @@ for body_id in ids:
     else:
         body.state.blockedDOFs = '{blocked}'
         if number in LOADS:
-            O.forces.setPermF(body_id, (0, 0, -LOADS[number]))
+            O.forces.setPermF(body_id, LOADS[number])
     if number in MASSES:
         body.state.mass = MASSES[number]
 
@@ -52,7 +52,7 @@ O.engines = [
         [Ip2_FrictMat_FrictMat_FrictPhys()],
         [Law2_ScGeom_FrictPhys_CundallStrack()],
     ),
-    NewtonIntegrator(gravity=(0, 0, -{gravity}), damping=0.3),
+    NewtonIntegrator(gravity={gravity}, damping=0.3),
 ]
 O.dt = {timestep}
 

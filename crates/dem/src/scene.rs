@@ -8,14 +8,14 @@ use core::fmt;
 use core::str::FromStr;
 
 use num_rational::BigRational;
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
 
 use crate::{Error, Key};
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::shape::Shape;
 use cannonpile::stacking::Pattern;
-use cannonpile::{Packing, Pile};
+use cannonpile::{Load, Packing, Pile};
 use cannonpile_horizontal::ElasticState;
 
 use parse::At;
@@ -127,9 +127,12 @@ pub struct Scene {
     pub stacking: Option<Pattern>,
     /// The layer that the pile grows from (default: one sphere on top).
     pub anchor: Option<Anchor>,
-    /// The vertical loads on spheres, in mg.
+    /// The loads on spheres, in the units of [`Load`].
     #[serde(with = "loads")]
-    pub loads: Vec<(At, BigRational)>,
+    pub loads: Vec<(At, Load)>,
+    /// The tilt of gravity (x, y), in the units of [`Pile::with_tilt`] (default: upright).
+    #[serde(with = "tilt")]
+    pub tilt: [BigRational; 2],
     /// Whether the spheres are weightless, so that only the loads act.
     pub weightless: bool,
     /// a/R (default: 6/5, or 1 for the elastic state). A given spacing is always checked, the default only where
@@ -168,6 +171,7 @@ impl Default for Scene {
             stacking: None,
             anchor: None,
             loads: Vec::new(),
+            tilt: [BigRational::zero(), BigRational::zero()],
             weightless: false,
             spacing: None,
             radius: BigRational::one(),
@@ -204,7 +208,7 @@ impl Scene {
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     pub fn pile(&self) -> Result<Pile, Error> {
-        let mut pile = self.unloaded()?;
+        let mut pile = self.unloaded()?.with_tilt(self.tilt.clone())?;
         for (at, load) in &self.loads {
             let site = at.site(pile.layers());
             pile = pile.with_load(site, load.clone())?;
@@ -403,34 +407,76 @@ impl Scene {
     }
 }
 
-/// Conversion of loads to records `{"at": …, "weight": …}`.
+/// Conversion of loads to records `{"at": …, "weight": …, "x": …, "y": …}`.
 mod loads {
     use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    use super::{At, BigRational};
+    use super::{At, BigRational, Load};
     use cannonpile::data::number;
 
     #[derive(Serialize, Deserialize)]
     #[serde(rename = "Load", deny_unknown_fields)]
-    struct Load {
+    struct Loaded {
         at: At,
+        /// The force downwards.
         #[serde(with = "number")]
         weight: BigRational,
+        #[serde(default, with = "number")]
+        x: BigRational,
+        #[serde(default, with = "number")]
+        y: BigRational,
     }
 
     pub(super) fn serialize<S: Serializer>(
-        loads: &[(At, BigRational)],
+        loads: &[(At, Load)],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
         let loads = loads.iter().cloned();
-        serializer.collect_seq(loads.map(|(at, weight)| Load { at, weight }))
+        serializer.collect_seq(loads.map(|(at, Load { down, x, y })| Loaded {
+            at,
+            weight: down,
+            x,
+            y,
+        }))
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
-    ) -> Result<Vec<(At, BigRational)>, D::Error> {
-        let loads: Vec<Load> = Deserialize::deserialize(deserializer)?;
-        let loads = loads.into_iter();
-        Ok(loads.map(|load| (load.at, load.weight)).collect())
+    ) -> Result<Vec<(At, Load)>, D::Error> {
+        let loads: Vec<Loaded> = Deserialize::deserialize(deserializer)?;
+        let load = |Loaded { at, weight, x, y }| (at, Load { down: weight, x, y });
+        Ok(loads.into_iter().map(load).collect())
+    }
+}
+
+/// Conversion of a tilt to a record `{"x": …, "y": …}`.
+mod tilt {
+    use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::BigRational;
+    use cannonpile::data::number;
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Tilt {
+        #[serde(with = "number")]
+        x: BigRational,
+        #[serde(with = "number")]
+        y: BigRational,
+    }
+
+    pub(super) fn serialize<S: Serializer>(
+        tilt: &[BigRational; 2],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let [x, y] = tilt.clone();
+        Tilt { x, y }.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<[BigRational; 2], D::Error> {
+        let Tilt { x, y } = Deserialize::deserialize(deserializer)?;
+        Ok([x, y])
     }
 }

@@ -1,11 +1,12 @@
 //! Springs for simulation codes: their stiffness, their damping and the timestep.
 
 use num_rational::BigRational;
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 use super::numbered::{NumberedPile, nearest};
-use super::weights::{checked, greatest_extra, nearest_rational, normal, ordinary_weight};
+use super::weights::{checked, gravity, greatest_extra, magnitude, nearest_rational, normal};
 use crate::Error;
+use cannonpile::Load;
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Ring;
 
@@ -16,9 +17,10 @@ use cannonpile::scalar::Ring;
 pub(super) struct Springs {
     pub(super) radius: f64,
     pub(super) mass: f64,
-    /// The gravity; 0 for weightless spheres.
-    pub(super) gravity: f64,
-    /// k = 10⁶ L·mg/(R cos²θ), with the greatest load instead of mg if it is larger.
+    /// The acceleration of gravity as x, y and z (up); 0 for weightless spheres.
+    pub(super) gravity: [f64; 3],
+    /// k = 10⁶ L·mg/(R cos²θ), with the greatest load instead of mg if it is larger. Under gravity that leans by (x, y),
+    /// mg has the factor 1 + |x| + 2|y|.
     pub(super) stiffness: f64,
     /// A tenth of √(m/k).
     pub(super) timestep: f64,
@@ -40,14 +42,13 @@ impl Springs {
         // In mg. For weightless spheres only the loads matter; without loads any value is correct.
         let greatest = match (pile.is_weightless(), most.is_zero()) {
             (true, false) => layers.clone() * most,
-            _ => layers.clone() + most,
+            _ => &layers * magnitude(&Load::leaning(BigRational::one(), pile.tilt())) + most,
         };
         let cos2 = packing.inclination().cos2();
         let million = BigRational::from_i128(1_000_000);
         let stiffness = million * greatest * packing.sphere_weight() / cos2 / packing.radius();
         let stiffness = normal(&stiffness, "the stiffness of springs")?;
         let mass = normal(packing.mass(), "mass")?;
-        let gravity = ordinary_weight(pile) * packing.gravity();
         let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
         // Layers are convex, so corners have the extreme coordinates.
         for k in 0..pile.layers() {
@@ -68,7 +69,7 @@ impl Springs {
         Ok(Self {
             radius,
             mass,
-            gravity: nearest_rational(&gravity, "gravity")?,
+            gravity: gravity(numbered)?,
             stiffness,
             timestep: checked(0.1 * (mass / stiffness).sqrt(), "a time step")?,
             last_digit: farthest.next_up() - farthest,

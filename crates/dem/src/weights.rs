@@ -5,10 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::numbered::{NumberedPile, nearest};
+use super::numbered::{NumberedPile, nearest, rounded};
 use crate::Error;
-use cannonpile::Pile;
 use cannonpile::lattice::Site;
+use cannonpile::scalar::Surd;
+use cannonpile::{FloorForce, Load, Packing, Pile};
 
 /// Returns a rational, correctly rounded.
 ///
@@ -47,15 +48,56 @@ fn special_sites(pile: &Pile) -> BTreeSet<Site> {
     loads.chain(pile.weights().map(|(site, _)| site)).collect()
 }
 
-/// Returns the greatest deviation of weight plus load from the ordinary weight, in mg.
+/// Returns an upper bound of the magnitude of a load, in mg or mg·tanθ: |w| + |x| + 2|y|.
+pub(super) fn magnitude(Load { down, x, y }: &Load) -> BigRational {
+    down.abs() + x.abs() + y.abs() + y.abs()
+}
+
+/// Returns the greatest deviation of weight plus load from the ordinary weight, as a [`magnitude`].
 pub(super) fn greatest_extra(pile: &Pile) -> Result<BigRational, Error> {
     let ordinary = ordinary_weight(pile);
     let mut greatest = BigRational::zero();
     for site in special_sites(pile) {
-        let extra = pile.sphere_weight(site)? + pile.load(site)?.down - &ordinary;
-        greatest = greatest.max(extra.abs());
+        let weight = pile.sphere_weight(site)? - &ordinary;
+        let extra = Load::leaning(weight, pile.tilt()) + &pile.load(site)?;
+        greatest = greatest.max(magnitude(&extra));
     }
     Ok(greatest)
+}
+
+/// Returns a load as a force vector, in N: x, y and z (up).
+pub(crate) fn newtons(packing: &Packing<'_>, load: Load) -> [Surd; 3] {
+    // Loads have the units of the forces on the floor.
+    let FloorForce {
+        normal,
+        shear_x,
+        shear_y,
+        ..
+    } = packing.floor_force_in_si(FloorForce {
+        site: Site::APEX,
+        normal: load.down,
+        shear_x: load.x,
+        shear_y: load.y,
+    });
+    [shear_x, shear_y, -normal]
+}
+
+/// Returns a load as a correctly rounded force vector, in N: x, y and z (up).
+pub(crate) fn rounded_newtons(
+    packing: &Packing<'_>,
+    load: Load,
+    quantity: &'static str,
+) -> Result<[f64; 3], Error> {
+    // Adding 0 turns −0 into 0.
+    Ok(rounded(&newtons(packing, load), quantity)?.map(|part| part + 0.0))
+}
+
+/// Returns the acceleration of gravity, in m/s²: x, y and z (up); 0 for weightless spheres.
+pub(super) fn gravity(pile: &NumberedPile<'_>) -> Result<[f64; 3], Error> {
+    let packing = pile.packing();
+    let weight = ordinary_weight(pile.pile()) / packing.mass();
+    let gravity = newtons(packing, Load::leaning(weight, pile.pile().tilt()));
+    Ok(rounded(&gravity, "gravity")?.map(|part| part + 0.0))
 }
 
 /// A rounded quantity that is the same for all but a few spheres.
@@ -80,6 +122,21 @@ impl PerSphere {
         let (quantity, unit) = ("load", pile.packing().sphere_weight());
         let special = |site| Ok(pile.pile().load(site)?.down);
         Self::new(pile, quantity, &BigRational::zero(), special, &unit)
+    }
+
+    /// Returns the horizontal components of the loads along x and y, in N.
+    pub(super) fn horizontal_loads(pile: &NumberedPile<'_>) -> Result<[Self; 2], Error> {
+        let mut along = [(); 2].map(|()| Self {
+            ordinary: 0.0,
+            special: BTreeMap::new(),
+        });
+        for (site, load) in pile.pile().loads() {
+            let [x, y, _] = rounded_newtons(pile.packing(), load.clone(), "load")?;
+            for (along, part) in along.iter_mut().zip([x, y]) {
+                along.special.insert(site, part);
+            }
+        }
+        Ok(along)
     }
 
     fn of_weights(
@@ -129,20 +186,20 @@ pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<BTreeMap<Site, f64>, E
     masses.collect()
 }
 
-/// Returns the spheres above the floor whose weight and load differ from the weight of their [`inertia`]: the sphere
-/// number, and the additional downward force in N.
-pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<(u64, f64)>, Error> {
+/// Returns the spheres above the floor on which gravity and load differ from gravity on their [`inertia`]: the sphere
+/// number, and the additional force in N as x, y and z (up).
+pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<(u64, [f64; 3])>, Error> {
     let (packing, ordinary) = (pile.packing(), ordinary_weight(pile.pile()));
     let floor = pile.pile().layers() - 1;
     let mut burdens = Vec::new();
     let special = special_sites(pile.pile()).into_iter();
     for site in special.filter(|site| site.k < floor) {
-        let pulled = inertia(pile, site)? * packing.gravity() * &ordinary;
-        let total = pile.pile().sphere_weight(site)? + pile.pile().load(site)?.down;
-        let force = total * packing.sphere_weight() - pulled;
+        let pulled = inertia(pile, site)? / packing.mass() * &ordinary;
+        let weight = pile.pile().sphere_weight(site)? - pulled;
+        let force = Load::leaning(weight, pile.pile().tilt()) + &pile.pile().load(site)?;
         if !force.is_zero() {
             let id = pile.numbering().id(site)?;
-            burdens.push((id, nearest_rational(&force, "a load")?));
+            burdens.push((id, rounded_newtons(packing, force, "a load")?));
         }
     }
     Ok(burdens)

@@ -43,11 +43,19 @@ pub(super) fn texts(pile: &NumberedPile<'_>) -> Result<Vec<(&'static str, String
         ("radius", number(springs.radius)),
         ("rest", number(2.0 * springs.rest())),
         ("most_steps", springs.most_steps.to_string()),
-        ("loads", by_id(burdens(pile)?)),
-        ("masses", by_id(masses.collect::<Result<_, Error>>()?)),
+        ("loads", by_id(burdens(pile)?.into_iter().map(with_vector))),
+        (
+            "masses",
+            by_id(
+                masses
+                    .collect::<Result<Vec<_>, Error>>()?
+                    .into_iter()
+                    .map(with_number),
+            ),
+        ),
         ("density", number(density(springs.mass, springs.radius)?)),
         ("blocked", blocked(pile).to_owned()),
-        ("gravity", number(springs.gravity)),
+        ("gravity", vector(springs.gravity)),
         ("timestep", number(springs.timestep)),
     ])
 }
@@ -61,9 +69,20 @@ fn blocked(pile: &NumberedPile<'_>) -> &'static str {
 }
 
 /// Returns a Python dictionary.
-fn by_id(numbers: Vec<(u64, f64)>) -> String {
-    let entries = numbers
-        .into_iter()
-        .map(|(id, number)| format!("    {id}: {number:?},\n"));
+fn by_id(entries: impl Iterator<Item = (u64, String)>) -> String {
+    let entries = entries.map(|(id, text)| format!("    {id}: {text},\n"));
     format!("{{\n{}}}", entries.collect::<String>())
+}
+
+fn with_number((id, number): (u64, f64)) -> (u64, String) {
+    (id, format!("{number:?}"))
+}
+
+fn with_vector((id, force): (u64, [f64; 3])) -> (u64, String) {
+    (id, vector(force))
+}
+
+/// Returns a Python tuple.
+fn vector([x, y, z]: [f64; 3]) -> String {
+    format!("({x:?}, {y:?}, {z:?})")
 }

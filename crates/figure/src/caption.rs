@@ -1,8 +1,9 @@
 //! The caption of a figure: layers, stacking, loads and spacing of the pile.
 
+use cannonpile::{Load, Pile};
 use cannonpile_dem::{anchor, brief, stacking};
 use num_bigint::{BigInt, BigUint};
-use num_traits::One;
+use num_traits::{One, Zero};
 
 use super::subject::Subject;
 use crate::Error;
@@ -25,12 +26,15 @@ pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
     if pile.is_weightless() {
         parts.push("spheres without weight".into());
     }
+    if let Some(tilt) = tilt(pile) {
+        parts.push(brief(&tilt, 30));
+    }
     let mut loads = pile.loads();
     match (loads.len(), loads.next()) {
         (0, _) | (_, None) => {}
         (1, Some((site, load))) => {
             let place = format!("{},{}", site.k, subject.indices(site));
-            parts.push(brief(&format!("{load} mg on {place}"), 20));
+            parts.push(brief(&of_load(load, &place), 20));
         }
         (count, _) => parts.push(counted(&count.into(), "load")),
     }
@@ -40,10 +44,22 @@ pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
     Ok(parts.join(", "))
 }
 
+/// Returns the tilt of gravity as text, or `None` for upright gravity.
+pub(super) fn tilt(pile: &Pile) -> Option<String> {
+    let [x, y] = pile.tilt();
+    (!x.is_zero() || !y.is_zero()).then(|| format!("gravity tilted by ({x}, {y})"))
+}
+
 /// Returns a number with its noun: `1 layer`, `10 layers`.
 pub(super) fn counted(count: &BigInt, noun: &str) -> String {
     let plural = if count.is_one() { "" } else { "s" };
     format!("{count} {noun}{plural}")
+}
+
+/// Describes a load. Vertical loads have a unit; the components of other loads have several.
+fn of_load(load: &Load, place: &str) -> String {
+    let unit = if load.is_vertical() { " mg" } else { "" };
+    format!("{load}{unit} on {place}")
 }
 
 /// The largest number of spheres or cells of a figure.

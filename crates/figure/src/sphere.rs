@@ -1,8 +1,8 @@
 //! The forces on one sphere, as in fig. 3 of the paper.
 
-use cannonpile::Pile;
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
+use cannonpile::{Load, Pile};
 use num_rational::BigRational;
 
 use super::caption::caption;
@@ -195,15 +195,25 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
     if on_floor {
         forces.push(from_floor(subject.on_floor(site)?));
     }
-    let weight = subject.weight(pile.sphere_weight(site)?)?;
+    let weight = Load::leaning(pile.sphere_weight(site)?, pile.tilt());
+    let (weight, along) = directed(subject.load(weight)?);
     let centre = [0.0; 3];
-    forces.push(Force::new(["w", "weight"], weight, DOWN, centre, None));
+    forces.push(Force::new(["w", "weight"], weight, along, centre, None));
     let load = pile.load(site)?;
     if !load.is_zero() {
-        let load = subject.weight(load.down)?;
-        forces.push(Force::new(["p", "load"], load, DOWN, UP, None));
+        let (load, along) = directed(subject.load(load)?);
+        let at = along.map(|part| -part);
+        forces.push(Force::new(["p", "load"], load, along, at, None));
     }
     Ok((forces, neighbours))
+}
+
+/// Returns the magnitude and the direction of a force. The direction of no force is downwards.
+fn directed(force: Vector) -> (f64, Vector) {
+    let [x, y, z] = force;
+    let magnitude = x.hypot(y).hypot(z);
+    let along = force.map(|part| part / magnitude);
+    (magnitude, if magnitude > 0.0 { along } else { DOWN })
 }
 
 /// Returns the force of the floor on a bottom sphere, from the opposite force of the sphere on the floor.

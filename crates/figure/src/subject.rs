@@ -6,7 +6,7 @@ use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Direction, HorizontalContact, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
-use cannonpile::{FloorForce, Forces, Packing, Pile};
+use cannonpile::{FloorForce, Forces, Load, Packing, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -275,9 +275,18 @@ impl<'p> Subject<'p> {
         Ok((multiple * self.packing.sphere_weight() / sum).into())
     }
 
-    /// Returns a weight, in the unit of the figure.
-    pub(super) fn weight(&self, multiple: BigRational) -> Result<f64, Error> {
-        nearest(&self.normal(multiple), "a weight")
+    /// Returns a load as a vector, in the unit of the figure: x, y and z (up).
+    pub(super) fn load(&self, load: Load) -> Result<Vector, Error> {
+        let force = FloorForce {
+            site: Site::APEX,
+            normal: load.down,
+            shear_x: load.x,
+            shear_y: load.y,
+        };
+        let force = self.packing.floor_force_in_si(force);
+        let [x, y, z] = [&force.shear_x, &force.shear_y, &force.normal];
+        let part = |part| nearest(part, "a load");
+        Ok([part(x)?, part(y)?, -part(z)?])
     }
 
     /// Returns a base normal force, in the unit of the figure.
@@ -308,6 +317,16 @@ impl<'p> Subject<'p> {
         };
         let forces = self.packing.base(Selection::Base)?;
         Ok(forces.map(move |force| Ok(in_units(force?))))
+    }
+
+    /// Returns tanθ.
+    pub(super) fn tan(&self) -> Result<f64, Error> {
+        nearest(&self.packing.inclination().tan(), "an angle")
+    }
+
+    /// Returns the angle of a tilt in degrees, from |t|².
+    pub(super) fn angle(&self, squared: &BigRational) -> Result<f64, Error> {
+        Ok(cannonpile_dem::angle::of_tilt(&self.packing, squared)?)
     }
 
     /// Returns the note of a figure of a part of the pile, if a contact in it is tensile.

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use cannonpile::lattice::Dimension;
 use cannonpile::{Packing, Pile};
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use cannonpile_dem::{PileExport, PileFile};
 
-/// Returns scenes of every kind: straight, isosceles and discs, stackings under and on regions, loads, zero weight, SI
-/// scales.
+/// Returns scenes of every kind: straight, isosceles and discs, stackings under and on regions, loads, tilted gravity, zero
+/// weight, SI scales.
 pub fn scenes() -> Vec<Scene> {
     let rational = |text| parse::rational(text).expect("a number");
     let region = |text: &str| text.parse().expect("a region");
@@ -17,9 +18,9 @@ pub fn scenes() -> Vec<Scene> {
         layers: Some(6),
         ..Scene::default()
     };
-    let three = cannonpile::lattice::Dimension::Three;
-    let two = cannonpile::lattice::Dimension::Two;
-    vec![
+    let three = Dimension::Three;
+    let two = Dimension::Two;
+    let mut scenes = vec![
         plain(),
         Scene {
             layers: Some(1),
@@ -85,6 +86,40 @@ pub fn scenes() -> Vec<Scene> {
             state: State::Elastic,
             stiffness_ratio: rational("2/3"),
             ..plain()
+        },
+    ];
+    scenes.extend(tilted_scenes());
+    scenes
+}
+
+/// Returns scenes with tilted gravity, and with loads of any direction.
+fn tilted_scenes() -> [Scene; 4] {
+    let rational = |text| parse::rational(text).expect("a number");
+    let load = |text, dimension| parse::load(text, dimension).expect("a load");
+    let [two, three] = [Dimension::Two, Dimension::Three];
+    let tilted = |text| Scene {
+        layers: Some(6),
+        tilt: parse::tilt(text, three).expect("a tilt"),
+        ..Scene::default()
+    };
+    [
+        tilted("1/4,-1/16"),
+        Scene {
+            sin_phi: Some(rational("2/5")),
+            loads: vec![load("2,0,1=0,1/4,-1/8", three), load("5,0,0=1,0,1", three)],
+            gravity: rational("9.81"),
+            ..tilted("0.02,0.1")
+        },
+        Scene {
+            dimension: two,
+            loads: vec![load("1,1=1/2,1/3", two)],
+            ..tilted("-1/7,0")
+        },
+        Scene {
+            anchor: Some(Anchor::Top("hexagon:2".parse().expect("a region"))),
+            stacking: Some("+--+".parse().expect("a stacking")),
+            layers: None,
+            ..tilted("1/9,1/11")
         },
     ]
 }

@@ -41,7 +41,7 @@ pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) ->
         let at = read("loads", at, |at| parse::at(at, scene.dimension))?;
         scene
             .loads
-            .push((at, read("loads", weight, parse::rational)?));
+            .push((at, read("loads", weight, parse::rational)?.into()));
     }
     Ok(scene)
 }
@@ -74,7 +74,7 @@ pub(super) fn call(scene: &Scene) -> String {
             }
             let place: Vec<String> = place.iter().map(ToString::to_string).collect();
             let comma = if place.len() == 1 { "," } else { "" };
-            format!("({}{comma}): {}", place.join(", "), number(weight))
+            format!("({}{comma}): {}", place.join(", "), number(&weight.down))
         });
         let loads: Vec<String> = loads.collect();
         give("loads", format!("{{{}}}", loads.join(", ")));

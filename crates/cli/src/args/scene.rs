@@ -11,10 +11,16 @@ use cannonpile_dem::Key;
 use cannonpile_dem::scene::{Anchor, Case, Scene, SceneFile, State, parse};
 use clap::Args;
 use num_rational::BigRational;
+use num_traits::Zero;
 
 use crate::output::{Failure, InputError, reason};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
+
+/// The reasons why random stackings exclude horizontal loads and a tilt, with the remedies.
+pub(super) const VERTICAL_LOADS: &str =
+    "random stackings support vertical loads only: leave out the horizontal components";
+pub(super) const UPRIGHT_GRAVITY: &str = "random stackings support upright gravity only: leave it out, or use the commands for one stacking";
 
 #[derive(Args)]
 #[command(next_help_heading = "Scene")]
@@ -28,7 +34,7 @@ pub(crate) struct SceneOptions {
         value_name = "NAME",
         value_parser = NamedFile::of_case,
         conflicts_with_all = [
-            "scene_file", "layers", "stacking", "top", "base", "dimension", "sin_phi", "load", "weightless", "spacing", "radius",
+            "scene_file", "layers", "stacking", "top", "base", "dimension", "sin_phi", "load", "tilt", "weightless", "spacing", "radius",
             "mass", "gravity", "stiffness_ratio",
         ]
     )]
@@ -51,9 +57,14 @@ pub(crate) struct SceneOptions {
     /// Sine of the azimuth phi of the base triangle, between 0 and 1; excludes --stacking, --top, --base [default: 1/2, equilateral]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
     sin_phi: Option<BigRational>,
-    /// Vertical load W on a sphere, in mg; I,J=W on the base; repeatable; replaces the loads of a file
-    #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
+    /// Load on a sphere: W mg down, X mg·tanθ along x, Y √3·mg·tanθ along y; I,J=W on the base; repeatable; replaces the
+    /// loads of a file
+    #[arg(long, value_name = "K,I,J=W[,X,Y]", allow_hyphen_values = true)]
     load: Vec<String>,
+    /// Tilt of gravity: horizontal over vertical part, in tanθ along x and √3·tanθ along y (2cosφ·tanθ with --sin-phi)
+    /// [default: 0,0]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    tilt: Option<String>,
     /// Spheres without weight, so that only the loads act; --weightless=false overrides a file
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     weightless: Option<bool>,
@@ -163,6 +174,16 @@ impl SceneOptions {
                 Key::Load,
                 "the position of a sphere below the top layer depends on the stacking: put loads on the top layer, 0,I,J=W",
             ),
+            (
+                scene.loads.iter().any(|(_, load)| !load.is_vertical()),
+                Key::Load,
+                VERTICAL_LOADS,
+            ),
+            (
+                !scene.tilt.iter().all(Zero::is_zero),
+                Key::Tilt,
+                UPRIGHT_GRAVITY,
+            ),
         ];
         for (is_given, key, why) in refused {
             if is_given {
@@ -242,6 +263,10 @@ impl SceneOptions {
             parse::load(text, dimension).map_err(|error| InputError::of(Key::Load, error))
         };
         let loads: Vec<_> = self.load.iter().map(load).collect::<Result<_, _>>()?;
+        let tilt = |text: &String| {
+            parse::tilt(text, dimension).map_err(|error| InputError::of(Key::Tilt, error))
+        };
+        let tilt = self.tilt.as_ref().map(tilt).transpose()?;
         let anchor = self.top.map(Anchor::Top).or(self.base.map(Anchor::Base));
         Ok(Scene {
             layers: self.layers.or(file.layers),
@@ -250,6 +275,7 @@ impl SceneOptions {
             stacking: self.stacking.clone().or(file.stacking),
             anchor: anchor.or(file.anchor),
             loads: if loads.is_empty() { file.loads } else { loads },
+            tilt: tilt.unwrap_or(file.tilt),
             weightless: self.weightless.unwrap_or(file.weightless),
             spacing: self.spacing.clone().or(file.spacing),
             radius: self.radius.clone().unwrap_or(file.radius),
@@ -279,6 +305,7 @@ impl SceneOptions {
         };
         let (place, remedy) = match farthest_from_one(scene) {
             Key::Load => (self.place(Key::Load), "use smaller loads"),
+            Key::Tilt => (self.place(Key::Tilt), "use a smaller tilt"),
             key => (
                 self.place(key),
                 "give radius, mass and gravity in other units",
@@ -332,6 +359,7 @@ impl SceneOptions {
             "dimension" => self.dimension.is_some(),
             "sin-phi" => self.sin_phi.is_some(),
             "load" => !self.load.is_empty(),
+            "tilt" => self.tilt.is_some(),
             "weightless" => self.weightless.is_some(),
             "spacing" => self.spacing.is_some(),
             "radius" => self.radius.is_some(),
@@ -348,13 +376,18 @@ impl SceneOptions {
 fn farthest_from_one(scene: &Scene) -> Key {
     const FLOATS: u64 = f64::MAX_EXP.unsigned_abs() as u64;
     let distance = |size: &BigRational| size.numer().bits().abs_diff(size.denom().bits());
-    let loads = scene.loads.iter().map(|(_, load)| (Key::Load, load));
+    let loads = scene.loads.iter().flat_map(|(_, load)| {
+        let parts = [&load.down, &load.x, &load.y];
+        parts.map(|part| (Key::Load, part))
+    });
+    let tilt = scene.tilt.iter().map(|part| (Key::Tilt, part));
     let sizes = [
         (Key::Radius, &scene.radius),
         (Key::Gravity, &scene.gravity),
         (Key::Mass, &scene.mass),
     ];
     let sizes = loads
+        .chain(tilt)
         .chain(sizes)
         .filter(|(key, size)| *key != Key::Radius || 3 * distance(size) >= FLOATS);
     let farthest = sizes.max_by_key(|(_, size)| distance(size));

@@ -1,14 +1,15 @@
 //! Options of `mean`: a scene without a stacking, because the mean is over all stackings.
 
+use cannonpile::Load;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile_dem::Key;
 use cannonpile_dem::scene::parse::At;
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
 use clap::Args;
-use num_rational::BigRational;
+use num_traits::Zero;
 
-use super::scene::NamedFile;
+use super::scene::{NamedFile, UPRIGHT_GRAVITY, VERTICAL_LOADS};
 use crate::Culprit;
 use crate::output::{Failure, InputError};
 
@@ -64,6 +65,8 @@ struct UnsupportedOptions {
     #[arg(long, hide = true, allow_hyphen_values = true)]
     stacking: Option<String>,
     #[arg(long, hide = true, allow_hyphen_values = true)]
+    tilt: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
     dimension: Option<String>,
     #[arg(long, hide = true, allow_hyphen_values = true)]
     sin_phi: Option<String>,
@@ -85,6 +88,7 @@ impl UnsupportedOptions {
     fn given(&self) -> Option<Key> {
         let options = [
             (Key::Stacking, &self.stacking),
+            (Key::Tilt, &self.tilt),
             (Key::Dimension, &self.dimension),
             (Key::SinPhi, &self.sin_phi),
             (Key::Spacing, &self.spacing),
@@ -103,6 +107,8 @@ impl UnsupportedOptions {
 fn unsupported_key(scene: &Scene) -> Option<Key> {
     if scene.stacking.is_some() {
         Some(Key::Stacking)
+    } else if !scene.tilt.iter().all(Zero::is_zero) {
+        Some(Key::Tilt)
     } else if scene.dimension != Dimension::Three {
         Some(Key::Dimension)
     } else if scene.sin_phi.is_some() {
@@ -120,6 +126,7 @@ fn unsupported_key(scene: &Scene) -> Option<Key> {
 const fn reason(key: Key) -> &'static str {
     match key {
         Key::Stacking => "the mean is over all stackings: leave it out, or use the command base",
+        Key::Tilt => UPRIGHT_GRAVITY,
         Key::Dimension | Key::SinPhi => {
             "random stackings consist of spheres on an equilateral lattice: leave it out"
         }
@@ -145,8 +152,12 @@ impl RandomSceneOptions {
         let loads = self.loads(file)?;
         let blamed = |error| self.refused(InputError::of(Key::Load, error));
         let layers = piles.stackings().layers();
+        if loads.iter().any(|(_, load)| !load.is_vertical()) {
+            let place = self.place(Key::Load.into());
+            return Err(Failure::Message(format!("{place}: {VERTICAL_LOADS}")));
+        }
         let piles = loads.into_iter().try_fold(piles, |piles, (at, load)| {
-            piles.with_load(at.site(layers), load).map_err(blamed)
+            piles.with_load(at.site(layers), load.down).map_err(blamed)
         })?;
         // Spheres have weight unless an option or a file says otherwise.
         let weightless = self
@@ -189,7 +200,7 @@ impl RandomSceneOptions {
         })
     }
 
-    fn loads(&self, file: Option<&Scene>) -> Result<Vec<(At, BigRational)>, InputError> {
+    fn loads(&self, file: Option<&Scene>) -> Result<Vec<(At, Load)>, InputError> {
         if self.load.is_empty() {
             return Ok(file.map_or_else(Vec::new, |scene| scene.loads.clone()));
         }

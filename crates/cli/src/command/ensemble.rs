@@ -209,7 +209,7 @@ impl RunEnsemble {
             .with_bin_width(self.bins.clone())
             .map_err(of_option("bins"))?;
         for (at, load) in &scene.loads {
-            let loaded = ensemble.with_load([at.i, at.j], load.clone());
+            let loaded = ensemble.with_load([at.i, at.j], load.down.clone());
             ensemble = loaded.map_err(|error| InputError::of(Key::Load, error))?;
         }
         if scene.weightless {

@@ -2,13 +2,14 @@
 
 use serde_json::Value as Json;
 
-use super::record::{CRITERION, Names, given, name};
+use super::record::{CRITERION, Names, given, is_tilted, name};
 use super::{CardTitle, layers};
 use crate::Error;
 use crate::error::bug;
 use crate::numbered::NumberedPile;
 use crate::scene::State;
 use crate::template::fill_lines;
+use cannonpile::Pile;
 use cannonpile::lattice::Dimension;
 
 /// Fills in the page of a card.
@@ -56,7 +57,7 @@ pub(super) fn page(
         (None, true) => "not defined for spheres without weight",
         (None, false) => "not known",
     };
-    let loads = rows(&card["pile"]["loads"], "{weight} mg on {site}", flat);
+    let loads = loads(&card["pile"]["loads"], pile.pile());
     let at_rest = names.contains_key("rests") || names.contains_key("falls");
     let texts = [
         ("with_scene", scene.map(|_| String::new())),
@@ -106,7 +107,17 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
         _ => None,
     };
     let flag = |holds: bool| holds.then(String::new);
+    let (tilted, vertical) = (
+        is_tilted(pile),
+        pile.loads().all(|(_, load)| load.is_vertical()),
+    );
     given([
+        ("upright", flag(!tilted)),
+        ("tilted", flag(tilted)),
+        ("vertical", flag(vertical)),
+        ("directed", flag(!vertical)),
+        ("downward", flag(!tilted && vertical)),
+        ("leaning", flag(tilted || !vertical)),
         ("regular", flag(regular)),
         ("isosceles", flag(!regular)),
         ("weighs", flag(weighs)),
@@ -140,18 +151,44 @@ const ON_FLOOR: &str = "| {id} | {site} | `{normal.exact}` | `{normal.float}` | 
 
 /// Returns one table row for each record of a list.
 fn rows(list: &Json, row: &str, flat: bool) -> Vec<String> {
+    let records = list.as_array().into_iter().flatten();
+    records.map(|record| filled(record, row, flat)).collect()
+}
+
+/// Fills in a row with a record.
+fn filled(record: &Json, row: &str, flat: bool) -> String {
     let site = if flat {
         "({k}, {i})"
     } else {
         "({k}, {i}, {j})"
     };
+    let mut names = Names::new();
+    name("", record, &mut names);
     let row = row.replace("{site}", site);
-    let rows = list.as_array().into_iter().flatten().map(|record| {
-        let mut names = Names::new();
-        name("", record, &mut names);
-        fill_lines(&row, &names).trim_end().to_owned()
+    fill_lines(&row, &names).trim_end().to_owned()
+}
+
+/// Returns a text for each load.
+fn loads(list: &Json, pile: &Pile) -> Vec<String> {
+    let directed = match (pile.dimension(), pile.is_regular()) {
+        (Dimension::Two, _) => "{weight} mg down and {x} mg·tanθ along x on {site}",
+        (Dimension::Three, true) => {
+            "{weight} mg down, {x} mg·tanθ along x and {y} √3·mg·tanθ along y on {site}"
+        }
+        (Dimension::Three, false) => {
+            "{weight} mg down, {x} mg·tanθ along x and {y} 2cosφ·mg·tanθ along y on {site}"
+        }
+    };
+    let flat = pile.dimension() == Dimension::Two;
+    let loads = list.as_array().into_iter().flatten().map(|load| {
+        let row = if load["x"].is_null() {
+            "{weight} mg on {site}"
+        } else {
+            directed
+        };
+        filled(load, row, flat)
     });
-    rows.collect()
+    loads.collect()
 }
 
 /// Returns the first loads as text, and the number of the others.

@@ -16,8 +16,9 @@ use crate::numbered::{NumberedPile, nearest};
 use crate::springs::Springs;
 use crate::table::{Summary, Units, stacking};
 use crate::template::{fill, fill_lines};
+use crate::weights::newtons;
 use cannonpile::scalar::{Ring, Surd};
-use cannonpile::{BaseExtremes, Verdict};
+use cannonpile::{BaseExtremes, Load, Packing, Pile, Verdict};
 
 /// The texts for a template, by name. A condition that holds has an empty text, and one that does not hold has no
 /// entry.
@@ -129,7 +130,8 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle, most: u32) -> Result<
     let (sphere_count, base_count) = (pile.sphere_count(), pile.base_sphere_count());
     let loads = pile
         .loads()
-        .map(|(site, load)| placed(pile, json!({}), site, json!({"weight": load.to_string()})));
+        .map(|(site, load)| placed(pile, json!({}), site, of_load(load)));
+    let tilt = is_tilted(pile).then(|| tilt(packing));
     let list = (sphere_count <= most.into()).then(|| spheres(numbered));
     Ok(json!({
         "dimension": pile.dimension().number(),
@@ -145,6 +147,7 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle, most: u32) -> Result<
         "radius": rational(packing.radius().clone(), "radius")?,
         "mass": rational(packing.mass().clone(), "mass")?,
         "gravity": rational(packing.gravity().clone(), "gravity")?,
+        "tilt": tilt.transpose()?,
         "weightless": pile.is_weightless(),
         "loads": loads.collect::<Json>(),
         "state": title.state.name(),
@@ -152,6 +155,28 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle, most: u32) -> Result<
         "neighbours_touch": packing.touching().iter().any(|apart| apart.layers == 0),
         "list_of_spheres": list.transpose()?,
     }))
+}
+
+/// Returns a load: its weight, and its horizontal components if it has any.
+fn of_load(load: &Load) -> Json {
+    let Load { down, x, y } = load.clone().map(|part| part.to_string());
+    if load.is_vertical() {
+        return json!({"weight": down});
+    }
+    json!({"weight": down, "x": x, "y": y})
+}
+
+pub(super) fn is_tilted(pile: &Pile) -> bool {
+    !pile.tilt().iter().all(Zero::is_zero)
+}
+
+/// Returns the horizontal parts of gravity along x and y over its vertical part.
+fn tilt(packing: &Packing<'_>) -> Result<Json, Error> {
+    let weight = packing.sphere_weight().recip();
+    let gravity = Load::leaning(weight, packing.pile().tilt());
+    let [x, y, _] = newtons(packing, gravity);
+    let part = |part| value(&part, "a tilt");
+    Ok(json!({"x": part(x)?, "y": part(y)?}))
 }
 
 /// Returns the exact answers.

@@ -1,10 +1,12 @@
-//! Parsers of scene values without a type of their own: numbers, positions of spheres and loads. `str::parse` reads the
+//! Parsers of scene values without a type of their own: numbers, positions of spheres, loads and tilts. `str::parse` reads the
 //! other values: [`Region`](cannonpile::lattice::Region), [`Pattern`](cannonpile::stacking::Pattern),
 //! [`Spacing`](cannonpile::geometry::Spacing), [`Dimension`], [`Surd`](cannonpile::scalar::Surd).
 
 use num_rational::BigRational;
+use num_traits::Zero;
 
 use crate::Error;
+use cannonpile::Load;
 use cannonpile::lattice::{Dimension, MAX_LAYERS, Site};
 use cannonpile::scalar::parse as exact;
 
@@ -151,7 +153,8 @@ pub fn at(text: &str, dimension: Dimension) -> Result<At, Error> {
     Ok(At { layer, i, j })
 }
 
-/// Reads a load on one sphere, in mg: `K,I,J=W`, or `I,J=W` on the base. Discs: `K,I=W`, `I=W`.
+/// Reads a load on one sphere: `K,I,J=W` for W mg downwards, or `K,I,J=W,X,Y` with horizontal components in the units of
+/// [`Load`]. `I,J` is a sphere of the base. Discs: `K,I` or `I`, and `W` or `W,X`.
 ///
 /// # Errors
 /// [`Error::Syntax`](cannonpile::Error::Syntax).
@@ -163,12 +166,67 @@ pub fn at(text: &str, dimension: Dimension) -> Result<At, Error> {
 ///
 /// let (at, load) = parse::load("0,0,0=5/2", Dimension::Three)?;
 /// assert_eq!((at.layer, load.to_string().as_str()), (Some(0), "5/2"));
+/// let (_, load) = parse::load("0,0,0=1,-1/4,0.5", Dimension::Three)?;
+/// assert_eq!(load.to_string(), "(1, -1/4, 1/2)");
 /// # Ok::<(), cannonpile_dem::Error>(())
 /// ```
-pub fn load(text: &str, dimension: Dimension) -> Result<(At, BigRational), Error> {
-    let expected = "a load K,I,J=W on a sphere, such as 0,0,0=5/2";
-    let (site, load) = text
-        .split_once('=')
-        .ok_or_else(|| Error::syntax(text, expected))?;
-    Ok((at(site, dimension)?, rational(load)?))
+pub fn load(text: &str, dimension: Dimension) -> Result<(At, Load), Error> {
+    let expected = match dimension {
+        Dimension::Two => "a load K,I=W or K,I=W,X on a disc, such as 0,0=5/2",
+        Dimension::Three => "a load K,I,J=W or K,I,J=W,X,Y on a sphere, such as 0,0,0=5/2",
+    };
+    let syntax = || Error::syntax(text, expected);
+    let (site, load) = text.split_once('=').ok_or_else(syntax)?;
+    let site = at(site, dimension)?;
+    let load = match load.split_once(',') {
+        None => rational(load)?.into(),
+        Some((down, horizontal)) => {
+            let [x, y] = components(horizontal, dimension).ok_or_else(syntax)??;
+            Load {
+                down: rational(down.trim())?,
+                x,
+                y,
+            }
+        }
+    };
+    Ok((site, load))
+}
+
+/// Reads a tilt of gravity `X,Y`, in the units of [`Pile::with_tilt`](cannonpile::Pile::with_tilt). For discs, `X` is
+/// sufficient.
+///
+/// # Errors
+/// [`Error::Syntax`](cannonpile::Error::Syntax).
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Dimension;
+/// use cannonpile_dem::scene::parse;
+///
+/// let tilt = parse::tilt("0.25,-1/8", Dimension::Three)?;
+/// assert_eq!(tilt.map(|part| part.to_string()), ["1/4", "-1/8"]);
+/// assert!(parse::tilt("1/4", Dimension::Three).is_err());
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+pub fn tilt(text: &str, dimension: Dimension) -> Result<[BigRational; 2], Error> {
+    let expected = match dimension {
+        Dimension::Two => "a tilt X of gravity, such as 1/4",
+        Dimension::Three => "a tilt X,Y of gravity, such as 1/4,0",
+    };
+    components(text, dimension).ok_or_else(|| Error::syntax(text, expected))?
+}
+
+/// Reads the components `X,Y` of a horizontal vector; for discs also `X`. Returns `None` for another number of
+/// components.
+fn components(text: &str, dimension: Dimension) -> Option<Result<[BigRational; 2], Error>> {
+    let mut parts = text.split(',').map(str::trim);
+    let (x, y, more) = (parts.next()?, parts.next(), parts.next());
+    if more.is_some() || (y.is_none() && dimension == Dimension::Three) {
+        return None;
+    }
+    let both = || {
+        let y = y.map_or_else(|| Ok(BigRational::zero()), rational)?;
+        Ok([rational(x)?, y])
+    };
+    Some(both())
 }

@@ -10,11 +10,13 @@ use std::collections::BTreeMap;
 use ::toml::Spanned;
 use ::toml::de::{DeString, DeTable, DeValue};
 use num_rational::BigRational;
+use num_traits::Zero;
 
 use super::parse::{self, At};
 use super::{Anchor, Scene};
 use crate::error::quoted;
 use crate::{Error, Key};
+use cannonpile::Load;
 use cannonpile::lattice::Dimension;
 
 pub(super) use nearest::nearest;
@@ -32,7 +34,7 @@ const KEYS: [&str; Key::ALL.len()] = {
 };
 
 /// The keys of a load.
-const LOAD_KEYS: [&str; 2] = ["at", "weight"];
+const LOAD_KEYS: [&str; 4] = ["at", "weight", "x", "y"];
 
 /// The maximal size of a file, in bytes; a stacking of a million runs fits.
 const LONGEST: usize = 16 << 20;
@@ -56,7 +58,8 @@ const LONGEST: usize = 16 << 20;
 /// | `sin-phi` | a number | ½ |
 /// | `spacing` | a number, or a root such as `"sqrt(2)"` | where it is needed 6/5, or 1 for the elastic state |
 /// | `radius`, `mass`, `gravity` | a number | 1 |
-/// | `load` | an array of `"K,I,J=W"`, or of tables with `at` and `weight` | none |
+/// | `load` | an array of `"K,I,J=W"` or `"K,I,J=W,X,Y"`, or of tables with `at`, `weight`, `x` and `y` | none |
+/// | `tilt` | `"X,Y"`, or an array of two numbers | `"0,0"` |
 /// | `weightless` | `true` or `false` | `false` |
 /// | `state` | `"isostatic"` or `"elastic"` | `"isostatic"` |
 /// | `stiffness-ratio` | a number | 1 |
@@ -66,12 +69,12 @@ const LONGEST: usize = 16 << 20;
 /// ```toml
 /// [[load]]
 /// at = [0, 0, 0]                # or "0,0,0"; with one number less, on the base
-/// weight = "5/2"
+/// weight = "5/2"                # the force downwards; the horizontal components x and y are 0 by default
 /// ```
 ///
 /// An option of the command line replaces the same option of the file. A base also replaces a top, and the loads of the
 /// command line replace all loads of the file. Options that exclude each other are rejected, with the line of the file
-/// if one is from the file. The dimension of the file determines the format of load sites.
+/// if one is from the file. The dimension of the file determines the format of loads.
 ///
 /// # Examples
 /// ```
@@ -193,7 +196,7 @@ fn values<'a>(
 
 fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
     let mut scene = Scene::default();
-    // The dimension is read first, because the format of load sites depends on it.
+    // The dimension is read first, because the formats of loads and tilts depend on it.
     if let Some(dimension) = values.iter().find(|value| value.key == "dimension") {
         scene.dimension = dimension.read(str::parse)?;
     }
@@ -219,6 +222,12 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
             }
             "sin-phi" => scene.sin_phi = Some(value.read(parse::rational)?),
             "load" => scene.loads = loads(value, scene.dimension)?,
+            "tilt" => {
+                let numbers = value.numbers();
+                scene.tilt = value.read(|text| {
+                    parse::tilt(numbers.as_deref().unwrap_or(text), scene.dimension)
+                })?;
+            }
             "weightless" => scene.weightless = value.flag()?,
             "spacing" => scene.spacing = Some(value.read(str::parse)?),
             "radius" => scene.radius = value.read(parse::rational)?,
@@ -233,7 +242,7 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
     Ok(scene)
 }
 
-fn loads(value: &Value<'_>, dimension: Dimension) -> Result<Vec<(At, BigRational)>, Error> {
+fn loads(value: &Value<'_>, dimension: Dimension) -> Result<Vec<(At, Load)>, Error> {
     let expected = "an array of loads, such as [\"0,0,0=5/2\"]";
     let load = |item: Value<'_>| match item.table() {
         Some(table) => load_of(&item, table, dimension),
@@ -247,14 +256,21 @@ fn load_of(
     load: &Value<'_>,
     table: &DeTable<'_>,
     dimension: Dimension,
-) -> Result<(At, BigRational), Error> {
+) -> Result<(At, Load), Error> {
     let values = values(load.file, table, &LOAD_KEYS)?;
-    let of = |key| {
-        let found = values.iter().find(|value| value.key == key);
-        found.ok_or_else(|| load.is_not("a load with the keys at and weight"))
+    let given = |key| values.iter().find(|value| value.key == key);
+    let of = |key| given(key).ok_or_else(|| load.is_not("a load with the keys at and weight"));
+    let component = |key| {
+        let read = given(key).map(|value| value.read(parse::rational));
+        read.unwrap_or_else(|| Ok(BigRational::zero()))
     };
     let (at, weight) = (of("at")?, of("weight")?);
     let integers = at.integers();
     let at = at.read(|text| parse::at(integers.as_deref().unwrap_or(text), dimension))?;
-    Ok((at, weight.read(parse::rational)?))
+    let load = Load {
+        down: weight.read(parse::rational)?,
+        x: component("x")?,
+        y: component("y")?,
+    };
+    Ok((at, load))
 }

@@ -2,6 +2,7 @@
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
+use num_traits::Signed;
 
 use crate::Error;
 use cannonpile::lattice::{Dimension, Site};
@@ -112,8 +113,8 @@ impl<'p> Units<'p> {
     }
 
     /// Returns an upper bound of the forces of a selection. In mg or f₀, each force is at most the root of the sum of
-    /// the squared forces of its layer. This root is at most √3 times the sum of all weights down to the layer, plus
-    /// 2√2 times the sum of all horizontal forces.
+    /// the squared forces of its layer. This root is at most three times the sum of |w| + 2|x| + 4|y| over all weights and
+    /// loads (w, x, y) down to the layer, plus 2√2 times the sum of all forces of horizontal contacts.
     pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
         let horizontal = self.pile().horizontal_forces();
         let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();
@@ -199,8 +200,25 @@ impl Units<'_> {
     }
 }
 
-/// Returns an upper bound of the weights and loads of the layers of a selection and above, in mg.
+/// Returns the sum of |w| + 2|x| + 4|y| over the weights and loads (w, x, y) of the layers of a selection and above.
 fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
+    let horizontal = |[x, y]: [&BigRational; 2]| {
+        let two = BigRational::from_i128(2);
+        (x.abs() + y.abs() * &two) * two
+    };
+    let last = match part {
+        Selection::Layer(k) => k,
+        _ => pile.layers(),
+    };
+    let loads = pile.loads().filter(|(site, _)| site.k <= last);
+    let aside: BigRational = loads.map(|(_, load)| horizontal([&load.x, &load.y])).sum();
+    // The loads have no tilt, so this bound is not sharp.
+    let tilt = BigRational::from_i128(1) + horizontal(pile.tilt().each_ref());
+    Ok(vertical_down_to(pile, part)? * tilt + aside)
+}
+
+/// Returns an upper bound of the weights and vertical loads of the layers of a selection and above, in mg.
+fn vertical_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
     let Selection::Layer(k) = part else {
         return Ok(pile.weight());
     };
@@ -226,19 +244,23 @@ fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
 
 #[cfg(test)]
 mod tests {
-    use num_traits::Signed;
-
     use super::*;
+    use cannonpile::Load;
     use cannonpile::lattice::Region;
 
     fn ratio(n: i64, d: i64) -> BigRational {
         BigRational::new(n.into(), d.into())
     }
 
-    /// Straight piles, piles with sign changes, discs, and piles with heavy or loaded spheres.
-    fn piles() -> [Pile; 6] {
+    /// Straight piles, piles with sign changes, discs, piles with heavy or loaded spheres, and tilted ones.
+    fn piles() -> [Pile; 9] {
         let swept = || Pile::under(Region::SITE, "+-+-".parse().unwrap()).unwrap();
         let site = Site { i: 0, j: 0, k: 2 };
+        let push = Load {
+            down: ratio(0, 1),
+            x: ratio(-1000, 1),
+            y: ratio(900, 1),
+        };
         [
             Pile::triangular(4).unwrap(),
             Pile::isosceles(4, ratio(2, 5)).unwrap(),
@@ -246,6 +268,12 @@ mod tests {
             swept(),
             swept().with_load(site, ratio(1000, 1)).unwrap(),
             swept().with_weight(site, ratio(1000, 1)).unwrap(),
+            swept().with_tilt([ratio(-7, 1), ratio(9, 2)]).unwrap(),
+            Pile::isosceles(4, ratio(3, 5))
+                .unwrap()
+                .with_tilt([ratio(1, 8), ratio(40, 1)])
+                .unwrap(),
+            swept().with_load(site, push).unwrap(),
         ]
     }
 

@@ -4,7 +4,6 @@ use core::fmt;
 use std::collections::BTreeMap;
 
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
 
 use super::measured::{Measured, norm};
 use super::refusal::Refusal;
@@ -13,15 +12,16 @@ use crate::error::bug;
 use crate::numbered::rounded;
 use crate::table::{Cell, Column, Table, indices, places};
 use crate::vector::minus;
-use crate::weights::ordinary_weight;
+use crate::weights::{ordinary_weight, rounded_newtons};
 use crate::{NumberedContact, NumberedPile};
-use cannonpile::Packing;
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
+use cannonpile::{Load, Packing};
 
 /// The sum of the measured forces, the weight and the load of each sphere. It is zero for a pile at rest.
 ///
-/// For a sphere above the floor, **r** = Σ **F** − (w + l)·**e**_z, in N. The sum covers all measured pairs, with or
+/// For a sphere above the floor, **r** = Σ **F** + **W** + **P**, in N, with the weight **W** and the load **P**. Gravity may
+/// lean. The sum covers all measured pairs, with or
 /// without a contact in the pile. A force without a vector acts along the line between the exact centres.
 ///
 /// # Examples
@@ -146,17 +146,18 @@ impl<'p> Balance<'p> {
     pub(super) fn new(numbered: &NumberedPile<'p>) -> Result<Self, Refusal> {
         let packing = numbered.packing();
         let pile = packing.pile();
-        let one = packing.sphere_weight();
-        let weight = |mg: BigRational| (mg * &one).to_f64().ok_or(Refusal::OutOfRange);
-        let ordinary = weight(ordinary_weight(pile))?;
+        let in_newtons =
+            |load| rounded_newtons(packing, load, "a load").map_err(|_| Refusal::OutOfRange);
+        let leaning = |weight| Load::leaning(weight, pile.tilt());
+        let ordinary = in_newtons(leaning(ordinary_weight(pile)))?;
         let above = usize::try_from(numbered.numbering().first_on_floor() - 1)
             .map_err(|_| bug("contacts that are compared fit in memory"))?;
-        let mut forces = vec![[0.0, 0.0, 0.0 - ordinary]; above];
+        let mut forces = vec![ordinary; above];
         let loaded = pile.loads().map(|(site, _)| site);
         for site in loaded.chain(pile.weights().map(|(site, _)| site)) {
-            let total = weight(pile.sphere_weight(site)? + pile.load(site)?.down)?;
+            let total = leaning(pile.sphere_weight(site)?) + &pile.load(site)?;
             if let Some(force) = place(&mut forces, numbered.numbering().id(site)?) {
-                *force = [0.0, 0.0, 0.0 - total];
+                *force = in_newtons(total)?;
             }
         }
         Ok(Self {

@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 
 use super::places::rows;
 use super::states::{Quantities, states};
+use crate::caption::tilt;
 
 /// The number of intervals between the colours of a map. The program interpolates within them.
 const COLOURS: u32 = 64;
@@ -40,6 +41,7 @@ pub(super) fn of(
         "spheres": pile.numbering().sphere_count(),
         "contacts": pile.contact_count().to_string(),
         "weightless": of_pile.is_weightless(),
+        "tilt": tilt(of_pile),
         "spacing": spacing(pile)?,
         "stiffness_ratio": ratio,
         "touching": neighbours_touch(pile, title),
@@ -78,7 +80,7 @@ fn neighbours_touch(pile: &NumberedPile<'_>, title: &CardTitle) -> bool {
     title.state == State::Elastic || of_pile.horizontal_forces().len() > 0 || touches && all
 }
 
-/// Returns the spheres with a weight of their own or a load, as `[id, weight, load]` in mg.
+/// Returns the spheres with a weight of their own or a load, as `[id, weight, load]`. Weights and vertical loads are in mg.
 fn special(pile: &NumberedPile<'_>) -> Result<Vec<Value>, Error> {
     let of_pile = pile.pile();
     let loads = of_pile.loads().map(|(site, _)| site);
@@ -89,8 +91,17 @@ fn special(pile: &NumberedPile<'_>) -> Result<Vec<Value>, Error> {
     sites.dedup();
     let sites = sites.into_iter().map(|site| {
         let weight = of_pile.sphere_weight(site)?.to_string();
-        let load = of_pile.load(site)?.to_string();
-        Ok(json!([pile.numbering().id(site)?, weight, load]))
+        let load = of_pile.load(site)?;
+        let unit = if load.is_zero() || !load.is_vertical() {
+            ""
+        } else {
+            " mg"
+        };
+        Ok(json!([
+            pile.numbering().id(site)?,
+            weight,
+            format!("{load}{unit}")
+        ]))
     });
     sites.collect()
 }

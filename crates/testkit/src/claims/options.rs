@@ -1,8 +1,8 @@
 //! The option parsers for scenes and tables never panic, and they read printed values back.
 
 use arbitrary::Unstructured;
-use cannonpile::Pile;
 use cannonpile::lattice::Dimension;
+use cannonpile::{Load, Pile};
 use cannonpile_dem::scene::State;
 use cannonpile_dem::scene::parse;
 use cannonpile_dem::scene::parse::At;
@@ -46,22 +46,37 @@ pub fn layers(u: &mut Unstructured<'_>) -> Checked {
     reads_back(parse::layers, &layers, &layers)
 }
 
-/// Runs the parsers of states, columns, presets and loads on any word. A parsed value is printed, and read as the
+/// Runs the parsers of states, columns, presets, loads and tilts on any word. A parsed value is printed, and read as the
 /// same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
     round_trips::<State>(&text)?;
     round_trips::<Columns>(&text)?;
     round_trips::<Preset>(&text)?;
-    load(&text, Dimension::Two)?;
-    load(&text, Dimension::Three)
+    for dimension in [Dimension::Two, Dimension::Three] {
+        load(&text, dimension)?;
+        tilt(&text, dimension)?;
+    }
+    Ok(())
+}
+
+fn tilt(text: &str, dimension: Dimension) -> Checked {
+    let parse = |text: &str| parse::tilt(text, dimension);
+    match parse(text) {
+        Ok(value) => {
+            let [x, y] = &value;
+            reads_back(parse, &format!("{x},{y}"), &value)
+        }
+        Err(refusal) => one_line(&refusal),
+    }
 }
 
 fn load(text: &str, dimension: Dimension) -> Checked {
     let parse = |text: &str| parse::load(text, dimension);
     match parse(text) {
         Ok(value) => {
-            let shown = format!("{}={}", written(&value.0, dimension), value.1);
+            let Load { down, x, y } = &value.1;
+            let shown = format!("{}={down},{x},{y}", written(&value.0, dimension));
             reads_back(parse, &shown, &value)
         }
         Err(refusal) => one_line(&refusal),

@@ -1,10 +1,12 @@
 //! A scene with any values yields the pile that it describes, or is rejected in one line.
 
+use core::ops::Add;
+
 use arbitrary::Unstructured;
-use cannonpile::Pile;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
 use cannonpile::stacking::Pattern;
+use cannonpile::{Load, Pile};
 use cannonpile_dem::scene::State;
 use cannonpile_dem::scene::{Anchor, Scene};
 use num_rational::BigRational;
@@ -53,11 +55,12 @@ fn is_as_described(scene: &Scene, pile: &Pile) -> Checked {
     });
     same("sin phi", pile.sin_phi(), &s)?;
     same("weightless", &pile.is_weightless(), &scene.weightless)?;
+    same("the tilt", pile.tilt(), &scene.tilt)?;
     let given = scene.loads.iter().map(|(_, load)| load);
     let loads = pile.loads().map(|(_, load)| load);
     let [given, loads] = [
-        given.sum::<BigRational>(),
-        loads.map(|load| load.down.clone()).sum(),
+        given.fold(Load::zero(), Load::add),
+        loads.fold(Load::zero(), Load::add),
     ];
     same("the loads", &loads, &given)
 }

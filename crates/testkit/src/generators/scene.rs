@@ -1,6 +1,7 @@
 //! Scenes that can be written down, valid or not, and scene files, valid and damaged.
 
 use arbitrary::{Result, Unstructured};
+use cannonpile::Load;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
 use cannonpile::stacking::{Pattern, Stacking};
@@ -26,8 +27,13 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
         1 => Some(Anchor::Top(region::region(u)?)),
         _ => Some(Anchor::Base(region::region(u)?)),
     };
-    let loads = (0..u.int_in_range(0..=3)?).map(|_| Ok((at(u, dimension)?, number::rational(u)?)));
+    let loads = (0..u.int_in_range(0..=3)?).map(|_| Ok((at(u, dimension)?, load(u, dimension)?)));
     let loads = loads.collect::<Result<_>>()?;
+    let tilt = if rarely(u, 2)? {
+        horizontal(u, dimension)?
+    } else {
+        Default::default()
+    };
     Ok(Scene {
         layers,
         dimension,
@@ -35,6 +41,7 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
         stacking: pattern(u)?,
         anchor,
         loads,
+        tilt,
         weightless: u.arbitrary()?,
         spacing: spacing(u)?,
         radius: number::rational(u)?,
@@ -43,6 +50,26 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
         state: *u.choose(&[State::Isostatic, State::Elastic])?,
         stiffness_ratio: number::quantity(u)?,
     })
+}
+
+fn load(u: &mut Unstructured<'_>, dimension: Dimension) -> Result<Load> {
+    let down = number::rational(u)?;
+    if u.arbitrary()? {
+        return Ok(down.into());
+    }
+    let [x, y] = horizontal(u, dimension)?;
+    Ok(Load { down, x, y })
+}
+
+/// A horizontal vector. For discs it is mostly within their plane.
+fn horizontal(u: &mut Unstructured<'_>, dimension: Dimension) -> Result<[BigRational; 2]> {
+    let in_plane = dimension == Dimension::Two && !rarely(u, 8)?;
+    let y = if in_plane {
+        BigRational::default()
+    } else {
+        number::rational(u)?
+    };
+    Ok([number::rational(u)?, y])
 }
 
 fn maybe(u: &mut Unstructured<'_>) -> Result<Option<BigRational>> {
@@ -125,6 +152,7 @@ fn key(u: &mut Unstructured<'_>) -> Result<&'static str> {
         "dimension",
         "sin-phi",
         "load",
+        "tilt",
         "weightless",
         "spacing",
         "radius",
@@ -137,6 +165,7 @@ fn key(u: &mut Unstructured<'_>) -> Result<&'static str> {
         "[load]\nat",
         "[[load]]\nat",
         "weight",
+        "x",
         "at",
     ])
     .copied()

@@ -100,19 +100,33 @@ impl<'a> Value<'a> {
         integers.map(|integers| integers.join(","))
     }
 
+    /// Returns the strings and numbers of an array, separated by commas; `None` for any other value.
+    pub(super) fn numbers(&self) -> Option<String> {
+        let DeValue::Array(array) = self.content else {
+            return None;
+        };
+        let numbers = array.iter().map(|item| text_of(item.get_ref()));
+        let numbers: Vec<_> = numbers.collect();
+        Some(numbers.join(","))
+    }
+
     /// Returns the text for the parsers: the string, or the number as written.
     ///
     /// Values of other kinds have texts that no parser accepts.
     fn text(&self) -> Cow<'a, str> {
-        match self.content {
-            DeValue::String(text) => Cow::Borrowed(text.as_ref()),
-            DeValue::Integer(integer) => digits(integer),
-            DeValue::Float(float) => Cow::Borrowed(float.as_str()),
-            DeValue::Boolean(flag) => Cow::Owned(flag.to_string()),
-            DeValue::Datetime(date) => Cow::Owned(date.to_string()),
-            DeValue::Array(_) => Cow::Borrowed("[…]"),
-            DeValue::Table(_) => Cow::Borrowed("{…}"),
-        }
+        text_of(self.content)
+    }
+}
+
+fn text_of<'a>(value: &'a DeValue<'a>) -> Cow<'a, str> {
+    match value {
+        DeValue::String(text) => Cow::Borrowed(text.as_ref()),
+        DeValue::Integer(integer) => digits(integer),
+        DeValue::Float(float) => Cow::Borrowed(float.as_str()),
+        DeValue::Boolean(flag) => Cow::Owned(flag.to_string()),
+        DeValue::Datetime(date) => Cow::Owned(date.to_string()),
+        DeValue::Array(_) => Cow::Borrowed("[…]"),
+        DeValue::Table(_) => Cow::Borrowed("{…}"),
     }
 }
 

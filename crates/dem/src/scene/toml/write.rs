@@ -4,10 +4,11 @@ use core::fmt;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, ToPrimitive};
+use num_traits::{One, ToPrimitive, Zero};
 
 use crate::scene::parse::At;
 use crate::scene::{Anchor, Scene, State};
+use cannonpile::Load;
 use cannonpile::lattice::Dimension;
 
 impl Scene {
@@ -63,6 +64,21 @@ impl Scene {
         if !self.loads.is_empty() {
             file.key(self.loads_comment(), "load", &self.loads_array());
         }
+        if !self.tilt.iter().all(Zero::is_zero) {
+            let comment = match self.dimension {
+                Dimension::Two => {
+                    "Tilt X of gravity: its horizontal over its vertical part, in tanθ."
+                }
+                Dimension::Three => {
+                    "Tilt X,Y of gravity: its horizontal over its vertical part, in tanθ and 2cosφ·tanθ."
+                }
+            };
+            file.key(
+                comment,
+                "tilt",
+                &quoted(horizontal(&self.tilt, self.dimension)),
+            );
+        }
         if self.weightless {
             let comment = "The spheres weigh nothing: only the loads act.";
             file.key(comment, "weightless", "true");
@@ -91,10 +107,19 @@ impl Scene {
     }
 
     fn loads_comment(&self) -> &'static str {
-        match self.dimension {
-            Dimension::Two => "Vertical loads on discs, in mg, as K,I=W, or I=W on the base.",
-            Dimension::Three => {
+        let vertical = self.loads.iter().all(|(_, load)| load.is_vertical());
+        match (self.dimension, vertical) {
+            (Dimension::Two, true) => {
+                "Vertical loads on discs, in mg, as K,I=W, or I=W on the base."
+            }
+            (Dimension::Two, false) => {
+                "Loads on discs as K,I=W,X, or I=W,X on the base: W mg down, X mg·tanθ along x."
+            }
+            (Dimension::Three, true) => {
                 "Vertical loads on spheres, in mg, as K,I,J=W, or I,J=W on the base."
+            }
+            (Dimension::Three, false) => {
+                "Loads on spheres as K,I,J=W,X,Y: W mg down, X mg·tanθ along x, Y 2cosφ·mg·tanθ along y."
             }
         }
     }
@@ -102,7 +127,14 @@ impl Scene {
     fn loads_array(&self) -> String {
         let mut array = String::from("[\n");
         for (at, load) in &self.loads {
-            let load = quoted(format!("{}={load}", place(at, self.dimension)));
+            let place = place(at, self.dimension);
+            let load = if load.is_vertical() {
+                quoted(format!("{place}={}", load.down))
+            } else {
+                let Load { down, x, y } = load.clone();
+                let horizontal = horizontal(&[x, y], self.dimension);
+                quoted(format!("{place}={down},{horizontal}"))
+            };
             array.extend(["    ", &load, ",\n"]);
         }
         array.push(']');
@@ -138,6 +170,15 @@ fn number(r: &BigRational) -> String {
         integer(r.numer())
     } else {
         quoted(r)
+    }
+}
+
+/// Returns the components of a horizontal vector, separated by a comma. A disc has a component along y only if the scene
+/// is invalid.
+fn horizontal([x, y]: &[BigRational; 2], dimension: Dimension) -> String {
+    match dimension {
+        Dimension::Two if y.is_zero() => x.to_string(),
+        _ => format!("{x},{y}"),
     }
 }
 

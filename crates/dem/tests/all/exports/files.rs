@@ -2,9 +2,9 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use cannonpile::Pile;
 use cannonpile::lattice::{Axis, Dimension, Site};
 use cannonpile::shape::Selection;
+use cannonpile::{Load, Pile};
 use cannonpile_dem::scene::State;
 use cannonpile_dem::table::{self, FileFormat, NumberFormat, Table, Units};
 use cannonpile_dem::{PileExport, PileFile};
@@ -14,12 +14,15 @@ fn ratio(n: i64) -> num_rational::BigRational {
     num_rational::BigRational::from_integer(n.into())
 }
 
-/// Returns a csv text without its last column.
-fn without_last(csv: &str) -> String {
-    let lines = csv
-        .lines()
-        .map(|line| line.rsplit_once(',').expect("columns").0);
-    lines.fold(String::new(), |text, line| text + line + "\n")
+/// Returns the first columns of a csv text, as many as `table` has.
+fn columns_of(table: &str, csv: &str) -> String {
+    let count = table.lines().next().expect("headers").split(',').count();
+    let lines = csv.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert!(cells.len() > count, "{line}");
+        cells[..count].join(",") + "\n"
+    });
+    lines.collect()
 }
 
 fn csv_of(table: Table<'_>) -> String {
@@ -36,11 +39,13 @@ fn spheres_and_base_equal_the_tables() {
         let packing = export.packing();
         let spheres = table::spheres(packing, Selection::All).expect("a table");
         let written = text(export, PileFile::SpheresCsv);
-        assert!(without_last(&written) == csv_of(spheres), "{scene:?}");
+        let spheres = csv_of(spheres);
+        assert!(columns_of(&spheres, &written) == spheres, "{scene:?}");
         let units = Units::of_packing(packing.clone());
         let base = table::base(&units, Selection::Base).expect("a table");
         let written = text(export, PileFile::BaseCsv);
-        assert!(without_last(&written) == csv_of(base), "{scene:?}");
+        let base = csv_of(base);
+        assert!(columns_of(&base, &written) == base, "{scene:?}");
         let first = export.numbering().first_on_floor();
         for (id, line) in (first..).zip(written.lines().skip(1)) {
             assert!(line.ends_with(&format!(",{id}")), "{line}");
@@ -313,19 +318,19 @@ fn scripts_contain_loads_weight_and_plane() {
             let site = at.site(pile.layers());
             let on_floor = site.k + 1 == pile.layers();
             let id = numbering.id(site).expect("a number");
-            let load = load * export.packing().sphere_weight();
+            // Bottom spheres are frozen, so their loads are omitted.
+            let name = format!("set             atom {id} d_load");
+            assert_eq!(input.contains(&name), !on_floor);
+            assert_eq!(script.contains(&format!("    {id}: (")), !on_floor);
+            if on_floor || !load.is_vertical() {
+                continue;
+            }
+            let load = &load.down * export.packing().sphere_weight();
             let load: f64 = cannonpile::scalar::Surd::from(load)
                 .nearest()
                 .expect("a float");
-            // Bottom spheres are frozen, so their loads are omitted.
-            assert_eq!(
-                input.contains(&format!("set             atom {id} d_load -{load:?}\n")),
-                !on_floor
-            );
-            assert_eq!(
-                script.contains(&format!("    {id}: {load:?},\n")),
-                !on_floor
-            );
+            assert!(input.contains(&format!("{name} -{load:?}\n")));
+            assert!(script.contains(&format!("    {id}: (0.0, 0.0, -{load:?}),\n")));
             loaded += 1;
         }
         assert_eq!(input.contains("addforce"), !scene.loads.is_empty());
@@ -344,6 +349,59 @@ fn scripts_contain_loads_weight_and_plane() {
         assert!(script.contains(&format!("FIRST_ON_FLOOR = {first} ")));
     });
     assert!(loaded > 3 && weightless > 0 && flat > 1);
+}
+
+/// The vectors of gravity and of a load follow from the angle of the contacts: here tan θ = √12/√13, as sin θ = 1.2/√3.
+#[test]
+fn scripts_lean_gravity_and_loads() {
+    let ratio = |n: i64, d: i64| num_rational::BigRational::new(n.into(), d.into());
+    let site = Site { i: 0, j: 0, k: 1 };
+    let push = Load {
+        down: ratio(1, 2),
+        x: ratio(1, 4),
+        y: ratio(0, 1),
+    };
+    let pile = Pile::triangular(3).expect("a pile");
+    let pile = pile
+        .with_tilt([ratio(1, 8), ratio(-1, 16)])
+        .and_then(|pile| pile.with_load(site, push))
+        .expect("a sphere");
+    let packing = packing(&pile);
+    let export = PileExport::new(&packing).expect("files");
+    let tan = (0.48_f64 / 0.52).sqrt();
+    let (x, y) = (tan / 8.0, -(3.0_f64.sqrt()) * tan / 16.0);
+    let input = text(&export, PileFile::LammpsInput);
+    let numbers = |line: &str| -> Vec<f64> {
+        let words = line.split([' ', '(', ')', ',', '=', '{', '}', ':']);
+        words.filter_map(|word| word.parse().ok()).collect()
+    };
+    let near = |found: &[f64], expected: &[f64]| {
+        found.len() == expected.len()
+            && found
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-15)
+    };
+    let line = |text: &str, word: &str| {
+        let found = text.lines().find(|line| line.contains(word));
+        found.expect("a line").to_owned()
+    };
+    let magnitude = (x * x + y * y + 1.0).sqrt();
+    let gravity = numbers(&line(&input, "gravity"));
+    assert!(near(&gravity, &[magnitude, x, y, -1.0]), "{gravity:?}");
+    let load = line(&input, "set  ");
+    assert!(load.contains("d_load_x") && load.contains("d_load_z") && !load.contains("d_load_y"));
+    assert!(near(&numbers(&load), &[2.0, tan / 4.0, -0.5]), "{load}");
+    assert!(input.contains("addforce v_load_x 0.0 v_load_z\n"));
+    let script = text(&export, PileFile::YadeScript);
+    let gravity = numbers(&line(&script, "gravity"));
+    assert!(near(&gravity[..3], &[x, y, -1.0]), "{gravity:?}");
+    let load = numbers(&line(&script, "    2: ("));
+    assert!(near(&load, &[2.0, tan / 4.0, 0.0, -0.5]), "{load:?}");
+    let spheres = columns(&text(&export, PileFile::SpheresCsv));
+    assert!(near(&spheres["load_x"][..3], &[0.0, tan / 4.0, 0.0]));
+    assert_eq!(spheres["load_y"], [0.0; 10]);
+    assert!(text(&export, PileFile::ColumnsCsv).contains("spheres.csv,load_x,N,"));
 }
 
 #[test]
@@ -383,7 +441,11 @@ fn individual_weights_become_masses_or_loads() {
         "{loads:?}"
     );
     let script = text(&export, PileFile::YadeScript);
-    for line in ["    3: -1.0,", "    4: 0.5,", "    1: 3.0,"] {
+    for line in [
+        "    3: (0.0, 0.0, 1.0),",
+        "    4: (0.0, 0.0, -0.5),",
+        "    1: 3.0,",
+    ] {
         assert!(script.lines().any(|other| other == line), "{line}");
     }
     let points = arrays(&bytes(&export, PileFile::SpheresVtp));

@@ -56,20 +56,33 @@ fn judge(
         }
         greatest = greatest.max(force.abs());
     }
-    for (sphere, force) in forces.iter_mut().enumerate() {
-        force[2] -= spheres["mass"][sphere] * gravity;
-        greatest = greatest.max(spheres["mass"][sphere] * gravity);
-    }
     let pile = scene.pile().expect("a pile");
+    let packing = scene.packing(&pile).expect("a packing");
+    let tan: f64 = packing.inclination().tan().nearest().expect("a float");
+    let sin_phi = float(pile.sin_phi());
+    let units = [tan, 2.0 * (1.0 - sin_phi * sin_phi).sqrt() * tan, -1.0];
+    let [x, y] = scene.tilt.each_ref().map(float);
+    for (sphere, force) in forces.iter_mut().enumerate() {
+        let weight = spheres["mass"][sphere] * gravity;
+        for ((force, unit), part) in force.iter_mut().zip(units).zip([x, y, 1.0]) {
+            *force += weight * unit * part;
+        }
+        greatest = greatest.max(weight);
+    }
     for (at, load) in &scene.loads {
         let id = pile
             .numbering()
             .expect("numbers")
             .id(at.site(pile.layers()))
             .expect("a sphere");
-        let load = float(load) * float(&scene.mass) * gravity;
-        forces[usize::try_from(id).expect("a place") - 1][2] -= load;
-        greatest = greatest.max(load);
+        let load = load
+            .clone()
+            .map(|part| float(&part) * float(&scene.mass) * gravity);
+        let force = &mut forces[usize::try_from(id).expect("a place") - 1];
+        for ((force, unit), part) in force.iter_mut().zip(units).zip([load.x, load.y, load.down]) {
+            *force += unit * part;
+        }
+        greatest = greatest.max(load.down);
     }
     let fixed = spheres["fixed"]
         .iter()

@@ -1,8 +1,8 @@
 //! Scene files: each key, each format of a number, and errors with line and key.
 
-use cannonpile::Pile;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::stacking::Pattern;
+use cannonpile::{Load, Pile};
 use cannonpile_dem::Error;
 use cannonpile_dem::scene::{Anchor, Scene, SceneFile, State, parse};
 use cannonpile_testkit::answers::ratio;
@@ -22,7 +22,8 @@ fn every_key() {
         base = "region:-2..7,-2..7,-2..7"
         dimension = 3
         sin-phi = "1/3"
-        load = ["6,1,0=5/2", { at = [1, 0], weight = 0.25 }, { weight = 3, at = "0,0,0" }]
+        load = ["6,1,0=5/2", { at = [1, 0], weight = 0.25, y = "-1/3" }, { weight = 3, at = "0,0,0" }, "1,0,0=0,.5,1e-1"]
+        tilt = [0.125, "-1/16"]
         weightless = true
         spacing = 1.2
         radius = 5e-3
@@ -32,6 +33,10 @@ fn every_key() {
         stiffness-ratio = "2/7"
     "#;
     let at = |text| parse::at(text, Dimension::Three).unwrap();
+    let load = |parts: [(i64, i64); 3]| {
+        let [down, x, y] = parts.map(|(n, d)| ratio(n, d));
+        Load { down, x, y }
+    };
     let scene = Scene {
         layers: Some(7),
         dimension: Dimension::Three,
@@ -39,10 +44,12 @@ fn every_key() {
         stacking: Some(Pattern::Hcp),
         anchor: Some(Anchor::Base(Region::new(-2..=7, -2..=7, -2..=7).unwrap())),
         loads: vec![
-            (at("6,1,0"), ratio(5, 2)),
-            (at("1,0"), ratio(1, 4)),
-            (at("0,0,0"), ratio(3, 1)),
+            (at("6,1,0"), ratio(5, 2).into()),
+            (at("1,0"), load([(1, 4), (0, 1), (-1, 3)])),
+            (at("0,0,0"), ratio(3, 1).into()),
+            (at("1,0,0"), load([(0, 1), (1, 2), (1, 10)])),
         ],
+        tilt: [ratio(1, 8), ratio(-1, 16)],
         weightless: true,
         spacing: Some("6/5".parse().unwrap()),
         radius: ratio(1, 200),
@@ -68,6 +75,21 @@ fn arrays_of_tables_are_loads_too() {
     };
     let pile = loaded(pile, [0, 0, 0], ratio(1, 3));
     assert_eq!(scene.pile().unwrap(), loaded(pile, [1, 1, 2], ratio(2, 1)));
+    // A disc has no component along y.
+    let discs = Scene::from_toml("dimension = 2\nload = ['1=1,1/4']\ntilt = '1/8'").unwrap();
+    assert_eq!(discs.tilt, [ratio(1, 8), ratio(0, 1)]);
+    let written = discs.to_toml();
+    assert!(written.contains("\"1=1,1/4\"") && written.contains("\ntilt = \"1/8\"\n"));
+    assert_eq!(Scene::from_toml(&written).unwrap(), discs);
+    for text in ["tilt = [0, 1]", "load = ['1=1,0,2']"] {
+        let scene = Scene::from_toml(&format!("dimension = 2\n{text}")).unwrap();
+        let refused = scene.pile().unwrap_err().to_string();
+        assert!(
+            refused.contains("no component along y: set it to 0"),
+            "{refused}"
+        );
+        assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+    }
     // Loads may precede the dimension.
     let discs = Scene::from_toml("load = ['1=1', '0,0=2']\nlayers = 2\ndimension = 2").unwrap();
     let pile = Pile::discs(2).unwrap();
@@ -175,6 +197,17 @@ fn refusals_name_the_line_and_the_key() {
         ("load = '0,0,0=1'", &["line 1, load", "an array of loads"]),
         ("load = [\n'0,0,0=1',\n'0,0=x']", &["line 3, load", "'x'"]),
         ("load = [1]", &["line 1, load", "K,I,J=W"]),
+        ("load = ['0,0,0=1,2']", &["line 1, load", "K,I,J=W,X,Y"]),
+        ("load = ['0,0,0=1,2,x']", &["line 1, load", "'x'"]),
+        (
+            "[[load]]\nat = [0, 0]\nweight = 1\nx = 'one'",
+            &["line 4, x", "'one'"],
+        ),
+        ("tilt = 1", &["line 1, tilt", "'1'", "such as 1/4,0"]),
+        ("tilt = [1, 2, 3]", &["line 1, tilt", "such as 1/4,0"]),
+        ("tilt = ['a', 2]", &["line 1, tilt", "'a'"]),
+        ("tilt = [[1], 2]", &["line 1, tilt", "'[…]'"]),
+        ("dimension = 2\ntilt = ''", &["line 2, tilt", "''", "1e-3"]),
         ("load = [[0, 0, 0]]", &["line 1, load", "K,I,J=W"]),
         (
             "load = [{ at = '0,0,0' }]",

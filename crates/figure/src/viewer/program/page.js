@@ -46,6 +46,7 @@ const describe = () => {
     count(data.contacts, "contact"),
     `a/R = ${data.spacing}`,
     ...(data.weightless ? ["spheres without weight"] : []),
+    ...(data.tilt === null ? [] : [data.tilt]),
     ...(data.stiffness_ratio === null ? [] : [`springs κ′/κ = ${data.stiffness_ratio}`]),
   ];
   at("what").textContent = parts.join(" · ");

@@ -96,7 +96,7 @@ class Report {
     const contacts = pile.contactsOf(id);
     const pulling = contacts.filter((contact) => pile.states.some((state) => pile.force(state, contact) < 0)).length;
     const says = [
-      `Weight ${own.weight} mg${own.load === "0" ? "" : `, load ${own.load} mg on it`}.`,
+      `Weight ${own.weight} mg${own.load === "0" ? "" : `, load ${own.load} on it`}.`,
       `It touches ${contacts.length} other${contacts.length === 1 ? "" : "s"}${onFloor ? " and the floor" : ""}.`,
       pulling > 0 ? `${pulling} of its contacts need${pulling === 1 ? "s" : ""} tension.` : "",
     ];
