@@ -13,14 +13,17 @@ pub(crate) mod man;
 pub(crate) mod mean;
 pub(crate) mod plot;
 pub(crate) mod prove;
+pub(crate) mod response;
 pub(crate) mod scene;
 pub(crate) mod spheres;
+pub(crate) mod stability;
 pub(crate) mod summary;
 pub(crate) mod verify;
 
 use cannonpile::Pile;
 use cannonpile::geometry::Spacing;
 use cannonpile::shape::Selection;
+use cannonpile_dem::Key;
 use cannonpile_dem::scene::parse;
 use cannonpile_dem::table::{Cell, Table};
 use cannonpile_disorder::check_fault_probability;
@@ -28,7 +31,7 @@ use num_rational::BigRational;
 use num_traits::One;
 
 use crate::Error;
-use crate::output::{Failure, print_message};
+use crate::output::{Failure, InputError, print_message};
 use crate::progress::Progress;
 
 /// Parses the probability of a sign change.
@@ -36,6 +39,16 @@ fn fault_probability(text: &str) -> Result<BigRational, Error> {
     let q = parse::rational(text)?;
     check_fault_probability(&q)?;
     Ok(q)
+}
+
+/// Attributes the error of a pile without weight above the floor: a single layer, or weightless spheres.
+fn of_weight(pile: &Pile, error: impl Into<Error>) -> InputError {
+    match error.into() {
+        error @ Error::Core(cannonpile::Error::NoWeight) if pile.layers() == 1 => {
+            InputError::of(Key::Layers, error)
+        }
+        error => error.into(),
+    }
 }
 
 /// Returns whether neighbours in a layer touch at this spacing, a = R.

@@ -20,7 +20,7 @@ use args::SceneOptions;
 use command::forces::{Base, Contacts};
 use command::{
     bounds, cases, census, check, completions, ensemble, explain, export, man, mean, plot, prove,
-    scene, spheres, summary, verify,
+    response, scene, spheres, stability, summary, verify,
 };
 use culprit::Culprit;
 use error::Error;
@@ -55,6 +55,10 @@ enum Command {
     /// List the force of each contact between two spheres
     #[command(after_help = Contacts::HELP)]
     Contacts(Contacts),
+    /// Find the tilt of gravity at which the first contact opens; exit status 1 if the pile is unstable
+    Stability(stability::Stability),
+    /// List the force of each contact per unit of a load on one sphere
+    Response(response::Response),
     /// Bound the base normal forces at a = R, with horizontal contacts
     Bounds(bounds::Bounds),
     /// List the position, radius and mass of each sphere, in SI units
@@ -97,6 +101,8 @@ impl Command {
             Self::Summary(command) => command.run(),
             Self::Base(command) => command.run(),
             Self::Contacts(command) => command.run(),
+            Self::Stability(command) => command.run(),
+            Self::Response(command) => command.run(),
             Self::Bounds(command) => command.run(),
             Self::Spheres(command) => command.run(),
             Self::Census(command) => command.run(),
@@ -122,6 +128,8 @@ impl Command {
             Self::Summary(command) => &command.scene,
             Self::Base(command) => &command.scene,
             Self::Contacts(command) => &command.scene,
+            Self::Stability(command) => &command.scene,
+            Self::Response(command) => &command.scene,
             Self::Bounds(command) => &command.scene,
             Self::Ensemble(command) => &command.scene,
             Self::Spheres(command) => &command.scene,

@@ -1,4 +1,4 @@
-//! Tables of the command line: bounds, the census, random stackings, theorems, cases, plans.
+//! Tables of the command line: bounds, stability, responses, the census, random stackings, theorems, cases, plans.
 
 mod bounds;
 mod cases;
@@ -6,6 +6,8 @@ mod census;
 mod disorder;
 mod ensemble;
 mod explain;
+mod response;
+mod stability;
 mod theorems;
 
 pub(crate) use bounds::{bounds, bounds_of};
@@ -14,6 +16,8 @@ pub(crate) use census::{census, horizontal_census};
 pub(crate) use disorder::{by_faults, mean, mean_of_polynomials};
 pub(crate) use ensemble::{ensemble, ensemble_summary, histogram};
 pub(crate) use explain::Explanation;
+pub(crate) use response::response;
+pub(crate) use stability::{margin, polygon};
 pub(crate) use theorems::{in_coq, theorems};
 
 #[cfg(test)]

@@ -1,0 +1,76 @@
+//! The tables of the stability under a tilt of gravity.
+
+use cannonpile::Pile;
+use cannonpile::lattice::Dimension;
+use cannonpile::stability::{Margin, Tilt};
+use cannonpile_dem::table::{Cell, Column, Table, indices, places};
+
+/// Returns one row: the squared margin, its angle in degrees, and the contact that opens there.
+///
+/// The columns are `margin_squared, angle, k, i, j, direction`; discs have no `j`. Without a spacing the angle is empty.
+pub(crate) fn margin(pile: &Pile, margin: &Margin, angle: Option<f64>) -> Table<'static> {
+    let (site, direction) = margin.opens;
+    let angle_column = Column {
+        unit: "°",
+        ..Column::plain("angle")
+    };
+    let mut entries = vec![
+        (
+            Column::measured("margin_squared", ""),
+            margin.squared.clone().into(),
+        ),
+        (angle_column, angle.map_or(Cell::Missing, Cell::from)),
+    ];
+    let cells = std::iter::once(site.k.into()).chain(places(pile, site));
+    entries.extend(indices(pile, &["k"]).into_iter().zip(cells));
+    entries.push((Column::plain("direction"), direction.name().into()));
+    Table::record(entries)
+}
+
+/// Returns a row `x, y` for each corner of the polygon of tilts that a pile bears; discs have no `y`.
+pub(crate) fn polygon(pile: &Pile, corners: Vec<Tilt>) -> Table<'static> {
+    let flat = pile.dimension() == Dimension::Two;
+    let mut columns = vec![Column::measured("x", "tanθ")];
+    if !flat {
+        let unit = if pile.is_regular() {
+            "√3·tanθ"
+        } else {
+            "2cosφ·tanθ"
+        };
+        columns.push(Column::measured("y", unit));
+    }
+    let parts = columns.len();
+    let row = move |tilt: Tilt| Ok(tilt.into_iter().take(parts).map(Cell::from).collect());
+    let rows = corners.into_iter().map(row);
+    Table::of_rows(columns, "corners", rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test::csv;
+    use super::*;
+
+    #[test]
+    fn the_margin_of_a_straight_pile() {
+        let pile = Pile::triangular(4).unwrap();
+        let stability = pile.stability().unwrap();
+        let least = stability.margin.unwrap();
+        let csv = csv(margin(&pile, &least, Some(19.5)));
+        let head = "margin_squared,angle,k,i,j,direction\n1/4,19.5,";
+        assert!(csv.starts_with(head), "{csv}");
+    }
+
+    #[test]
+    fn corners_of_spheres_and_discs() {
+        let corners = |pile: &Pile| {
+            let stability = pile.stability().unwrap();
+            csv(polygon(pile, stability.corners))
+        };
+        let spheres = corners(&Pile::triangular(4).unwrap());
+        assert!(spheres.starts_with("x,y\n") && spheres.lines().count() == 4);
+        for corner in ["1,0", "-1/2,1/2", "-1/2,-1/2"] {
+            assert!(spheres.lines().any(|line| line == corner), "{spheres}");
+        }
+        assert_eq!(corners(&Pile::discs(4).unwrap()), "x\n-1\n1\n");
+    }
+}
