@@ -9,7 +9,8 @@ use cannonpile_horizontal::census as horizontal;
 const MAX_CHECKED_LAYERS: i128 = 100_000;
 
 /// Returns a row for each stacking: `stacking, layers, stands, min_contact, base_spheres, normal_min, normal_max`, and the
-/// contact with the smallest force, `k, i, j, direction`.
+/// contact with the smallest force, `k, i, j, direction`. The last column is `margin_squared`, the squared margin of stable
+/// stackings.
 ///
 /// The normal forces are empty for unstable stackings. They are also empty for more than 100,000 layers with a sign change,
 /// where every row of the base would have to be computed.
@@ -18,6 +19,7 @@ pub(crate) fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + '
         let Entry { pile, standing, .. } = entry?;
         let mut cells = judged(&pile, standing.verdict(&[]));
         cells.extend(without_horizontal_contacts(&pile, Some(&standing))?);
+        cells.push(margin(&pile, Some(&standing))?);
         Ok(cells)
     };
     Table::of_rows(columns(&[]), "stackings", entries.map(row))
@@ -45,6 +47,7 @@ pub(crate) fn horizontal_census<'t>(
             standing => Some(standing?),
         };
         cells.extend(without_horizontal_contacts(&entry.pile, standing.as_ref())?);
+        cells.push(margin(&entry.pile, standing.as_ref())?);
         Ok(cells)
     };
     Table::of_rows(columns(&["decided_by"]), "stackings", entries.map(row))
@@ -58,6 +61,7 @@ fn columns(more: &[&'static str]) -> Vec<Column> {
     columns.push(Column::plain("base_spheres"));
     columns.extend(["normal_min", "normal_max"].map(|name| Column::measured(name, "mg")));
     columns.extend(["k", "i", "j", "direction"].map(Column::plain));
+    columns.push(Column::measured("margin_squared", ""));
     columns
 }
 
@@ -67,6 +71,18 @@ fn judged(pile: &Pile, verdict: Verdict) -> Vec<Cell> {
         pile.layers().into(),
         verdict.name().into(),
     ]
+}
+
+/// Returns the squared margin of a pile without horizontal contacts. It is empty for an unstable pile, for a single layer,
+/// and where it takes too long to compute.
+fn margin(pile: &Pile, standing: Option<&Standing>) -> Result<Cell, Error> {
+    if standing.is_none_or(|standing| standing.first_failure.is_some()) {
+        return Ok(Cell::Missing);
+    }
+    match pile.margin() {
+        Err(Error::NoWeight | Error::TooLarge { .. }) => Ok(Cell::Missing),
+        margin => Ok(margin?.map_or(Cell::Missing, |margin| margin.squared.into())),
+    }
 }
 
 /// Returns the cells after the verdict. Forces that were not computed are empty.
@@ -115,8 +131,9 @@ mod tests {
         let found = cannonpile::census::under_one_sphere(3, false).unwrap();
         assert_eq!(
             csv(census(found)),
-            "stacking,layers,stands,min_contact,base_spheres,normal_min,normal_max,k,i,j,direction\n\
-             ++,3,yes,1,6,5/3,5/3,0,0,0,alpha\n+-,3,yes,2/3,7,14/9,5/3,1,0,0,alpha\n",
+            "stacking,layers,stands,min_contact,base_spheres,normal_min,normal_max,k,i,j,direction,\
+             margin_squared\n\
+             ++,3,yes,1,6,5/3,5/3,0,0,0,alpha,1/4\n+-,3,yes,2/3,7,14/9,5/3,1,0,0,alpha,1/16\n",
         );
     }
 
@@ -124,6 +141,6 @@ mod tests {
     fn horizontal_contacts_stabilise_hcp() {
         let found = horizontal::under_one_sphere(6, false).unwrap();
         let csv = csv(horizontal_census(found));
-        assert!(csv.contains("\n+-+-+,6,yes,horizontal,-22/81,27,,,4,1,-2,gamma\n"));
+        assert!(csv.contains("\n+-+-+,6,yes,horizontal,-22/81,27,,,4,1,-2,gamma,\n"));
     }
 }

@@ -137,7 +137,7 @@ fn headers_of_tables() {
         (
             "summary",
             "layers,stacking,spheres,contacts,weight,stands,min_contact,base_spheres,normal_min,\
-             normal_max,max_shear_ratio,touching,plan",
+             normal_max,max_shear_ratio,touching,plan,margin_squared",
         ),
         ("base", "i,j,normal,shear_x,shear_y"),
         ("base --dimension 2", "i,normal,shear_x"),
@@ -164,7 +164,7 @@ fn single_layer_has_no_contacts() {
     let summary = stdout("summary --layers 1 --format csv");
     assert_eq!(
         summary.lines().nth(1),
-        Some("1,fcc,1,0,1,yes,,1,1,1,0,none,closed")
+        Some("1,fcc,1,0,1,yes,,1,1,1,0,none,closed,")
     );
 }
 

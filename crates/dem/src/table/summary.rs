@@ -40,6 +40,9 @@ pub struct Summary<'p> {
     held: Option<Result<Certificate, cannonpile_horizontal::Error>>,
     /// The extreme forces on the floor, or the error of their computation.
     base: Result<BaseExtremes, cannonpile::Error>,
+    /// The least tilt at which a contact opens, as t_c², or the error of its computation. `None` if the pile is unstable
+    /// without further contacts, or has no weight above the floor.
+    margin: Result<Option<BigRational>, cannonpile::Error>,
     /// The method that computes the base forces, or the reason why the whole base is too large.
     method: Result<Method, cannonpile::Error>,
 }
@@ -75,8 +78,13 @@ impl<'p> Summary<'p> {
             let pulls = standing.first_failure.is_some() && !pile.is_weightless();
             (in_layers_only && pulls).then(|| cannonpile_horizontal::equilibrium(pile))
         };
+        let margin = match standing.first_failure {
+            None => unless_too_large(margin(pile))?,
+            Some(_) => Ok(None),
+        };
         Ok(Self {
             held,
+            margin,
             units: units.clone(),
             touching,
             base: unless_too_large(pile.base_extremes())?,
@@ -128,6 +136,10 @@ impl<'p> Summary<'p> {
         let reasons = [
             ("stands", stands.or(open)),
             ("min_contact", least),
+            (
+                "margin_squared",
+                self.margin.as_ref().err().map(ToString::to_string),
+            ),
             ("normal_min, normal_max, max_shear_ratio", base),
             ("plan", method),
         ];
@@ -177,9 +189,10 @@ impl<'p> Summary<'p> {
     }
 
     /// Returns a table of one row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres,
-    /// normal_min, normal_max, max_shear_ratio, touching, plan`.
+    /// normal_min, normal_max, max_shear_ratio, touching, plan, margin_squared`.
     ///
-    /// The weight includes all loads. [`left_out`](Self::left_out) explains empty columns.
+    /// The weight includes all loads. [`left_out`](Self::left_out) explains empty columns. `margin_squared` is also empty
+    /// for an unstable pile, and for one without weight above the floor.
     ///
     /// # Examples
     /// ```
@@ -223,6 +236,7 @@ impl<'p> Summary<'p> {
         let least = least.map(|contact| units.contact(contact.force.clone()));
         let method = self.method.as_ref().map(Method::to_string);
         let plan = method.map_or(Cell::Missing, |method| Cell::Word(method.into()));
+        let margin = self.margin.as_ref().ok().cloned().flatten();
         let plain = |name, cell: Cell| (Column::plain(name), cell);
         let count = |name, count: BigUint| plain(name, Cell::Integer(count.into()));
         let measured = |name, unit, cell: Cell| (Column::measured(name, unit), cell);
@@ -259,8 +273,21 @@ impl<'p> Summary<'p> {
             ),
             plain("touching", touching.unwrap_or(Cell::Missing)),
             plain("plan", plan),
+            measured(
+                "margin_squared",
+                "",
+                margin.map_or(Cell::Missing, Cell::from),
+            ),
         ];
         Table::record(entries.into())
+    }
+}
+
+/// Returns the squared margin of a pile, or `None` for a pile without weight above the floor.
+fn margin(pile: &Pile) -> Result<Option<BigRational>, cannonpile::Error> {
+    match pile.margin() {
+        Err(cannonpile::Error::NoWeight) => Ok(None),
+        margin => Ok(margin?.map(|margin| margin.squared)),
     }
 }
 
