@@ -35,7 +35,7 @@ pub struct Case {
 const CASES: &str = include_str!("cases/cases.txt");
 
 /// The scenes, in the same order.
-const SCENES: [&str; 14] = [
+const SCENES: [&str; 16] = [
     include_str!("cases/c1.toml"),
     include_str!("cases/c2.toml"),
     include_str!("cases/c3.toml"),
@@ -50,6 +50,8 @@ const SCENES: [&str; 14] = [
     include_str!("cases/c12.toml"),
     include_str!("cases/c13.toml"),
     include_str!("cases/c14.toml"),
+    include_str!("cases/c15.toml"),
+    include_str!("cases/c16.toml"),
 ];
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {

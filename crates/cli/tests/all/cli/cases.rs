@@ -117,7 +117,7 @@ fn case_excludes_scene_options() {
         }
     }
     for (arguments, parts) in [
-        ("summary --case C15", ["--case", "did you mean 'C1'?"]),
+        ("summary --case C17", ["--case", "did you mean 'C1'?"]),
         (
             "summary --case straight",
             ["--case", "'cannonpile cases' lists"],

@@ -32,6 +32,8 @@ const PUBLISHED: &[(&str, u64, &str)] = &[
     ("C12", 0x5c41_fdca_1b1b_380b, "yes"),
     ("C13", 0x913e_1b0d_1822_45ce, "yes"),
     ("C14", 0x340a_b3ba_88cf_2c6b, "yes"),
+    ("C15", 0x9f41_54c2_072e_280f, "yes"),
+    ("C16", 0x0b09_104d_5fc7_7257, "no"),
 ];
 
 #[test]
