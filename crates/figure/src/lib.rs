@@ -28,6 +28,7 @@
 //! | [`base()`] | the base normal forces as a map |
 //! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
 //! | [`bounds()`] | the smallest and largest normal force of each bottom sphere at a = R |
+//! | [`stability()`] | the tilts of gravity that a pile bears |
 //! | [`response()`] | the forces in a layer under a load on the top |
 //! | [`mean_response()`], [`mean_profile()`] | the mean response of the base over random stackings: as maps, and by distance |
 //! | [`distribution()`] | the distribution of contact forces or base normal forces over random stackings |
@@ -63,6 +64,7 @@ mod refinement;
 mod response;
 mod shear;
 mod sphere;
+mod stability;
 mod subject;
 mod ticks;
 mod view;
@@ -78,9 +80,10 @@ pub use network::{layer, section};
 pub use page::{Figure, Layout};
 pub use pile::pile;
 pub use refinement::refinement;
-pub use response::{response, with_unit_load};
+pub use response::{response, with_load_on_top, with_unit_load};
 pub use shear::shear;
 pub use sphere::{example_site, sphere};
+pub use stability::stability;
 pub use subject::Subject;
 
 /// The examples of README.md, run as tests.

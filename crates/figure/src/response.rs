@@ -1,9 +1,9 @@
 //! The response of a layer to a load on the top.
 
-use cannonpile::Pile;
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
+use cannonpile::{Load, Pile};
 use num_rational::BigRational;
 use num_traits::One;
 
@@ -34,12 +34,32 @@ use crate::Error;
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
 pub fn with_unit_load(pile: Pile) -> Result<Pile, Error> {
+    with_load_on_top(pile, BigRational::one())
+}
+
+/// Removes the weight of the spheres and the horizontal forces. A pile without loads receives this load on the middle of the
+/// top.
+///
+/// # Errors
+/// The errors of [`Pile::with_load`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Site;
+/// use cannonpile::{Load, Pile, ratio};
+///
+/// let push = Load { down: ratio!(0), x: ratio!(1), y: ratio!(0) };
+/// let pile = cannonpile_figure::with_load_on_top(Pile::triangular(10)?, push.clone())?;
+/// assert_eq!(pile.load(Site::APEX)?, push);
+/// # Ok::<(), cannonpile_figure::Error>(())
+/// ```
+pub fn with_load_on_top(pile: Pile, load: impl Into<Load>) -> Result<Pile, Error> {
     let pile = pile.weightless().without_horizontal_forces();
     if pile.loads().len() > 0 {
         return Ok(pile);
     }
     let middle = middle(&pile, 0)?;
-    Ok(pile.with_load(middle, BigRational::one())?)
+    Ok(pile.with_load(middle, load)?)
 }
 
 /// Draws the vertical forces that the spheres of layer `k` transmit downwards, as a map from above.

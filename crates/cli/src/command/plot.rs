@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use cannonpile::Pile;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::stacking::Pattern;
+use cannonpile::{Load, Pile};
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use cannonpile_dem::table::WriteError;
 use cannonpile_dem::verify::RefinementStudy;
 use cannonpile_figure as figure;
 use cannonpile_figure::{Figure, Layout, Subject};
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use num_rational::BigRational;
 
 use super::ensemble::HistogramForces;
-use super::fault_probability;
+use super::{fault_probability, of_weight};
 use crate::args::{SceneOptions, UnitSystem, parse_site};
 use crate::output::{Failure, InputError, open, print_message, write_to};
 use crate::progress::Progress;
@@ -28,7 +28,9 @@ Examples:
   cannonpile plot network --stacking hcp --layers 12 --output network.svg
   cannonpile plot network --stacking=+-+-+ --state elastic --layer 3 --output elastic.svg
   cannonpile plot response --stacking hcp --top hexagon:5 --layers 6 --output response.svg
+  cannonpile plot response --component x --top hexagon:5 --layers 6 --output push.svg
   cannonpile plot response --faults 2,3 --output fault.svg
+  cannonpile plot stability --stacking=+-+++ --output stability.svg
   cannonpile plot response --fault-probability 0,1/4,1/2,1 --layers 17 --output mean.svg
   cannonpile plot response --fault-probability 1/4,1/2,3/4 --layers 61 --profile --output wave.svg
   cannonpile ensemble --layers 12 --all --output all.json; cannonpile plot distribution all.json --output forces.svg
@@ -75,13 +77,18 @@ pub(crate) enum Plot {
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
-    /// Map the response of a layer to --load, or to 1 mg on the middle of a wide top
+    /// Draw the tilts of gravity that the pile bears, with angles at --spacing (a = R by default)
+    Stability(PileFigure),
+    /// Map the response of a layer to --load, or to a unit load on the middle of a wide top
     Response {
         #[command(flatten)]
         of: ForceFigure,
         /// Layer, counted from 0 at the top [default: the bottom layer]
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
+        /// Component of the unit load; excludes --load [default: down]
+        #[arg(long, value_enum, conflicts_with_all = ["load", "fault_probability"], help_heading = "Output")]
+        component: Option<Component>,
         /// Stacking, as numbers of steps between faults from the top: 2,3 is ++---; excludes --stacking and --layers
         #[arg(
             long,
@@ -119,6 +126,42 @@ pub(crate) enum Plot {
         #[command(flatten)]
         output: FigureOutput,
     },
+}
+
+/// The component of a unit load.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Component {
+    /// 1 mg downwards
+    Down,
+    /// 1 mg·tanθ along x
+    X,
+    /// 1 √3·mg·tanθ along y
+    Y,
+}
+
+impl Component {
+    /// Returns the unit load, which is vertical by default.
+    fn load(given: Option<Self>, scene: &Scene) -> Result<Load, Failure> {
+        let refused = match given {
+            Some(_) if !scene.loads.is_empty() => {
+                Some("the loads of the scene already have components: leave it out")
+            }
+            Some(Self::Y) if scene.dimension == Dimension::Two => {
+                Some("discs have no component along y: use down or x")
+            }
+            _ => None,
+        };
+        if let Some(reason) = refused {
+            return Err(Failure::Message(format!("--component: {reason}")));
+        }
+        let component = given.unwrap_or(Self::Down);
+        let part = |is_one: bool| BigRational::from_integer(i32::from(is_one).into());
+        Ok(Load {
+            down: part(matches!(component, Self::Down)),
+            x: part(matches!(component, Self::X)),
+            y: part(matches!(component, Self::Y)),
+        })
+    }
 }
 
 /// The options of a figure without forces.
@@ -213,7 +256,7 @@ impl Plot {
             Self::Distribution { output, .. } | Self::Refinement { output, .. } => {
                 return (None, output);
             }
-            Self::Pile(of) | Self::Indexing { of, .. } => of,
+            Self::Pile(of) | Self::Indexing { of, .. } | Self::Stability(of) => of,
             Self::Shear(measured)
             | Self::Base(measured)
             | Self::Bounds(measured)
@@ -237,6 +280,7 @@ impl Plot {
                 let layer = layer.unwrap_or_else(|| INDEXING_LAYER.min(pile.layers() - 1));
                 Ok(figure::indexing(&subject, layer).map_err(of_layer)?)
             }
+            Self::Stability(of) => of.draw_stability(),
             Self::Sphere { of, at } => of.draw(|subject, pile| {
                 let site = match parse_site(at.as_deref(), pile)? {
                     Some(site) => site,
@@ -273,7 +317,11 @@ impl Plot {
                 Ok(drawn?)
             }
             Self::Response {
-                of, layer, faults, ..
+                of,
+                layer,
+                faults,
+                component,
+                ..
             } => {
                 let (mut scene, mut pile) = match faults {
                     None => of.of.scene.read()?,
@@ -284,7 +332,8 @@ impl Plot {
                         Some(Anchor::Top(Region::hexagon(RESPONSE_SIDE, RESPONSE_SIDE)?));
                     pile = scene.pile()?;
                 }
-                let pile = figure::with_unit_load(pile)?;
+                let load = Component::load(*component, &scene)?;
+                let pile = figure::with_load_on_top(pile, load)?;
                 let layer = layer.unwrap_or(pile.layers() - 1);
                 of.draw_pile(&scene, &pile, |subject, _| {
                     figure::response(subject, layer).map_err(of_layer)
@@ -347,6 +396,22 @@ fn needs_a_top(scene: &Scene) -> bool {
         && scene.loads.is_empty()
         && scene.sin_phi.is_none()
         && scene.dimension == Dimension::Three
+}
+
+impl PileFigure {
+    fn draw_stability(&self) -> Result<Figure, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        // On an isosceles base, neighbours of a layer would overlap at a = R.
+        let spacing = match scene.spacing {
+            None if pile.is_regular() => "1".parse()?,
+            _ => scene.spacing()?,
+        };
+        let subject = Subject::of_pile(&pile, &spacing)?;
+        let progress = Progress::begin("searching for the contacts that open first");
+        let drawn = figure::stability(&subject);
+        drop(progress);
+        Ok(drawn.map_err(|error| of_weight(&pile, error))?)
+    }
 }
 
 impl ForceFigure {

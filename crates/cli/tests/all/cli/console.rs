@@ -38,23 +38,25 @@ macro_rules! console {
 
 // The number of commands of each file.
 console! {
-    base: 89;
-    bounds: 19;
+    base: 100;
+    bounds: 20;
     cases: 25;
     census: 21;
     check: 12;
     completions: 2;
-    contacts: 51;
-    ensemble: 35;
+    contacts: 53;
+    ensemble: 39;
     explain: 12;
     export: 43;
     help: 19;
-    mean: 45;
+    mean: 49;
     merge: 13;
-    plot: 38;
+    plot: 44;
     prove: 11;
-    scene: 11;
+    response: 9;
+    scene: 18;
     spheres: 15;
+    stability: 26;
     summary: 36;
     tables: 9;
     verify: 14;
