@@ -105,7 +105,10 @@ fn of_core(error: &cannonpile::Error) -> Option<&'static str> {
         Error::SinPhi { .. } | Error::NoSpacing { .. } | Error::NoHorizontalContacts { .. } => {
             "sin_phi"
         }
-        Error::NegativeLoad { .. } => "loads",
+        Error::OutOfPlane {
+            quantity: "tilt", ..
+        } => "tilt",
+        Error::NegativeLoad { .. } | Error::OutOfPlane { .. } => "loads",
         Error::Overlap { .. } | Error::TooFlat { .. } | Error::NotTouching { .. } => "spacing",
         Error::NotPositive { quantity, .. } => {
             let key = Key::ALL.into_iter().find(|key| key.name() == *quantity);
@@ -162,6 +165,7 @@ fn of_key(key: Key) -> Option<&'static str> {
         Key::Dimension => "dimension",
         Key::SinPhi => "sin_phi",
         Key::Load => "loads",
+        Key::Tilt => "tilt",
         Key::Weightless => "weightless",
         Key::Spacing => "spacing",
         Key::Radius => "radius",

@@ -32,7 +32,7 @@ mod _cannonpile {
     #[pymodule_export]
     use crate::mean::mean;
     #[pymodule_export]
-    use crate::pile::answers::{bounds, force, on_floor, site, sphere_id, weakest};
+    use crate::pile::answers::{bounds, force, on_floor, site, sphere_id, stability, weakest};
     #[pymodule_export]
     use crate::pile::arrays::{
         base, contact_ids, contact_points, forces, multiples, positions, sites, vectors,

@@ -53,6 +53,7 @@ from ._records import (
     Known,
     MeanForce,
     Multiples,
+    Stability,
     Theorem,
 )
 
@@ -71,6 +72,7 @@ __all__ = [
     "Multiples",
     "Page",
     "Pile",
+    "Stability",
     "Theorem",
     "__version__",
     "cases",

@@ -30,6 +30,7 @@ __all__ = [
     "site",
     "sites",
     "sphere_id",
+    "stability",
     "vectors",
     "weakest",
 ]
@@ -38,6 +39,7 @@ __version__: str
 
 _Difference = tuple[tuple[int, int], int, int, int, str, float, float | None, float, str]
 _Entry = tuple[str, int, bool, Fraction | None, Fraction | None, Fraction | None]
+_Contact = tuple[int, int, int, str, Fraction]
 _Loads = list[tuple[str, str]]
 
 @final
@@ -126,8 +128,9 @@ def force(pile: Pile, k: int, i: int, j: int, direction: str) -> Fraction: ...
 def on_floor(pile: Pile, i: int, j: int) -> list[Fraction]: ...
 def sphere_id(pile: Pile, k: int, i: int, j: int) -> int: ...
 def site(pile: Pile, sphere_id: int) -> list[int] | None: ...
-def weakest(pile: Pile) -> tuple[int, int, int, str, Fraction] | None: ...
+def weakest(pile: Pile) -> _Contact | None: ...
 def bounds(pile: Pile, i: int, j: int) -> tuple[Fraction, Fraction, bool]: ...
+def stability(pile: Pile) -> tuple[tuple[Fraction, _Contact] | None, list[list[Fraction]]]: ...
 def compare(
     pile: Pile,
     ids: NDArray[np.int64] | None,

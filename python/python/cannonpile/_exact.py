@@ -126,13 +126,31 @@ def place(name: str, value: Any) -> str:
     return ",".join(str(integer(name, n)) for n in value)
 
 
-def loads(value: Mapping[tuple[int, ...], Exact] | None) -> list[tuple[str, str]]:
-    """Return loads as pairs of texts: site and weight.
+def numbers(name: str, value: Exact | tuple[Exact, ...]) -> str:
+    """Return one exact number, or a tuple of them, as a text with commas.
 
     Raises
     ------
     TypeError
-        If the value is not a mapping from sites to exact numbers.
+        If the value is neither an exact number nor a tuple of them.
+
+    Examples
+    --------
+    >>> numbers("tilt", ("1/10", 0))
+    '1/10,0'
+    """
+    if isinstance(value, tuple):
+        return ",".join(number(name, part) for part in value)
+    return number(name, value)
+
+
+def loads(value: Mapping[tuple[int, ...], Exact | tuple[Exact, ...]] | None) -> list[tuple[str, str]]:
+    """Return loads as pairs of texts: site and weight, or site and the components of a load with a direction.
+
+    Raises
+    ------
+    TypeError
+        If the value is not a mapping from sites to exact numbers or tuples of them.
 
     Examples
     --------
@@ -143,4 +161,4 @@ def loads(value: Mapping[tuple[int, ...], Exact] | None) -> list[tuple[str, str]
         return []
     if not isinstance(value, Mapping):
         raise TypeError(f"loads: {value!r} is not a dict; write one such as {{(0, 0, 0): '5/2'}}")
-    return [(place("loads", at), number("loads", weight)) for at, weight in value.items()]
+    return [(place("loads", at), numbers("loads", load)) for at, load in value.items()]

@@ -11,7 +11,7 @@ from . import _exact, _measured
 from ._comparison import Comparison, _tolerance
 from ._figure import Figure
 from ._page import Page
-from ._records import Bounds, Contact, FloorForce, Multiples
+from ._records import Bounds, Contact, FloorForce, Multiples, Stability
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -45,7 +45,11 @@ class Pile:
     sin_phi : exact number, optional
         The sine of the azimuth phi of an isosceles base. The default is 1/2.
     loads : dict, optional
-        Vertical loads in mg by sphere: ``{(k, i, j): W}``, or ``(i, j)`` on the base. For discs ``(k, i)`` or ``(i,)``.
+        Loads by sphere: ``{(k, i, j): W}`` for W mg downwards, or ``(i, j)`` on the base. For discs ``(k, i)`` or ``(i,)``.
+        A load with a direction is ``(W, X, Y)``: X mg tan(theta) along x and Y sqrt(3) mg tan(theta) along y. For discs
+        ``(W, X)``.
+    tilt : (exact, exact), optional
+        Gravity leans by ``(x, y)``: a sphere of weight mg has the load ``(1, x, y)``. One number for discs.
     weightless : bool, default False
         If true, the spheres have no weight and only the loads act.
     spacing : exact number, optional
@@ -89,7 +93,8 @@ class Pile:
         base: str | None = None,
         dimension: Literal[2, 3] = 3,
         sin_phi: Exact | None = None,
-        loads: Mapping[tuple[int, ...], Exact] | None = None,
+        loads: Mapping[tuple[int, ...], Exact | tuple[Exact, ...]] | None = None,
+        tilt: Exact | tuple[Exact, Exact] | None = None,
         weightless: bool = False,
         spacing: Exact | None = None,
         radius: Exact = 1,
@@ -111,6 +116,8 @@ class Pile:
         options.extend((name, _exact.number(name, value)) for name, value in ratios.items() if value is not None)
         sizes = {"radius": radius, "mass": mass, "gravity": gravity, "stiffness_ratio": stiffness_ratio}
         options.extend((name, _exact.number(name, value)) for name, value in sizes.items())
+        if tilt is not None:
+            options.append(("tilt", _exact.numbers("tilt", tilt)))
         if weightless:
             options.append(("weightless", "true"))
         try:
@@ -707,6 +714,32 @@ class Pile:
         """
         contact = native.weakest(self._native)
         return None if contact is None else Contact(*contact)
+
+    def stability(self) -> Stability:
+        """Return the tilts of gravity that the pile bears, at spacings without contacts in a layer.
+
+        Returns
+        -------
+        Stability
+            ``margin_squared``, the exact square of the least tan(tilt)/tan(theta) at which a contact opens, or None if the pile
+            is unstable; ``opens``, that contact and its force; ``corners``, the corners (x, y) of the polygon of tilts.
+
+        Raises
+        ------
+        ValueError
+            If the spheres have no weight.
+        MemoryError
+            If the pile is too large.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(6, "+-+++").stability().margin_squared
+        Fraction(1, 43)
+        """
+        margin, corners = native.stability(self._native)
+        squared, opens = margin if margin is not None else (None, None)
+        return Stability(squared, None if opens is None else Contact(*opens), [(x, y) for x, y in corners])
 
     def bounds(self, i: int, j: int = 0) -> Bounds:
         """Return bounds of the normal force of a bottom sphere at a = R, over all admissible horizontal forces.

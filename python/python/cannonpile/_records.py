@@ -69,6 +69,28 @@ class FloorForce(namedtuple("FloorForce", "normal shear_x shear_y")):
     __slots__ = ()
 
 
+class Stability(namedtuple("Stability", "margin_squared opens corners")):
+    """The tilts of gravity that a pile bears.
+
+    Attributes
+    ----------
+    margin_squared : Fraction or None
+        The square of the least tan(tilt)/tan(theta) at which a contact opens, or None if the pile is unstable.
+    opens : Contact or None
+        The contact that opens there, and its force in f0 under upright gravity.
+    corners : list of tuple of Fraction
+        The corners (x, y) of the polygon of tilts, counterclockwise.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> Pile(10).stability().margin_squared
+    Fraction(1, 4)
+    """
+
+    __slots__ = ()
+
+
 class Bounds(namedtuple("Bounds", "least greatest proved")):
     """Bounds of the normal force of a bottom sphere at a = R, over all admissible horizontal forces.
 

@@ -22,6 +22,11 @@ class FloorForce(NamedTuple):
     shear_x: Fraction
     shear_y: Fraction
 
+class Stability(NamedTuple):
+    margin_squared: Fraction | None
+    opens: Contact | None
+    corners: list[tuple[Fraction, Fraction]]
+
 class Bounds(NamedTuple):
     least: Fraction
     greatest: Fraction

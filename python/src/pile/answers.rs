@@ -70,6 +70,24 @@ pub(crate) fn site(
     Ok(site.map(|Site { i, j, k }| [k.into(), i.into(), j.into()]))
 }
 
+/// The tilts that a pile bears: the square of the margin and the contact that opens there, unless the pile is unstable,
+/// and the corners of the polygon.
+type Stability = (Option<(BigRational, Weakest)>, Vec<[BigRational; 2]>);
+
+/// The tilts of gravity that the pile bears.
+#[pyfunction]
+pub(crate) fn stability(pile: &Pile, py: Python<'_>) -> PyResult<Stability> {
+    let stability = work(py, || pile.exact.stability())?;
+    let margin = stability.margin.map(|margin| {
+        let (Site { i, j, k }, direction) = margin.opens;
+        let force = pile.exact.forces().contact(margin.opens.0, direction);
+        let force = force.map_err(|error| Raised::from(error).into_exception())?;
+        let contact = (k.into(), i.into(), j.into(), direction.name(), force);
+        Ok::<_, PyErr>((margin.squared, contact))
+    });
+    Ok((margin.transpose()?, stability.corners))
+}
+
 /// The contact with the smallest force.
 #[pyfunction]
 pub(crate) fn weakest(pile: &Pile, py: Python<'_>) -> PyResult<Option<Weakest>> {

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use cannonpile::lattice::Dimension;
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Zero};
 use pyo3::prelude::*;
 
 use crate::exception::of_argument;
@@ -28,6 +28,7 @@ pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) ->
             "mass" => scene.mass = read(name, text, parse::rational)?,
             "gravity" => scene.gravity = read(name, text, parse::rational)?,
             "state" => scene.state = read(name, text, str::parse)?,
+            "tilt" => scene.tilt = read(name, text, |text| parse::tilt(text, scene.dimension))?,
             "stiffness_ratio" => scene.stiffness_ratio = read(name, text, parse::rational)?,
             _ => {
                 return Err(of_argument(
@@ -37,11 +38,10 @@ pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) ->
             }
         }
     }
-    for (at, weight) in loads {
-        let at = read("loads", at, |at| parse::at(at, scene.dimension))?;
-        scene
-            .loads
-            .push((at, read("loads", weight, parse::rational)?.into()));
+    for (at, load) in loads {
+        let text = format!("{at}={load}");
+        let load = read("loads", &text, |text| parse::load(text, scene.dimension))?;
+        scene.loads.push(load);
     }
     Ok(scene)
 }
@@ -67,17 +67,34 @@ pub(super) fn call(scene: &Scene) -> String {
         give("sin_phi", number(s));
     }
     if !scene.loads.is_empty() {
-        let loads = scene.loads.iter().map(|(at, weight)| {
+        let loads = scene.loads.iter().map(|(at, load)| {
             let mut place: Vec<i128> = at.layer.into_iter().chain([at.i]).collect();
             if scene.dimension == Dimension::Three {
                 place.push(at.j);
             }
             let place: Vec<String> = place.iter().map(ToString::to_string).collect();
             let comma = if place.len() == 1 { "," } else { "" };
-            format!("({}{comma}): {}", place.join(", "), number(&weight.down))
+            let load = if load.is_vertical() {
+                number(&load.down)
+            } else {
+                let parts = [&load.down, &load.x, &load.y].map(number);
+                tuple(&parts[..scene.dimension.directions().len()])
+            };
+            format!("({}{comma}): {load}", place.join(", "))
         });
         let loads: Vec<String> = loads.collect();
         give("loads", format!("{{{}}}", loads.join(", ")));
+    }
+    if !scene.tilt.iter().all(Zero::is_zero) {
+        let [x, y] = scene.tilt.each_ref().map(number);
+        give(
+            "tilt",
+            if scene.dimension == Dimension::Two {
+                x
+            } else {
+                tuple(&[x, y])
+            },
+        );
     }
     if scene.weightless {
         give("weightless", "True".into());
@@ -107,6 +124,11 @@ pub(super) fn call(scene: &Scene) -> String {
         give("stiffness_ratio", number(&scene.stiffness_ratio));
     }
     format!("Pile({})", given.join(", "))
+}
+
+/// Returns a Python tuple of several items.
+fn tuple(items: &[String]) -> String {
+    format!("({})", items.join(", "))
 }
 
 /// Returns a Python string literal. The texts contain no characters that need escapes.

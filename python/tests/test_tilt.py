@@ -1,0 +1,72 @@
+"""Gravity and loads with a direction."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from cannonpile import Pile
+
+TILT = ("1/20", "-1/30")
+LOADS = {(1, 0, 0): ("1/2", "-1/10", "1/5")}
+
+
+def directed(force):
+    """Return a force (W, X, Y) in units of mg, as a vector at a = 1.2 R, where mg = 1."""
+    tan = np.sqrt(0.48 / 0.52)
+    down, x, y = (float(Fraction(part)) for part in force)
+    return np.array([x * tan, y * np.sqrt(3) * tan, -down])
+
+
+def test_every_sphere_is_balanced():
+    pile = Pile(5, "+-+-", spacing="6/5", tilt=TILT, loads=LOADS)
+    net = np.zeros((pile.sphere_count, 3))
+    ids = pile.contact_ids()
+    np.add.at(net, ids[:, 0] - 1, pile.vectors())
+    np.add.at(net, ids[:, 1] - 1, -pile.vectors())
+    net += directed((1, *TILT))
+    net[pile.sphere_id(1, 0, 0) - 1] += directed(LOADS[1, 0, 0])
+    free = pile.sphere_count - pile.base_count
+    assert np.abs(net[:free]).max() < 1e-14
+    total = pile.sphere_count * directed((1, *TILT)) + directed(LOADS[1, 0, 0])
+    assert np.abs(pile.base().sum(axis=0) - [-total[2], total[0], total[1]]).max() < 1e-12
+
+
+def test_the_pile_is_made_again_from_its_text_and_its_scene():
+    pile = Pile(5, "+-+-", tilt=TILT, loads=LOADS)
+    assert eval(repr(pile)) == pile
+    assert Pile.from_toml(pile.to_toml()) == pile
+    assert pile != Pile(5, "+-+-", loads=LOADS)
+    discs = Pile(4, dimension=2, tilt="1/3", loads={(0, 0): (1, "1/7")})
+    assert eval(repr(discs)) == discs
+
+
+def test_stability():
+    assert Pile(10).stability().margin_squared == Fraction(1, 4)
+    assert Pile(6, "+++-+").stability().margin_squared == 0
+    stability = Pile(6, "+-+++").stability()
+    assert stability.margin_squared == Fraction(1, 43)
+    assert Pile(6, "+-+++").force(*stability.opens[:4]) == stability.opens.force
+    for x, y in stability.corners:
+        assert Pile(6, "+-+++", tilt=(x, y)).weakest().force == 0
+    assert Pile(6, "hcp").stability().margin_squared is None
+
+
+@pytest.mark.parametrize(
+    ("error", "options"),
+    [
+        (ValueError, {"tilt": "1/2"}),
+        (ValueError, {"tilt": ("1/2", 0), "dimension": 2}),
+        (ValueError, {"tilt": ("1/2", 0, 0)}),
+        (TypeError, {"tilt": (0.5, 0)}),
+        (ValueError, {"loads": {(0, 0, 0): (1, 2)}}),
+    ],
+)
+def test_bad_input_is_one_error_that_names_the_argument(error, options):
+    with pytest.raises(error, match="tilt" if "tilt" in options else "loads"):
+        Pile(4, **options)
+
+
+def test_weightless_piles_have_no_stability():
+    with pytest.raises(ValueError, match="weight"):
+        Pile(4, weightless=True).stability()
