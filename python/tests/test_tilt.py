@@ -56,7 +56,7 @@ def test_stability():
     ("error", "options"),
     [
         (ValueError, {"tilt": "1/2"}),
-        (ValueError, {"tilt": ("1/2", 0), "dimension": 2}),
+        (ValueError, {"tilt": ("1/2", "1/3"), "dimension": 2}),
         (ValueError, {"tilt": ("1/2", 0, 0)}),
         (TypeError, {"tilt": (0.5, 0)}),
         (ValueError, {"loads": {(0, 0, 0): (1, 2)}}),

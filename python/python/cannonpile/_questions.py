@@ -28,7 +28,7 @@ def cases() -> list[Case]:
     --------
     >>> from cannonpile import cases
     >>> [name for name, pile, known in cases() if known.stands is False]
-    ['C8']
+    ['C8', 'C16']
 
     To test a code on all of them::
 
