@@ -206,7 +206,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
     /// let forces = pile.forces::<Polynomial>().with_load(Site::APEX, Polynomial::from(Symbol("p")))?;
     /// let force = forces.contact(Site { i: 0, j: 0, k: 1 }, Direction::Beta)?;
-    /// assert_eq!(force.to_string(), "2/3*p + 5/3");
+    /// assert_eq!(force.to_string(), "(2 p + 5)/3");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_load(self, site: Site, load: impl Into<Load<T>>) -> Result<Self, Error> {
@@ -259,7 +259,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// let tilt = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
     /// let forces = pile.forces::<Polynomial>().with_tilt(tilt)?;
     /// let force = forces.contact(Site { i: 0, j: 0, k: 4 }, Direction::Alpha)?;
-    /// assert_eq!(force.to_string(), "-5*x - 15*y + 5");
+    /// assert_eq!(force.to_string(), "-5 x - 15 y + 5");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_tilt(mut self, tilt: [T; 2]) -> Result<Self, Error> {
