@@ -702,10 +702,12 @@ impl Pile {
 
     /// Returns the data of the pile for an engine.
     pub(crate) fn system(&self) -> System<'_> {
+        let increments = formula::increments(&self.sin_phi);
         System {
             shape: &self.shape,
             sin_phi: &self.sin_phi,
-            increments: formula::increments(&self.sin_phi),
+            increment_sum: formula::weight(&increments),
+            increments,
             directions: self.directions(),
             loading: Cow::Borrowed(&self.loading),
             has_scalar_loads: false,

@@ -63,14 +63,35 @@ pub(super) struct Line {
 
 /// Returns the numerator of a value over the denominator of `least`, which all numerators share.
 fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerator {
+    if value.is_zero() {
+        return T::Numerator::zero();
+    }
     let ([value, _], _) = T::numerators(&[value, least.clone()]);
     value
 }
 
+/// Returns the signs of the runs with an even index and of those with an odd one.
+fn signs(shape: &Shape) -> [Sign; 2] {
+    let first = shape.sign_below(0).unwrap_or(Sign::Plus);
+    [first, first.opposite()]
+}
+
 /// Returns a load in mg/W, as a vector whose z axis points down. Its x and y axes are those of the symbolic basis.
 fn vector<N: Ring>(load: Load<N>, w: &N) -> Vector<N> {
-    let Load { down, x, y } = load.map(|part| force(part, w));
-    Vector { x, y, z: down }
+    Vector {
+        z: force(load.down.clone(), w),
+        ..horizontal(load, w)
+    }
+}
+
+/// Returns the horizontal part of a load in mg/W.
+fn horizontal<N: Ring>(Load { x, y, .. }: Load<N>, w: &N) -> Vector<N> {
+    let z = N::zero();
+    if x.is_zero() && y.is_zero() {
+        return Vector { x, y, z };
+    }
+    let [x, y] = [x, y].map(|part| force(part, w));
+    Vector { x, y, z }
 }
 
 impl<'p, T: Algebra> Lines<'p, T> {
@@ -79,12 +100,24 @@ impl<'p, T: Algebra> Lines<'p, T> {
         let least = BigRational::new(BigInt::one(), system.denominator());
         let (_, scale) = T::numerators(core::array::from_ref(&least));
         let numerator = |value| numerator::<T>(value, &least);
-        let w = formula::weight(&system.increments);
-        let first = system.shape.sign_below(0).unwrap_or(Sign::Plus);
+        let w = &system.increment_sum;
+        let gravity = system.loading.ordinary();
+        let [first, second] = signs(system.shape);
+        let of_first = system.load_increments(&gravity, first).map(numerator);
+        let of_second = if gravity.is_vertical() {
+            of_first.clone()
+        } else {
+            system.load_increments(&gravity, second).map(numerator)
+        };
+        // The increments of a load balance it, so their sum is its vertical part.
+        let gravity = Vector {
+            z: formula::weight(&of_first),
+            ..horizontal(gravity, w).map(numerator)
+        };
         let mut lines = Self {
             shape: system.shape,
-            ordinary: [first, first.opposite()].map(|sign| system.ordinary(sign).map(numerator)),
-            gravity: vector(system.loading.ordinary(), &w).map(numerator),
+            ordinary: [of_first, of_second],
+            gravity,
             extras: BTreeMap::new(),
             extra_loads: BTreeMap::new(),
             scale,
@@ -96,8 +129,8 @@ impl<'p, T: Algebra> Lines<'p, T> {
             lines: own,
         } in system.extras()
         {
-            let load = vector(load, &w).map(numerator);
-            lines.add(site, own.map(numerator), &load);
+            let load = vector(load, w).map(numerator);
+            lines.add(site, own.map(numerator), load);
         }
         lines
     }
@@ -107,7 +140,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         let (s, w) = Self::constants(system);
         let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
         let own = system.load_increments_of(&load, &s, sign);
-        self.add(site, own, &vector(load, &w));
+        self.add(site, own, vector(load, &w));
     }
 
     /// Adds to the tilt of gravity, in a scalar that is its own numerator.
@@ -123,11 +156,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
             }
         };
         let ordinary = leaning(system.loading.ordinary_weight());
-        let first = self.shape.sign_below(0).unwrap_or(Sign::Plus);
-        for (sign, lines) in [first, first.opposite()]
-            .into_iter()
-            .zip(&mut self.ordinary)
-        {
+        for (sign, lines) in signs(self.shape).into_iter().zip(&mut self.ordinary) {
             let own = system.load_increments_of(&ordinary, &s, sign);
             *lines = add(lines.clone(), &own);
         }
@@ -139,24 +168,26 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// Returns s and W, in a scalar that is its own numerator.
     fn constants(system: &System<'_>) -> (T::Numerator, T::Numerator) {
-        let constants = [system.sin_phi.clone(), formula::weight(&system.increments)];
+        let constants = [system.sin_phi.clone(), system.increment_sum.clone()];
         let ([s, w], _) = T::numerators(&constants);
         (s, w)
     }
 
     /// Adds to the forces of a sphere, all over the denominator before any sign change: `own` on its three lines, and
     /// the load in mg/W that they balance.
-    fn add(&mut self, site: Site, own: [T::Numerator; 3], load: &Vector<T::Numerator>) {
+    fn add(&mut self, site: Site, own: [T::Numerator; 3], load: Vector<T::Numerator>) {
         let run_below = self.shape.stretch_to(site.k + 1);
         if let Some(run) = run_below.filter(|run| site.k < run.to) {
             for (direction, own) in Direction::ALL.into_iter().zip(own) {
                 let place = (Line::through(site, direction, run), site.k);
-                let sum = self.extras.entry(place).or_insert_with(T::Numerator::zero);
-                *sum = transmitted(sum.clone(), &own);
+                let sum = self.extras.entry(place);
+                sum.and_modify(|sum| *sum = transmitted(sum.clone(), &own))
+                    .or_insert(own);
             }
         }
-        let sum = self.extra_loads.entry(site).or_insert_with(Vector::zero);
-        *sum = sum.clone() + load;
+        let sum = self.extra_loads.entry(site);
+        sum.and_modify(|sum| *sum = sum.clone() + &load)
+            .or_insert(load);
     }
 
     /// Returns the denominator of forces after `changes` sign changes.

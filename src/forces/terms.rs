@@ -31,7 +31,8 @@ pub(super) struct Terms<'p, T: Algebra> {
 
 impl<'p, T: Algebra> Terms<'p, T> {
     pub(super) fn new(system: System<'p>) -> Self {
-        let ([increment_sum], sum_scale) = T::numerators(&[formula::weight(&system.increments)]);
+        let ([increment_sum], sum_scale) =
+            T::numerators(core::array::from_ref(&system.increment_sum));
         let directions = system.directions.clone().map(Vector::into_array);
         let components = array::from_fn::<_, 9, _>(|n| directions[n / 3][n % 3].clone());
         let (components, direction_scale) = T::numerators(&components);

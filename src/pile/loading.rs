@@ -122,9 +122,18 @@ impl Loading {
         }
     }
 
+    /// Returns the force of gravity on a weight.
+    fn gravity_on(&self, weight: BigRational) -> Load {
+        if self.tilt.iter().all(Zero::is_zero) {
+            weight.into()
+        } else {
+            Load::leaning(weight, &self.tilt)
+        }
+    }
+
     /// Returns the force of gravity on an ordinary sphere.
     pub(crate) fn ordinary(&self) -> Load {
-        Load::leaning(self.ordinary_weight(), &self.tilt)
+        self.gravity_on(self.ordinary_weight())
     }
 
     /// Returns the weight of a sphere.
@@ -146,7 +155,7 @@ impl Loading {
 
     /// Returns the sum of gravity and load on a sphere.
     pub(crate) fn total(&self, site: Site) -> Load {
-        Load::leaning(self.weight(site), &self.tilt) + &self.load(site)
+        self.gravity_on(self.weight(site)) + &self.load(site)
     }
 
     /// Returns the spheres whose weight was set, in their order, with their weights.
@@ -177,11 +186,11 @@ impl Loading {
         let others = self.weights.keys();
         let others = others.filter(|site| !self.loads.contains_key(site));
         let extra = |site: &Site| {
-            let weight = match self.special(*site) {
-                Some(weight) => weight - self.ordinary_weight(),
-                None => BigRational::zero(),
+            let load = self.load(*site);
+            let extra = match self.special(*site) {
+                Some(weight) => self.gravity_on(weight - self.ordinary_weight()) + &load,
+                None => load,
             };
-            let extra = Load::leaning(weight, &self.tilt) + &self.load(*site);
             (*site, extra)
         };
         let extras = loaded.chain(others).map(extra);

@@ -22,6 +22,8 @@ pub(crate) struct System<'p> {
     pub(crate) sin_phi: &'p BigRational,
     /// The increments of a sphere of weight mg under vertical gravity.
     pub(crate) increments: [BigRational; 3],
+    /// W, their sum.
+    pub(crate) increment_sum: BigRational,
     /// The directions under a + step.
     pub(crate) directions: [Vector<BigRational>; 3],
     pub(crate) loading: Cow<'p, Loading>,
@@ -29,7 +31,7 @@ pub(crate) struct System<'p> {
     pub(crate) has_scalar_loads: bool,
 }
 
-/// The force on a sphere in addition to gravity on an ordinary sphere.
+/// The force on a sphere, less gravity on an ordinary one.
 pub(crate) struct Extra {
     pub(crate) site: Site,
     pub(crate) load: Load,
@@ -40,10 +42,14 @@ pub(crate) struct Extra {
 impl System<'_> {
     /// Returns what a sphere with a load adds to its lines above a step of the given sign.
     pub(crate) fn load_increments(&self, load: &Load, sign: Sign) -> [BigRational; 3] {
+        if load.is_vertical() {
+            let own = |w| formula::force(load.down.clone(), w);
+            return self.increments.each_ref().map(own);
+        }
         self.load_increments_of(load, self.sin_phi, sign)
     }
 
-    /// Returns the same in the ring of the load, which contains `s`, the value of sin φ.
+    /// Returns what a sphere adds to its lines, in the ring of its load, which contains `s`, the value of sin φ.
     pub(crate) fn load_increments_of<N: Ring>(&self, load: &Load<N>, s: &N, sign: Sign) -> [N; 3] {
         match self.shape.dimension() {
             Dimension::Two => formula::disc_load_increments(load, sign),
@@ -56,7 +62,7 @@ impl System<'_> {
         self.load_increments(&self.loading.ordinary(), sign)
     }
 
-    /// Returns the forces on spheres in addition to gravity on ordinary ones, in any order.
+    /// Returns the spheres on which the force differs from gravity on an ordinary one, in any order.
     pub(crate) fn extras(&self) -> impl Iterator<Item = Extra> {
         let pushes = self.loading.pushes();
         let mut loads: BTreeMap<Site, Load> = self.loading.extras().collect();
@@ -77,25 +83,16 @@ impl System<'_> {
         })
     }
 
-    /// Returns the common denominator D of the increments of all spheres and of the horizontal components of all loads
-    /// times W.
+    /// Returns a common denominator D of the increments of all spheres and of all loads times W. It is the product of
+    /// the denominator of the increments 1, 1, 2s and that of all loads, tilts and forces of horizontal contacts.
     pub(crate) fn denominator(&self) -> BigInt {
-        let w = formula::weight(&self.increments);
-        let horizontal =
-            |load: &Load| [&load.x, &load.y].map(|part| formula::force(part.clone(), &w));
-        let ordinary = horizontal(&self.loading.ordinary());
-        let signs = [Sign::Plus, Sign::Minus].map(|sign| self.ordinary(sign));
-        let own = common_denominator(
-            self.increments
-                .iter()
-                .chain(&ordinary)
-                .chain(signs.iter().flatten()),
-        );
-        self.extras().fold(own, |common, extra| {
-            let parts = horizontal(&extra.load);
-            let denominators = extra.lines.iter().chain(&parts).map(BigRational::denom);
-            denominators.fold(common, common_multiple)
-        })
+        let horizontal = self.loading.horizontal().map(|(_, force)| force);
+        let given = common_denominator(self.loading.tilt().iter().chain(horizontal));
+        let given = self.loading.extras().fold(given, |common, (_, load)| {
+            let denominators = [&load.down, &load.x, &load.y].map(BigRational::denom);
+            denominators.into_iter().fold(common, common_multiple)
+        });
+        common_denominator(&self.increments) * given
     }
 
     /// Returns two magnitudes, times the common denominator. The first is the largest increment of an ordinary sphere.
