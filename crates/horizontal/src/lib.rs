@@ -98,7 +98,7 @@ pub use base::{BaseBounds, base_bounds};
 pub use bounds::{NormalBound, NormalBounds, bounds};
 pub use elastic::{ElasticState, elastic};
 pub use error::Error;
-pub use stability::stability;
+pub use stability::{margin, stability};
 pub use stand::equilibrium;
 
 const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();

@@ -1,9 +1,10 @@
 //! The tilts of gravity that a pile bears at a = R, with horizontal contacts.
 
 use cannonpile::Pile;
-use cannonpile::lattice::Dimension;
+use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scalar::Ring;
-use cannonpile::stability::{Affine, Stability, bearable};
+use cannonpile::shape::Anchor;
+use cannonpile::stability::{Affine, Margin, Stability, bearable};
 use num_rational::BigRational;
 
 use crate::certificate::{Certificate, Claim};
@@ -52,4 +53,32 @@ pub fn stability(pile: &Pile) -> Result<Stability<Certificate>, Error> {
         let force = Affine::through([work([0, 0])?, work([1, 0])?, work([0, along_y])?]);
         Ok(Some((force, certificate)))
     })
+}
+
+/// Returns the least tilt at which a pile becomes unstable at a = R, as [`stability`] does.
+///
+/// A pile under one sphere is cut off below its last sign change, like in [`Pile::margin`], and the certificate is for the
+/// upper part. The top sphere has no horizontal contacts, so the margin is at most ½, and up to this tilt no further layer
+/// changes it.
+///
+/// # Errors
+/// As for [`stability`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::{Pile, ratio};
+/// use cannonpile_horizontal::margin;
+///
+/// let pile = Pile::triangular(10_i128.pow(30))?;
+/// assert_eq!(margin(&pile)?.unwrap().squared, ratio!(1/4));
+/// # Ok::<(), cannonpile_horizontal::Error>(())
+/// ```
+pub fn margin(pile: &Pile) -> Result<Option<Margin<Certificate>>, Error> {
+    let one_sphere = pile.shape().anchor() == Anchor::Top(Region::SITE);
+    let short = if one_sphere {
+        pile.above_last_run()?
+    } else {
+        None
+    };
+    Ok(stability(short.as_ref().unwrap_or(pile))?.margin)
 }

@@ -2,9 +2,12 @@
 
 use cannonpile::Pile;
 use cannonpile::geometry::LayerGap;
+use cannonpile::lattice::{Direction, Site};
+use cannonpile::stability::Tilt;
 use cannonpile_dem::angle;
 use cannonpile_dem::scene::Scene;
 use clap::Args;
+use num_rational::BigRational;
 
 use super::of_weight;
 use crate::args::{Number, Output, SceneOptions};
@@ -23,6 +26,9 @@ Columns:
   k, i, j, direction  a contact that opens at this tilt
 Columns of --polygon, a row for each corner, counterclockwise:
   x, y                tilt, in tanθ and √3·tanθ (2cosφ·tanθ with --sin-phi)
+
+At a = R horizontal contacts may support the pile, and the margin is the least tilt beyond which it is unstable. A contact is
+then named only if it opens at the same tilt without them.
 
 The margin is 0 if a contact of the pile has no force and opens at the slightest tilt. An unstable pile has no margin, and
 the exit status is 1. A straight pile has the margin 1/2 for every number of layers.
@@ -54,45 +60,100 @@ impl Stability {
         // The default spacing may be invalid for this pile.
         let touching = pile.clearance().check(&scene.spacing()?);
         let progress = Progress::begin("searching for the contacts that open first");
-        let stability = pile.stability().map_err(|error| of_weight(&pile, error))?;
-        let (least, corners) = (stability.margin, stability.corners);
-        let angle = match &least {
-            Some(margin) if !self.polygon => angle_of(&scene, &pile, &margin.squared)?,
-            _ => None,
+        let has_horizontal_contacts = touching.as_deref() == Ok(&[LayerGap { layers: 0 }]);
+        let answer = if has_horizontal_contacts {
+            self.with_horizontal_contacts(&pile)
+        } else {
+            self.of_sloping_contacts(&pile)
         };
-        let table = match &least {
-            _ if self.polygon => Some(tables::polygon(&pile, corners)),
-            Some(margin) => Some(tables::margin(&pile, margin, angle)),
-            None => None,
+        let Answer {
+            squared,
+            opens,
+            corners,
+        } = answer.map_err(|error| of_weight(&pile, error))?;
+        let stands = squared.is_some();
+        let table = if self.polygon {
+            Some(tables::polygon(&pile, corners))
+        } else if let Some(squared) = squared {
+            let angle = angle_of(&scene, &pile, &squared)?;
+            Some(tables::margin(&pile, squared, angle, opens))
+        } else {
+            None
         };
         if let Some(table) = table {
             self.output.write_table(table, self.number, &progress)?;
         }
         drop(progress);
-        if least.is_none() {
+        if !stands {
             print_message(&instability(&pile, touching.as_deref().unwrap_or_default()));
             return Ok(false);
         }
         match touching {
             Err(error) if !self.polygon => print_message(&format!("note: no angle: {error}")),
-            Ok(touching) if !touching.is_empty() => print_message(SLOPING_ONLY),
+            Ok(_) if has_horizontal_contacts && !self.polygon && opens.is_none() => {
+                print_message(NO_CONTACT);
+            }
+            Ok(touching) if !touching.is_empty() && !has_horizontal_contacts => {
+                print_message(SLOPING_ONLY);
+            }
             _ => {}
         }
         Ok(true)
     }
+
+    fn of_sloping_contacts(&self, pile: &Pile) -> Result<Answer, Error> {
+        let (margin, corners) = if self.polygon {
+            let stability = pile.stability()?;
+            (stability.margin, stability.corners)
+        } else {
+            (pile.margin()?, Vec::new())
+        };
+        let opens = margin.as_ref().map(|margin| margin.opens);
+        let squared = margin.map(|margin| margin.squared);
+        Ok(Answer {
+            squared,
+            opens,
+            corners,
+        })
+    }
+
+    fn with_horizontal_contacts(&self, pile: &Pile) -> Result<Answer, Error> {
+        if self.polygon {
+            let stability = cannonpile_horizontal::stability(pile)?;
+            return Ok(Answer {
+                squared: stability.margin.map(|margin| margin.squared),
+                opens: None,
+                corners: stability.corners,
+            });
+        }
+        let squared = cannonpile_horizontal::margin(pile)?.map(|margin| margin.squared);
+        let alone = pile
+            .margin()?
+            .filter(|alone| Some(&alone.squared) == squared.as_ref());
+        Ok(Answer {
+            squared,
+            opens: alone.map(|margin| margin.opens),
+            corners: Vec::new(),
+        })
+    }
 }
 
-/// The answer includes no forces of further contacts, such as horizontal ones. These forces may be zero, so they never
-/// reduce the margin.
-const SLOPING_ONLY: &str = "note: further spheres touch at this spacing (horizontal contacts at a = R): this answer is for the sloping contacts \
-     alone, and the pile may bear more";
+/// The square of the margin, unless the pile is unstable, the contact that opens there, and the corners of the polygon.
+struct Answer {
+    squared: Option<BigRational>,
+    opens: Option<(Site, Direction)>,
+    corners: Vec<Tilt>,
+}
+
+/// The answer includes no forces of spheres two layers apart. These forces may be zero, so they never reduce the margin.
+const SLOPING_ONLY: &str = "note: spheres two layers apart touch at this spacing: this answer is without their contacts, and the pile may bear more";
+
+/// At a = R the forces are not unique, and a pile may become unstable although each contact alone could stay closed.
+const NO_CONTACT: &str = "note: no single contact opens at this tilt: beyond it no forces with horizontal contacts are in equilibrium (for a proof, \
+     see summary --certificate with a greater --tilt)";
 
 /// Returns the angle of the margin, or `None` if the default spacing does not fit the pile.
-fn angle_of(
-    scene: &Scene,
-    pile: &Pile,
-    squared: &num_rational::BigRational,
-) -> Result<Option<f64>, Error> {
+fn angle_of(scene: &Scene, pile: &Pile, squared: &BigRational) -> Result<Option<f64>, Error> {
     match scene.packing(pile) {
         Ok(packing) => Ok(Some(angle::of_tilt(&packing, squared)?)),
         Err(error) if scene.spacing.is_some() => Err(error.into()),

@@ -1,29 +1,38 @@
 //! The tables of the stability under a tilt of gravity.
 
 use cannonpile::Pile;
-use cannonpile::lattice::Dimension;
-use cannonpile::stability::{Margin, Tilt};
+use cannonpile::lattice::{Dimension, Direction, Site};
+use cannonpile::stability::Tilt;
 use cannonpile_dem::table::{Cell, Column, Table, indices, places};
+use num_rational::BigRational;
 
 /// Returns one row: the squared margin, its angle in degrees, and the contact that opens there.
 ///
 /// The columns are `margin_squared, angle, k, i, j, direction`; discs have no `j`. Without a spacing the angle is empty.
-pub(crate) fn margin(pile: &Pile, margin: &Margin, angle: Option<f64>) -> Table<'static> {
-    let (site, direction) = margin.opens;
+pub(crate) fn margin(
+    pile: &Pile,
+    squared: BigRational,
+    angle: Option<f64>,
+    opens: Option<(Site, Direction)>,
+) -> Table<'static> {
     let angle_column = Column {
         unit: "°",
         ..Column::plain("angle")
     };
     let mut entries = vec![
-        (
-            Column::measured("margin_squared", ""),
-            margin.squared.clone().into(),
-        ),
+        (Column::measured("margin_squared", ""), squared.into()),
         (angle_column, angle.map_or(Cell::Missing, Cell::from)),
     ];
-    let cells = std::iter::once(site.k.into()).chain(places(pile, site));
-    entries.extend(indices(pile, &["k"]).into_iter().zip(cells));
-    entries.push((Column::plain("direction"), direction.name().into()));
+    let columns = indices(pile, &["k"]);
+    let cells = match opens {
+        Some((site, _)) => std::iter::once(site.k.into())
+            .chain(places(pile, site))
+            .collect(),
+        None => vec![Cell::Missing; columns.len()],
+    };
+    entries.extend(columns.into_iter().zip(cells));
+    let direction = opens.map_or(Cell::Missing, |(_, direction)| direction.name().into());
+    entries.push((Column::plain("direction"), direction));
     Table::record(entries)
 }
 
@@ -53,11 +62,12 @@ mod tests {
     #[test]
     fn the_margin_of_a_straight_pile() {
         let pile = Pile::triangular(4).unwrap();
-        let stability = pile.stability().unwrap();
-        let least = stability.margin.unwrap();
-        let csv = csv(margin(&pile, &least, Some(19.5)));
+        let least = pile.margin().unwrap().unwrap();
         let head = "margin_squared,angle,k,i,j,direction\n1/4,19.5,";
-        assert!(csv.starts_with(head), "{csv}");
+        for (opens, contact) in [(Some(least.opens), "0,0,0,alpha\n"), (None, ",,,\n")] {
+            let csv = csv(margin(&pile, least.squared.clone(), Some(19.5), opens));
+            assert_eq!(csv, format!("{head}{contact}"));
+        }
     }
 
     #[test]
