@@ -158,8 +158,26 @@ impl Pile {
         Ok(Self::new(Shape::on(base, stacking)?, half()))
     }
 
-    /// Returns the pile without weights, loads and forces of horizontal contacts.
-    pub(crate) fn bare(&self) -> Self {
+    /// Returns the pile without weights, loads, tilt and forces of horizontal contacts. Its forces under one load are the
+    /// response to this load.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Load, Pile, ratio};
+    /// use num_rational::BigRational;
+    ///
+    /// let bare = Pile::triangular(10)?.bare();
+    /// // The forces below the apex per unit of a load downwards, along x and along y.
+    /// let [down, x, y] = Load::units().map(|load| {
+    ///     let forces = bare.forces::<BigRational>().with_load(Site::APEX, load)?;
+    ///     forces.contact(Site::APEX, Direction::Alpha)
+    /// });
+    /// assert_eq!([down?, x?, y?], [ratio!(1), ratio!(-1), ratio!(-3)]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn bare(&self) -> Self {
         Self::new(self.shape.clone(), self.sin_phi.clone()).weightless()
     }
 

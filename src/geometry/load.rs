@@ -62,6 +62,29 @@ impl<T: Ring> Load<T> {
         T::zero().into()
     }
 
+    /// Returns the loads of 1 mg downwards, 1 mg·tanθ along x, and 1 mg·tanθ·2cosφ along y.
+    ///
+    /// # Examples
+    /// See [`Pile::bare`](crate::Pile::bare).
+    #[must_use]
+    pub fn units() -> [Self; 3] {
+        let zero = Self::zero();
+        [
+            Self {
+                down: T::one(),
+                ..zero.clone()
+            },
+            Self {
+                x: T::one(),
+                ..zero.clone()
+            },
+            Self {
+                y: T::one(),
+                ..zero
+            },
+        ]
+    }
+
     /// Returns the weight of a sphere under gravity that leans by `tilt`: (w, w·x, w·y).
     ///
     /// # Examples
@@ -79,7 +102,7 @@ impl<T: Ring> Load<T> {
         }
     }
 
-    /// Returns whether there is no force.
+    /// Returns whether all components are zero.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.down.is_zero() && self.is_vertical()

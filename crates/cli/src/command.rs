@@ -15,6 +15,7 @@ pub(crate) mod plot;
 pub(crate) mod prove;
 pub(crate) mod response;
 pub(crate) mod scene;
+pub(crate) mod sensitivity;
 pub(crate) mod spheres;
 pub(crate) mod stability;
 pub(crate) mod summary;

@@ -20,7 +20,7 @@ use args::SceneOptions;
 use command::forces::{Base, Contacts};
 use command::{
     bounds, cases, census, check, completions, ensemble, explain, export, man, mean, plot, prove,
-    response, scene, spheres, stability, summary, verify,
+    response, scene, sensitivity, spheres, stability, summary, verify,
 };
 use culprit::Culprit;
 use error::Error;
@@ -59,6 +59,8 @@ enum Command {
     Stability(stability::Stability),
     /// List the force of each contact per unit of a load on one sphere
     Response(response::Response),
+    /// List the change of each contact force if one sphere is larger, or the deviations of all radii that the pile bears
+    Sensitivity(sensitivity::Sensitivity),
     /// Bound the base normal forces at a = R, with horizontal contacts
     Bounds(bounds::Bounds),
     /// List the position, radius and mass of each sphere, in SI units
@@ -103,6 +105,7 @@ impl Command {
             Self::Contacts(command) => command.run(),
             Self::Stability(command) => command.run(),
             Self::Response(command) => command.run(),
+            Self::Sensitivity(command) => command.run(),
             Self::Bounds(command) => command.run(),
             Self::Spheres(command) => command.run(),
             Self::Census(command) => command.run(),
@@ -130,6 +133,7 @@ impl Command {
             Self::Contacts(command) => &command.scene,
             Self::Stability(command) => &command.scene,
             Self::Response(command) => &command.scene,
+            Self::Sensitivity(command) => &command.scene,
             Self::Bounds(command) => &command.scene,
             Self::Ensemble(command) => &command.scene,
             Self::Spheres(command) => &command.scene,

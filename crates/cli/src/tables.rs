@@ -1,4 +1,4 @@
-//! Tables of the command line: bounds, stability, responses, the census, random stackings, theorems, cases, plans.
+//! Tables of the command line: bounds, stability, responses, sensitivity, the census, random stackings, theorems, cases, plans.
 
 mod bounds;
 mod cases;
@@ -7,6 +7,7 @@ mod disorder;
 mod ensemble;
 mod explain;
 mod response;
+mod sensitivity;
 mod stability;
 mod theorems;
 
@@ -17,6 +18,7 @@ pub(crate) use disorder::{by_faults, mean, mean_of_polynomials};
 pub(crate) use ensemble::{ensemble, ensemble_summary, histogram};
 pub(crate) use explain::Explanation;
 pub(crate) use response::response;
+pub(crate) use sensitivity::{sensitivity, spread};
 pub(crate) use stability::{margin, polygon};
 pub(crate) use theorems::{in_coq, theorems};
 

@@ -1,6 +1,5 @@
 //! `response`: the forces that a unit load on one sphere causes.
 
-use cannonpile_dem::scene::Scene;
 use clap::Args;
 
 use crate::args::{Number, Output, SceneOptions, parse_site};
@@ -42,19 +41,12 @@ pub(crate) struct Response {
 
 impl Response {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
+        let (_, pile) = self.scene.read()?;
         let Some(site) = parse_site(Some(&self.at), &pile)? else {
             return Ok(true);
         };
         self.output.format()?;
-        // The response is that of a pile without weight and other loads.
-        let pile = Scene {
-            loads: Vec::new(),
-            tilt: <[_; 2]>::default(),
-            weightless: true,
-            ..scene
-        }
-        .pile()?;
+        let pile = pile.bare();
         let table = tables::response(&pile, site)?;
         let rows = table.row_count().and_then(|rows| rows.try_into().ok());
         let progress = Progress::of_rows("the response to a load", rows);

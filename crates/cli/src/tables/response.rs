@@ -5,7 +5,6 @@ use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Forces, Load, Pile};
 use cannonpile_dem::table::{Cell, Column, Row, Table, indices, places, refuse_beyond};
 use num_rational::BigRational;
-use num_traits::{One, Zero};
 
 use crate::Error;
 
@@ -15,7 +14,7 @@ use crate::Error;
 /// its direction, in multiples of f₀. The rows of a bottom sphere have the directions `normal`, `shear_x` and `shear_y`, in
 /// multiples of mg, mg·tanθ and 2cosφ·mg·tanθ. Discs have no `j`, `y` and `shear_y`.
 ///
-/// The weights and loads of `pile` must be zero, as they would add to all forces.
+/// `pile` must be [bare](Pile::bare), as weights and other loads would add to all forces.
 ///
 /// # Errors
 /// [`TooManyRows`](cannonpile::Error::TooManyRows); those of the computation of forces.
@@ -23,7 +22,7 @@ pub(crate) fn response(pile: &Pile, site: Site) -> Result<Table<'_>, Error> {
     let axes = pile.dimension().directions().len();
     let count = (pile.contact_count() + pile.base_sphere_count() * axes) as num_bigint::BigUint;
     refuse_beyond(&count, "use fewer layers, or a smaller top or base")?;
-    let responses = unit_loads()
+    let responses = Load::units()
         .into_iter()
         .take(axes)
         .map(|load| Ok(pile.forces().with_load(site, load)?));
@@ -35,24 +34,6 @@ pub(crate) fn response(pile: &Pile, site: Site) -> Result<Table<'_>, Error> {
     let of_contacts = contacts(pile, &responses)?;
     let rows = of_contacts.chain(floor(pile, &responses)?);
     Ok(Table::of_rows(columns, "rows", rows).bounded(count, Vec::new()))
-}
-
-/// Returns the unit loads: down, along x and along y.
-fn unit_loads() -> [Load; 3] {
-    let [one, zero] = [BigRational::one, BigRational::zero].map(|part| move || part());
-    [
-        Load::from(one()),
-        Load {
-            down: zero(),
-            x: one(),
-            y: zero(),
-        },
-        Load {
-            down: zero(),
-            x: zero(),
-            y: one(),
-        },
-    ]
 }
 
 fn contacts<'p>(
@@ -130,7 +111,7 @@ mod tests {
     /// On its three supports, a sphere has the increments of a load as contact forces.
     #[test]
     fn the_response_of_one_sphere() {
-        let pile = Pile::triangular(2).unwrap().weightless();
+        let pile = Pile::triangular(2).unwrap().bare();
         let csv = csv(response(&pile, Site::APEX).unwrap());
         let head = "k,i,j,direction,down,x,y\n\
                     0,0,0,alpha,1,-1,-3\n0,0,0,beta,1,-1,3\n0,0,0,gamma,1,2,0\n\
@@ -141,13 +122,13 @@ mod tests {
 
     #[test]
     fn the_response_of_discs_and_of_a_bottom_sphere() {
-        let pile = Pile::discs(2).unwrap().weightless();
+        let pile = Pile::discs(2).unwrap().bare();
         let discs = csv(response(&pile, Site::APEX).unwrap());
         assert!(
             discs.starts_with("k,i,direction,down,x\n0,0,alpha,1,-1\n0,0,beta,1,1\n"),
             "{discs}"
         );
-        let pile = Pile::triangular(2).unwrap().weightless();
+        let pile = Pile::triangular(2).unwrap().bare();
         let bottom = csv(response(&pile, Site { i: 0, j: 1, k: 1 }).unwrap());
         let end = "1,0,1,normal,1,0,0\n1,0,1,shear_x,0,1,0\n1,0,1,shear_y,0,0,1\n";
         assert!(

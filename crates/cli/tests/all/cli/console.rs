@@ -55,8 +55,9 @@ console! {
     prove: 11;
     response: 9;
     scene: 18;
+    sensitivity: 13;
     spheres: 15;
-    stability: 26;
+    stability: 28;
     summary: 36;
     tables: 9;
     verify: 14;

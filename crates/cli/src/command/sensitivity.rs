@@ -1,0 +1,78 @@
+//! `sensitivity`: the changes of the contact forces if spheres are unequal.
+
+use cannonpile_dem::Key;
+use clap::Args;
+
+use crate::args::{Number, Output, SceneOptions, parse_site};
+use crate::output::{Failure, InputError, print_message};
+use crate::progress::Progress;
+use crate::tables;
+
+const HELP: &str = "\
+Real spheres differ in size. Let the radius of the sphere at --at be R(1 + δ) for a small δ. The spheres above it move, the
+directions of contacts turn, and every contact force changes by δ times its change. All weights and loads stay as they are,
+and so do the centres of the bottom spheres.
+
+Columns of --at, a row for each contact:
+  k, i, j, direction  upper sphere and direction of the contact
+  force               force among equal spheres, in mg/(3cosθ)
+  change              change of the force per relative growth δ, exact to first order in δ, in the same unit
+Columns of --spread, one row:
+  k, i, j, direction  contact that opens first if all radii deviate independently with the relative standard deviation r
+  force               force among equal spheres
+  force_deviation     standard deviation of this force, divided by r
+  radius_deviation    r at which this force is three standard deviations above zero: force/(3·force_deviation)
+
+Real spheres that vary more than radius_deviation do not stand like the pile of equal ones: contacts open. Forces on contacts
+of spheres that touch at --spacing in addition, as neighbours do at a = R, are not included.
+
+Examples:
+  cannonpile sensitivity --layers 4 --at 3,0,0
+  cannonpile sensitivity --layers 6 --spread --number f64";
+
+#[derive(Args)]
+#[command(after_help = HELP)]
+#[group(id = "question", args = ["at", "spread"], required = true, multiple = false)]
+pub(crate) struct Sensitivity {
+    #[command(flatten)]
+    pub(crate) scene: SceneOptions,
+    /// Larger sphere: K,I,J with k from 0 at the top, or I,J on the base (discs: K,I or I)
+    #[arg(long, value_name = "K,I,J", allow_hyphen_values = true)]
+    at: Option<String>,
+    /// Find the contact that opens first if all radii deviate, and how large the deviations may be
+    #[arg(long)]
+    spread: bool,
+    /// Format of numbers
+    #[arg(long, value_enum, default_value = "exact", help_heading = "Output")]
+    number: Number,
+    #[command(flatten)]
+    output: Output,
+}
+
+const FURTHER_CONTACTS: &str = "note: further spheres touch at this spacing, and a larger sphere may push them apart: this answer is without their contacts";
+
+impl Sensitivity {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        let site = parse_site(self.at.as_deref(), &pile)?;
+        self.output.format()?;
+        let packing = scene.packing(&pile)?;
+        let progress = Progress::begin("computing the changes of the forces");
+        let table = match site {
+            Some(site) => tables::sensitivity(&pile, packing.sensitivity(site)?),
+            None => {
+                let spread = packing.spread().map_err(|error| match pile.layers() {
+                    1 => InputError::of(Key::Layers, error),
+                    _ => error.into(),
+                })?;
+                tables::spread(&pile, spread)
+            }
+        };
+        self.output.write_table(table, self.number, &progress)?;
+        drop(progress);
+        if !packing.touching().is_empty() {
+            print_message(FURTHER_CONTACTS);
+        }
+        Ok(true)
+    }
+}
