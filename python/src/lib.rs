@@ -32,7 +32,9 @@ mod _cannonpile {
     #[pymodule_export]
     use crate::mean::mean;
     #[pymodule_export]
-    use crate::pile::answers::{bounds, force, on_floor, site, sphere_id, stability, weakest};
+    use crate::pile::answers::{
+        bounds, force, on_floor, response, sensitivity, site, sphere_id, spread, stability, weakest,
+    };
     #[pymodule_export]
     use crate::pile::arrays::{
         base, contact_ids, contact_points, forces, multiples, positions, sites, vectors,

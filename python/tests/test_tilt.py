@@ -52,6 +52,55 @@ def test_stability():
     assert Pile(6, "hcp").stability().margin_squared is None
 
 
+def test_horizontal_contacts_enlarge_the_polygon():
+    stability = Pile(6, "hcp", spacing=1).stability()
+    assert stability.margin_squared == Fraction(25, 181804)
+    assert stability.opens is None
+    assert len(stability.corners) == 6
+    assert all(Pile(6, "hcp", spacing=1, tilt=(x, y)).stands for x, y in stability.corners)
+    x, y = stability.corners[0]
+    assert not Pile(6, "hcp", spacing=1, tilt=(x * Fraction(101, 100), y * Fraction(101, 100))).stands
+
+
+def test_the_response_is_the_difference_that_a_load_makes():
+    site = (1, 0, 0)
+    pile = Pile(4, "+-+", tilt=TILT)
+    response = pile.response(*site)
+    load = tuple(map(Fraction, ("1/2", "-1/10", "1/5")))
+    loaded = Pile(4, "+-+", tilt=TILT, loads={site: load})
+    contacts = [force @ np.array(load) for force in np.array(response.contacts)]
+    before, after = pile.multiples(), loaded.multiples()
+    for n, change in enumerate(contacts):
+        difference = Fraction(after.numerators[n].item(), after.denominator)
+        assert difference - Fraction(before.numerators[n].item(), before.denominator) == change
+    for (i, j), forces in zip(((0, -1), (1, -1)), response.base, strict=False):
+        normal = sum(part * force.normal for part, force in zip(load, forces, strict=True))
+        assert loaded.on_floor(i, j).normal - pile.on_floor(i, j).normal == normal
+    discs = Pile(2, dimension=2).response(0, 0)
+    assert discs.contacts == [(1, -1), (1, 1)]
+    assert [len(forces) for forces in discs.base] == [2, 2]
+
+
+def test_sensitivity_and_spread():
+    pile = Pile(3)
+    changes = [pile.sensitivity(*map(int, pile.site(n + 1))) for n in range(pile.sphere_count)]
+    variances = [sum(change[n] ** 2 for change in changes) for n in range(pile.contact_count)]
+    least, variance, bearable_squared = pile.spread()
+    assert variance in variances
+    assert bearable_squared == least.force**2 / (9 * variance)
+    assert bearable_squared == min(
+        Fraction(numerator.item()) ** 2 / (9 * variances[n])
+        for n, numerator in enumerate(pile.multiples().numerators)
+    )
+    assert Pile(2, weightless=True).spread().bearable_squared is None
+
+
+def test_a_sphere_that_does_not_exist_has_no_response():
+    for question in (Pile(4).response, Pile(4).sensitivity):
+        with pytest.raises(ValueError, match="no sphere"):
+            question(7, 0, 0)
+
+
 @pytest.mark.parametrize(
     ("error", "options"),
     [

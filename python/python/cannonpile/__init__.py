@@ -53,6 +53,8 @@ from ._records import (
     Known,
     MeanForce,
     Multiples,
+    Response,
+    Spread,
     Stability,
     Theorem,
 )
@@ -72,6 +74,8 @@ __all__ = [
     "Multiples",
     "Page",
     "Pile",
+    "Response",
+    "Spread",
     "Stability",
     "Theorem",
     "__version__",

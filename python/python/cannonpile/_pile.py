@@ -11,7 +11,7 @@ from . import _exact, _measured
 from ._comparison import Comparison, _tolerance
 from ._figure import Figure
 from ._page import Page
-from ._records import Bounds, Contact, FloorForce, Multiples, Stability
+from ._records import Bounds, Contact, FloorForce, Multiples, Response, Spread, Stability
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -716,13 +716,14 @@ class Pile:
         return None if contact is None else Contact(*contact)
 
     def stability(self) -> Stability:
-        """Return the tilts of gravity that the pile bears, at spacings without contacts in a layer.
+        """Return the tilts of gravity that the pile bears, at a = R (``spacing=1``) with horizontal contacts.
 
         Returns
         -------
         Stability
             ``margin_squared``, the exact square of the least tan(tilt)/tan(theta) at which a contact opens, or None if the pile
-            is unstable; ``opens``, that contact and its force; ``corners``, the corners (x, y) of the polygon of tilts.
+            is unstable; ``opens``, that contact and its force, None at a = R, where forces are not unique; ``corners``, the
+            corners (x, y) of the polygon of tilts.
 
         Raises
         ------
@@ -737,9 +738,101 @@ class Pile:
         >>> Pile(6, "+-+++").stability().margin_squared
         Fraction(1, 43)
         """
-        margin, corners = native.stability(self._native)
-        squared, opens = margin if margin is not None else (None, None)
+        squared, opens, corners = native.stability(self._native)
         return Stability(squared, None if opens is None else Contact(*opens), [(x, y) for x, y in corners])
+
+    def response(self, k: int, i: int, j: int = 0) -> Response:
+        """Return all forces per unit of a load on one sphere, for a load downwards, along x and along y.
+
+        The weight of the spheres, and the loads and the tilt of this pile, have no effect.
+
+        Parameters
+        ----------
+        k, i, j : int
+            The loaded sphere.
+
+        Returns
+        -------
+        Response
+            ``contacts``, for each sloping contact the forces (down, x, y) in f0, in the order of ``contact_ids``; ``base``, for
+            each bottom sphere the forces on the floor (down, x, y). Discs have (down, x).
+
+        Raises
+        ------
+        ValueError
+            If the sphere does not exist.
+        MemoryError
+            If the pile is too large.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> [tuple(map(str, forces)) for forces in Pile(2).response(0, 0, 0).contacts]
+        [('1', '-1', '-3'), ('1', '-1', '3'), ('1', '2', '0')]
+        >>> Pile(2).response(0, 0, 0).base[0][0].normal
+        Fraction(1, 3)
+        """
+        units = native.response(self._native, k, i, j)
+        contacts = list(zip(*(contacts for contacts, _ in units), strict=True))
+        floor = ([FloorForce(*force) for force in base] for _, base in units)
+        return Response(contacts, list(zip(*floor, strict=True)))
+
+    def sensitivity(self, k: int, i: int, j: int = 0) -> list[Fraction]:
+        """Return the change of each contact force if one sphere is larger, per relative growth of its radius.
+
+        Weights, loads and the centres of the bottom spheres stay as they are.
+
+        Parameters
+        ----------
+        k, i, j : int
+            The larger sphere.
+
+        Returns
+        -------
+        list of Fraction
+            For each sloping contact the change in f0, exact to first order, in the order of ``contact_ids``.
+
+        Raises
+        ------
+        ValueError
+            If the sphere does not exist, or the spacing is impossible for this stacking.
+        MemoryError
+            If the pile is too large.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2, spacing="6/5").sensitivity(1, 0, 0)
+        [Fraction(-283, 234), Fraction(175, 468), Fraction(175, 468)]
+        """
+        return native.sensitivity(self._native, k, i, j)
+
+    def spread(self) -> Spread:
+        """Return the contact that opens first if all radii deviate independently, and the deviation that it bears.
+
+        Returns
+        -------
+        Spread
+            ``contact``, with its force; ``variance`` of this force, divided by the square of the relative standard deviation r
+            of the radii; ``bearable_squared``, r squared where the force is three standard deviations above zero, None if no
+            radius changes the force.
+
+        Raises
+        ------
+        ValueError
+            If the pile has one layer, or the spacing is impossible for this stacking.
+        MemoryError
+            If the pile is too large.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> spread = Pile(4, spacing="6/5").spread()
+        >>> spread.contact, f"{float(spread.bearable_squared) ** 0.5:.3f}"
+        (Contact(k=1, i=0, j=0, direction='beta', force=Fraction(1, 1)), '0.052')
+        """
+        contact, variance, bearable_squared = native.spread(self._native)
+        return Spread(Contact(*contact), variance, bearable_squared)
 
     def bounds(self, i: int, j: int = 0) -> Bounds:
         """Return bounds of the normal force of a bottom sphere at a = R, over all admissible horizontal forces.

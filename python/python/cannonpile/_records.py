@@ -91,6 +91,50 @@ class Stability(namedtuple("Stability", "margin_squared opens corners")):
     __slots__ = ()
 
 
+class Response(namedtuple("Response", "contacts base")):
+    """The forces per unit of a load on one sphere.
+
+    Attributes
+    ----------
+    contacts : list of tuple of Fraction
+        For each sloping contact the forces for a load of 1 mg downwards, 1 mg tan theta along x and 2 cos phi mg tan theta
+        along y, in f0.
+    base : list of tuple of FloorForce
+        For each bottom sphere the forces on the floor for the same loads.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> contacts, base = Pile(3).response(1, 0, 0)
+    >>> len(contacts), len(base)
+    (12, 6)
+    """
+
+    __slots__ = ()
+
+
+class Spread(namedtuple("Spread", "contact variance bearable_squared")):
+    """The contact that opens first if all radii deviate independently with the relative standard deviation r.
+
+    Attributes
+    ----------
+    contact : Contact
+        The contact and its force among equal spheres.
+    variance : Fraction
+        The variance of this force divided by r squared, in f0 squared.
+    bearable_squared : Fraction or None
+        r squared where the force is three standard deviations above zero. None if no radius changes the force.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> Pile(2, spacing="6/5").spread().contact.direction
+    'alpha'
+    """
+
+    __slots__ = ()
+
+
 class Bounds(namedtuple("Bounds", "least greatest proved")):
     """Bounds of the normal force of a bottom sphere at a = R, over all admissible horizontal forces.
 

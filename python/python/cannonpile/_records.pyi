@@ -27,6 +27,15 @@ class Stability(NamedTuple):
     opens: Contact | None
     corners: list[tuple[Fraction, Fraction]]
 
+class Response(NamedTuple):
+    contacts: list[tuple[Fraction, ...]]
+    base: list[tuple[FloorForce, ...]]
+
+class Spread(NamedTuple):
+    contact: Contact
+    variance: Fraction
+    bearable_squared: Fraction | None
+
 class Bounds(NamedTuple):
     least: Fraction
     greatest: Fraction

@@ -1,6 +1,9 @@
 //! Single exact forces.
 
-use cannonpile::lattice::{ContactKind, HorizontalContact, Site};
+use cannonpile::geometry::LayerGap;
+use cannonpile::lattice::{ContactKind, Direction, HorizontalContact, Site};
+use cannonpile::shape::Selection;
+use cannonpile::{Load, Spread};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -70,38 +73,109 @@ pub(crate) fn site(
     Ok(site.map(|Site { i, j, k }| [k.into(), i.into(), j.into()]))
 }
 
-/// The tilts that a pile bears: the square of the margin and the contact that opens there, unless the pile is unstable,
-/// and the corners of the polygon.
-type Stability = (Option<(BigRational, Weakest)>, Vec<[BigRational; 2]>);
+/// The tilts that a pile bears: the square of the margin unless the pile is unstable, the contact that opens there, and the
+/// corners of the polygon.
+type Stability = (Option<BigRational>, Option<Weakest>, Vec<[BigRational; 2]>);
 
-/// The tilts of gravity that the pile bears.
+/// The tilts of gravity that the pile bears, with horizontal contacts at a = R.
 #[pyfunction]
 pub(crate) fn stability(pile: &Pile, py: Python<'_>) -> PyResult<Stability> {
+    let touching = pile
+        .exact
+        .clearance()
+        .check(&pile.scene.spacing().map_err(raised)?);
+    if touching.as_deref() == Ok(&[LayerGap { layers: 0 }]) {
+        let exact = pile.exact.clone();
+        let stability = work_of_long_steps(py, move || cannonpile_horizontal::stability(&exact))?;
+        let squared = stability.margin.map(|margin| margin.squared);
+        return Ok((squared, None, stability.corners));
+    }
     let stability = work(py, || pile.exact.stability())?;
-    let margin = stability.margin.map(|margin| {
-        let (Site { i, j, k }, direction) = margin.opens;
-        let force = pile.exact.forces().contact(margin.opens.0, direction);
-        let force = force.map_err(|error| Raised::from(error).into_exception())?;
-        let contact = (k.into(), i.into(), j.into(), direction.name(), force);
-        Ok::<_, PyErr>((margin.squared, contact))
-    });
-    Ok((margin.transpose()?, stability.corners))
+    let Some(margin) = stability.margin else {
+        return Ok((None, None, stability.corners));
+    };
+    let (site, direction) = margin.opens;
+    let force = pile.exact.forces().contact(site, direction);
+    let contact = contact(site, direction, force.map_err(raised)?);
+    Ok((Some(margin.squared), Some(contact), stability.corners))
+}
+
+fn raised(error: impl Into<Raised>) -> PyErr {
+    error.into().into_exception()
+}
+
+fn contact(Site { i, j, k }: Site, direction: Direction, force: BigRational) -> Weakest {
+    (k.into(), i.into(), j.into(), direction.name(), force)
+}
+
+/// The forces of the sloping contacts, and the normal forces and shears of the bottom spheres.
+type Unit = (Vec<BigRational>, Vec<[BigRational; 3]>);
+
+/// The forces per unit of a load on one sphere: downwards, along x and along y.
+#[pyfunction]
+pub(crate) fn response(
+    pile: &Pile,
+    py: Python<'_>,
+    k: BigInt,
+    i: BigInt,
+    j: BigInt,
+) -> PyResult<Vec<Unit>> {
+    let site = input::site(&k, &i, &j)?;
+    work(py, || {
+        let bare = pile.exact.bare();
+        let axes = bare.dimension().directions().len();
+        let loads = Load::units().into_iter().take(axes);
+        let units = loads.map(|load| {
+            let forces = bare.forces::<BigRational>().with_load(site, load)?;
+            let contacts = forces.contacts(Selection::All)?;
+            let base = forces.base(Selection::Base)?;
+            let base =
+                base.map(|force| force.map(|force| [force.normal, force.shear_x, force.shear_y]));
+            let contacts = contacts.map(|contact| contact.map(|contact| contact.force));
+            Ok((
+                contacts.collect::<Result<_, _>>()?,
+                base.collect::<Result<_, _>>()?,
+            ))
+        });
+        units.collect::<Result<_, cannonpile::Error>>()
+    })
+}
+
+/// The change of every contact force per relative growth of one sphere, in f₀.
+#[pyfunction]
+pub(crate) fn sensitivity(
+    pile: &Pile,
+    py: Python<'_>,
+    k: BigInt,
+    i: BigInt,
+    j: BigInt,
+) -> PyResult<Vec<BigRational>> {
+    let site = input::site(&k, &i, &j)?;
+    work(py, || {
+        let changes = pile.packing()?.sensitivity(site)?;
+        Ok::<_, Error>(changes.into_iter().map(|contact| contact.change).collect())
+    })
+}
+
+/// The contact that opens first under deviations of all radii, the variance of its force, and the square of the deviation
+/// that it bears.
+#[pyfunction]
+pub(crate) fn spread(
+    pile: &Pile,
+    py: Python<'_>,
+) -> PyResult<(Weakest, BigRational, Option<BigRational>)> {
+    let spread: Spread = work(py, || Ok::<_, Error>(pile.packing()?.spread()?))?;
+    let bearable = spread.bearable_squared();
+    let contact = contact(spread.site, spread.direction, spread.force);
+    Ok((contact, spread.variance, bearable))
 }
 
 /// The contact with the smallest force.
 #[pyfunction]
 pub(crate) fn weakest(pile: &Pile, py: Python<'_>) -> PyResult<Option<Weakest>> {
     let standing = work(py, || pile.exact.standing())?;
-    Ok(standing.least.map(|contact| {
-        let Site { i, j, k } = contact.site;
-        (
-            k.into(),
-            i.into(),
-            j.into(),
-            contact.direction.name(),
-            contact.force,
-        )
-    }))
+    let least = standing.least;
+    Ok(least.map(|least| contact(least.site, least.direction, least.force)))
 }
 
 /// Bounds of the normal force of a bottom sphere at a = R, and whether both are attained.
