@@ -1,4 +1,4 @@
-//! Unequal spheres: the change of every force if one sphere is larger, to first order.
+//! The change of every force if one sphere is larger, to first order.
 //!
 //! Let the sphere p have the radius R(1 + δ). The centres of the bottom layer stay where they are, and so do all weights.
 //!
@@ -17,6 +17,7 @@ use alloc::vec::Vec;
 use num_rational::BigRational;
 use num_traits::Zero;
 
+use crate::engine::check_interrupt;
 use crate::error::{bug, refuse_beyond};
 use crate::geometry::{Inclination, Load, Vector};
 use crate::lattice::{Dimension, Direction, Sign, Site};
@@ -73,7 +74,7 @@ impl<T: Field> Spread<T> {
 
 impl Packing<'_> {
     /// Returns the change of every contact force if one sphere is larger, in the order of tables. A bottom sphere grows
-    /// about its fixed centre.
+    /// about its fixed centre. The forces of horizontal contacts act like loads, and do not change.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::TooLarge`] for more than a million spheres; [`Error::Overflow`].
@@ -126,6 +127,7 @@ impl Packing<'_> {
         let network = Network::<T>::new(pile, self.inclination())?;
         let mut contacts: Vec<Spread<T>> = Vec::new();
         for site in pile.sites(Selection::All)? {
+            check_interrupt()?;
             let changes = network.changes(site)?;
             if contacts.is_empty() {
                 contacts.extend(changes.iter().map(|contact| Spread {

@@ -1,4 +1,4 @@
-//! What a sphere adds to its lines under a load of any direction.
+//! The increments of a sphere with a load of any direction.
 
 use super::horizontal::signed;
 use crate::geometry::Load;

@@ -81,8 +81,8 @@ impl fmt::Display for DecidedBy {
 ///
 /// * A run that is too long before a sign change is detected first ([`census`](crate::census)).
 /// * If the pile is stable with sloping contacts alone, the cost is that of [`standing`](Pile::standing).
-/// * Below the last sign change all forces increase, so those layers need no test, unless a sphere has a negative
-///   increment: under gravity or a load that leans far.
+/// * Below the last sign change all forces increase, so those layers need no test. Under gravity or a load that leans far,
+///   some sphere has a negative increment, and all layers are tested.
 /// * The layers above it are tested as truncated piles, from the shortest on. A pile is stable only if all of its
 ///   truncated piles are.
 /// * For a pile of more than 10⁵ spheres the certificate is about its first layers, for the same reasons. Its

@@ -38,13 +38,13 @@ impl Bounds {
         Self::hexagon(n, 1)
     }
 
-    /// The same sites for the library.
+    /// Returns the sites for the library.
     pub fn region(&self) -> Region {
         let Self { x, y, s } = *self;
         Region::new(x.0..=x.1, y.0..=y.1, s.0..=s.1).expect("a region with a site")
     }
 
-    /// The same sites for the oracle.
+    /// Returns the sites for the oracle.
     pub fn sites(&self) -> Sites {
         let Self { x, y, s } = *self;
         let rows = (y.0..=y.1).flat_map(|j| (x.0..=x.1).map(move |i| (j, i)));
@@ -85,7 +85,7 @@ impl Case {
         })
     }
 
-    /// The same pile under gravity that leans. It has no loads yet, and no weights of its own.
+    /// Returns the pile under gravity that leans. It has no loads yet, and no weights of its own.
     #[must_use]
     pub fn with_tilt(mut self, tilt: [BigRational; 2]) -> Self {
         self.pile = self.pile.with_tilt(tilt.clone()).expect("spheres");
@@ -99,7 +99,7 @@ impl Case {
         self
     }
 
-    /// The same pile with one more load of any direction on a sphere.
+    /// Returns the pile with one more load of any direction on a sphere.
     #[must_use]
     pub fn with_directed_load(mut self, place: Place, load: &Load) -> Self {
         self = self.with_load(place, &load.down);
@@ -112,7 +112,7 @@ impl Case {
         self
     }
 
-    /// The same pile with `n` more loads of any direction on random spheres.
+    /// Returns the pile with `n` more loads of any direction on random spheres.
     #[must_use]
     pub fn with_random_directed_loads(mut self, n: usize, random: &mut Random) -> Self {
         let places: Vec<Place> = self.balance.places().collect();
@@ -125,7 +125,7 @@ impl Case {
         self
     }
 
-    /// The same pile with weightless spheres.
+    /// Returns the pile with weightless spheres.
     #[must_use]
     pub fn weightless(self) -> Self {
         let mut balance = self.balance;
@@ -141,7 +141,7 @@ impl Case {
         }
     }
 
-    /// The same pile with one more load on a sphere.
+    /// Returns the pile with one more load on a sphere.
     #[must_use]
     pub fn with_load(self, place: Place, load: &BigRational) -> Self {
         let (pile, mut balance) = (self.pile, self.balance);
@@ -155,7 +155,7 @@ impl Case {
         }
     }
 
-    /// The same pile with another weight for a sphere that has no load.
+    /// Returns the pile with another weight for a sphere that has no load.
     #[must_use]
     pub fn with_weight(self, place: Place, weight: &BigRational) -> Self {
         let (pile, mut balance) = (self.pile, self.balance);

@@ -32,7 +32,7 @@ fn solve(rows: [V; 3], values: V) -> V {
     [0, 1, 2].map(|n| (0..3).map(|m| parts[m][n] * values[m]).sum::<f64>() / determinant)
 }
 
-/// The contact forces of a pile in which one sphere has another radius, in newtons for mg = 1 and R = 1.
+/// Returns the contact forces of a pile in which one sphere has another radius, in newtons for mg = 1 and R = 1.
 ///
 /// Newton's method places each sphere on its three supports, from the bottom up. Then each sphere is balanced, from the
 /// top down.

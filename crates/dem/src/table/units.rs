@@ -112,9 +112,9 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// Returns an upper bound of the forces of a selection. In mg or f₀, each force is at most the root of the sum of
-    /// the squared forces of its layer. This root is at most three times the sum of |w| + 2|x| + 4|y| over all weights and
-    /// loads (w, x, y) down to the layer, plus 2√2 times the sum of all forces of horizontal contacts.
+    /// Returns an upper bound of the forces of a selection. In mg or f₀, no force exceeds three times the sum of
+    /// |w| + 2|x| + 4|y| over all weights and loads (w, x, y) down to the layer, plus 2√2 times the sum of all forces of
+    /// horizontal contacts. This sum bounds the root of the sum of the squared forces of the layer.
     pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
         let horizontal = self.pile().horizontal_forces();
         let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();

@@ -44,9 +44,9 @@ impl Comparison {
     /// Memory grows with the number of measured forces. The exact forces are computed row by row.
     ///
     /// # Errors
-    /// * [`Refusal::Entry`] for a sphere number outside the pile, unless the other sphere is at the bottom and touches a
-    ///   wall of that number; for a sphere paired with itself; for a third entry of a pair, or a second one in the same
-    ///   order with another force; for a force that is not finite.
+    /// * [`Refusal::Entry`] for a sphere paired with itself, and for a force that is not finite.
+    /// * [`Refusal::Entry`] for a third entry of a pair, and for a second one in the same order with another force.
+    /// * [`Refusal::Entry`] for a sphere number outside the pile. A bottom sphere may touch a wall of any other number.
     /// * [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with too many contacts.
     /// * [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`.
     ///

@@ -1,8 +1,13 @@
 //! The formats of files: how bytes become rows.
 //!
-//! The stages are: bytes (`source`), the dialect of a text table (`detect`, `dialect`, `cut`, `number`), its columns (`columns`,
-//! `header`), the rows of a text or a dump (`text`, `dump`) and the steps (`steps`). Each stage counts what it leaves out
-//! (`counts`).
+//! The stages, and their files:
+//! 1. bytes: `source`;
+//! 2. the dialect of a text table: `detect`, `dialect`, `cut`, `number`;
+//! 3. its columns: `columns`, `header`;
+//! 4. the rows of a text or a dump: `text`, `dump`;
+//! 5. the steps: `steps`.
+//!
+//! Each stage counts what it leaves out (`counts`).
 
 mod columns;
 mod counts;

@@ -230,8 +230,8 @@ impl Header {
         columns.filter_map(|(column, _)| cells.get(*column).copied())
     }
 
-    /// Returns a number of a row without a header that may be cut at its decimal comma: no number that is read has
-    /// decimals, and digits that are not read follow one of them.
+    /// Returns a number of a row without a header that may be cut at its decimal comma. In such a row no number that is
+    /// read has decimals, and a column of digits that is not read follows one of them.
     pub(super) fn cut_number(&self, cells: &[&str]) -> Option<String> {
         let is_whole = |cell: &str| cell.trim_start_matches('-').parse::<u64>().is_ok();
         if self.has_names || !self.numbers(cells).all(is_whole) {

@@ -65,7 +65,7 @@ pub(super) struct Row {
     /// The position of the cell in the cell data.
     pub(super) cell: usize,
     pub(super) first: usize,
-    /// The second point of a line; the first point again if the row is no line.
+    /// The second point of a line. For a row that is no line, the first point again.
     pub(super) second: usize,
 }
 

@@ -57,7 +57,7 @@ impl Values {
         }
     }
 
-    /// Returns texts, each of which ends with a zero.
+    /// Returns the texts of bytes in which a zero ends each text.
     fn texts(bytes: &[u8]) -> Self {
         let texts = bytes
             .strip_suffix(b"\0")
