@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-use cannonpile::Pile;
-use cannonpile::lattice::{Axis, HorizontalContact, Region, Sign, Site};
+use cannonpile::lattice::{Axis, Dimension, HorizontalContact, Region, Sign, Site};
 use cannonpile::stacking::Stacking;
+use cannonpile::{Load, Pile};
 use cannonpile_horizontal::certificate::{Certificate, Claim, Refusal, write_certificate};
 use num_rational::BigRational;
 use proptest::prelude::Rng;
@@ -93,8 +93,8 @@ impl RandomCases {
         (!all.is_empty()).then(|| all[self.below(all.len())].clone())
     }
 
-    /// Returns a random stacking on a random small region, or discs, with random weights and loads, or without
-    /// weight.
+    /// Returns a random stacking on a random small region, or discs, with random weights, loads and tilt, or
+    /// without weight.
     fn pile(&mut self) -> Pile {
         let layers = 1 + self.below(5);
         let signs = (1..layers).map(|_| [Sign::Plus, Sign::Minus][self.below(2)]);
@@ -113,14 +113,31 @@ impl RandomCases {
         let sites: Vec<Site> = pile.shape().sites().collect();
         for _ in 0..self.below(3) {
             let site = sites[self.below(sites.len())];
-            pile = pile.with_load(site, self.number(0)).unwrap();
+            let [x, y] = self.lean(&pile);
+            let down = self.number(0);
+            pile = pile.with_load(site, Load { down, x, y }).unwrap();
             let site = sites[self.below(sites.len())];
             pile = pile.with_weight(site, self.number(0)).unwrap();
         }
+        let tilt = self.lean(&pile);
+        pile = pile.with_tilt(tilt).unwrap();
         if self.below(8) == 0 {
             pile = pile.weightless();
         }
         pile
+    }
+
+    /// Returns the horizontal part (x, y) of a load. Each component is zero half the time.
+    fn lean(&mut self, pile: &Pile) -> [BigRational; 2] {
+        let in_plane = pile.dimension() == Dimension::Two;
+        [false, in_plane].map(|upright| {
+            let part = self.number(-4) / ratio(10, 1);
+            if upright || self.below(2) == 0 {
+                ratio(0, 1)
+            } else {
+                part
+            }
+        })
     }
 
     /// Returns a random claim about a random pile: its forces may be valid, its field rarely is.
@@ -188,7 +205,9 @@ impl RandomCases {
             },
             5 => {
                 let pile = certificate.pile.clone();
-                certificate.pile = pile.with_load(site, self.number(0)).unwrap();
+                let [x, y] = self.lean(&pile);
+                let down = self.number(0);
+                certificate.pile = pile.with_load(site, Load { down, x, y }).unwrap();
             }
             _ => {
                 certificate.claim = match certificate.claim.clone() {
@@ -240,6 +259,20 @@ fn valid_certificates_are_accepted_by_both() {
     }
     for certificate in all() {
         assert!(agreed(&certificate), "{certificate:?}");
+    }
+}
+
+#[test]
+fn certificates_of_tilted_piles_are_accepted_by_both() {
+    if is_skipped() {
+        return;
+    }
+    for (x, claim) in [(300, Claim::Stands), (50, Claim::CannotStand)] {
+        let pile = Pile::under(Region::SITE, Stacking::hcp(6).unwrap()).unwrap();
+        let pile = pile.with_tilt([ratio(1, x), ratio(0, 1)]).unwrap();
+        let certificate = cannonpile_horizontal::equilibrium(&pile).unwrap();
+        assert_eq!(certificate.claim, claim);
+        assert!(agreed(&certificate));
     }
 }
 
