@@ -2,11 +2,11 @@
 
 use std::hint::black_box;
 
-use cannonpile::Pile;
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Algebra;
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
+use cannonpile::{Pile, ratio as rational};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -38,6 +38,17 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
         results.push((format!("exact_over_memset_{full}"), over_memset));
     }
 
+    let [upright, tilted] = without_symmetry(extent.size(200, 12));
+    check_engine(&tilted);
+    let floats = ratio(
+        pairs,
+        || time_in::<f64>(&tilted),
+        || time_in::<f64>(&upright),
+    );
+    results.push(("tilted_over_upright_f64".into(), floats));
+    let exact = ratio(pairs, || time_exact(&tilted), || time_exact(&upright));
+    results.push(("tilted_over_upright".into(), exact));
+
     let pile = alternating(extent.size(60, 6));
     // The slow method runs in a few pairs only.
     let few = pairs.min(3);
@@ -65,6 +76,17 @@ pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
 fn alternating(layers: i128) -> Pile {
     let stacking = Stacking::hcp(layers).expect("a stacking");
     Pile::under(Region::SITE, stacking).expect("a pile")
+}
+
+/// Returns a pile under upright gravity and the same pile under a tilt. Its layers have no threefold symmetry, of which an
+/// upright sweep would make use.
+fn without_symmetry(layers: i128) -> [Pile; 2] {
+    let top = Region::hexagon(2, 3).expect("a region");
+    let stacking = Stacking::hcp(layers).expect("a stacking");
+    let upright = Pile::under(top, stacking).expect("a pile");
+    let tilt = [rational!(1 / 5), rational!(1 / 8)];
+    let tilted = upright.clone().with_tilt(tilt).expect("a tilt");
+    [upright, tilted]
 }
 
 /// Returns a slice for each direction, with a number for each sphere above the floor.
