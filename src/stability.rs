@@ -25,10 +25,10 @@ use num_traits::{One, Signed, Zero};
 use crate::engine::check_interrupt;
 use crate::error::bug;
 use crate::lattice::{Dimension, Direction, Site};
-use crate::scalar::Ring;
+use crate::scalar::{Algebra, Field, FixedRational, Ring};
 use crate::shape::{Anchor, Selection};
 use crate::stacking::{Run, Stacking};
-use crate::{Error, Forces, Pile};
+use crate::{ContactForce, Error, Forces, Pile};
 
 /// The greatest number of contacts for which [`Pile::margin`] computes all forces.
 const MOST_EXAMINED: u64 = 20_000;
@@ -39,16 +39,16 @@ pub type Tilt = [BigRational; 2];
 /// A contact force as a function of the tilt, c + a·x + b·y in f₀, or another quantity that is negative for tilts that a
 /// pile does not bear.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Affine {
+pub struct Affine<T = BigRational> {
     /// The value under upright gravity.
-    pub c: BigRational,
+    pub c: T,
     /// The factor of x.
-    pub a: BigRational,
+    pub a: T,
     /// The factor of y.
-    pub b: BigRational,
+    pub b: T,
 }
 
-impl Affine {
+impl<T: Ring> Affine<T> {
     /// Returns the function with the values at the tilts (0, 0), (1, 0) and (0, 1).
     ///
     /// # Examples
@@ -60,7 +60,7 @@ impl Affine {
     /// assert_eq!(force.at(&[ratio!(1/2), ratio!(1/6)]), ratio!(0));
     /// ```
     #[must_use]
-    pub fn through([c, at_x, at_y]: [BigRational; 3]) -> Self {
+    pub fn through([c, at_x, at_y]: [T; 3]) -> Self {
         Self {
             a: at_x - &c,
             b: at_y - &c,
@@ -70,18 +70,26 @@ impl Affine {
 
     /// Returns the value at a tilt.
     #[must_use]
-    pub fn at(&self, [x, y]: &Tilt) -> BigRational {
-        &self.a * x + &self.b * y + &self.c
+    pub fn at(&self, [x, y]: &[T; 2]) -> T {
+        self.a.clone() * x + &(self.b.clone() * y) + &self.c
     }
+}
 
+impl<T: Field> Affine<T> {
+    /// Returns the gradient and its square, in real units. `across` is 4cos²φ. `None` for numbers that are undefined.
+    fn gradient(&self, across: &T) -> Option<([T; 2], T)> {
+        let gradient = [self.a.clone(), self.b.checked_div(across)?];
+        let [a, b] = &gradient;
+        let square = a.clone() * &self.a + &(b.clone() * &self.b);
+        square.is_defined().then_some((gradient, square))
+    }
+}
+
+impl Affine {
     /// Returns the tilt of least |t| at which the function is zero, and |t|². `across` is 4cos²φ. `None` for a constant.
     fn nearest_zero(&self, across: &BigRational) -> Option<(BigRational, Tilt)> {
-        let gradient = [self.a.clone(), &self.b / across];
-        let square = &self.a * &gradient[0] + &self.b * &gradient[1];
-        if square.is_zero() {
-            return None;
-        }
-        let along = -&self.c / &square;
+        let (gradient, square) = self.gradient(across)?;
+        let along = (-&self.c).checked_div(&square)?;
         let tilt = gradient.map(|part| part * &along);
         Some((&self.c * &self.c / square, tilt))
     }
@@ -175,18 +183,55 @@ impl Pile {
             return Ok(pile.stability()?.margin);
         }
         check_weight(pile)?;
-        let [mut upright, mut along_x, mut along_y] = pile
-            .under_three_tilts(|forces| {
-                let contacts = forces.contacts(Selection::All)?;
-                contacts.collect::<Result<Vec<_>, _>>()
-            })?
-            .map(Vec::into_iter);
-        let forces = core::iter::from_fn(|| {
-            let (contact, x, y) = (upright.next()?, along_x.next()?, along_y.next()?);
+        // Few piles need more than the fast rationals.
+        let first = match pile.first_to_open::<FixedRational<i128>>() {
+            Err(Error::Overflow { .. }) => pile.first_to_open::<BigRational>(),
+            first => first,
+        };
+        let Some((site, direction)) = first? else {
+            return Ok(None);
+        };
+        let force = pile.force_by_tilt(site, direction)?;
+        Ok(least_margin(pile, [(force, (site, direction))]))
+    }
+
+    /// Returns the contact that opens at the least tilt, the first of several, from all contact forces. `None` if the pile
+    /// does not stand upright.
+    fn first_to_open<T: Field + PartialOrd>(&self) -> Result<Option<(Site, Direction)>, Error> {
+        let forces = self.under_three_tilts(|forces| {
+            let contacts = forces.contacts(Selection::All)?;
+            contacts.collect::<Result<Vec<ContactForce<T>>, _>>()
+        })?;
+        let [upright, along_x, along_y] = forces.map(Vec::into_iter);
+        let across = T::from_rational(&across(self));
+        let overflow = || Error::overflow("the margin", T::NAME);
+        // The square of a margin is c²/g², with the gradient g.
+        let mut first: Option<([T; 2], (Site, Direction))> = None;
+        for ((contact, x), y) in upright.zip(along_x).zip(along_y) {
             let force = Affine::through([contact.force, x.force, y.force]);
-            Some((force, (contact.site, contact.direction)))
-        });
-        Ok(least_margin(pile, forces))
+            if force.c < T::zero() {
+                return Ok(None);
+            }
+            let (_, gradient) = force.gradient(&across).ok_or_else(overflow)?;
+            if gradient.is_zero() {
+                continue;
+            }
+            let square = force.c.clone() * &force.c;
+            let is_less = match &first {
+                None => true,
+                Some(([least, over], _)) => {
+                    let [one, other] = [square.clone() * over, least.clone() * &gradient];
+                    if !(one.is_defined() && other.is_defined()) {
+                        return Err(overflow());
+                    }
+                    one < other
+                }
+            };
+            if is_less {
+                first = Some(([square, gradient], (contact.site, contact.direction)));
+            }
+        }
+        Ok(first.map(|(_, contact)| contact))
     }
 
     /// Returns the upper part of the pile, to one step below the last sign change, if the margin depends on it alone.
@@ -226,14 +271,14 @@ impl Pile {
 
     /// Returns what `read` finds in the forces under the further tilts (0, 0), (1, 0) and (0, 1). For discs the last one is
     /// (0, 0).
-    fn under_three_tilts<V>(
+    fn under_three_tilts<T: Algebra, V>(
         &self,
-        read: impl Fn(&Forces<'_, BigRational>) -> Result<V, Error>,
+        read: impl Fn(&Forces<'_, T>) -> Result<V, Error>,
     ) -> Result<[V; 3], Error> {
         let along_y = i128::from(self.dimension() == Dimension::Three);
         let at = |tilt: [i128; 2]| {
-            let forces = self.forces::<BigRational>();
-            read(&forces.with_tilt(tilt.map(BigRational::from_i128))?)
+            let forces = self.forces::<T>();
+            read(&forces.with_tilt(tilt.map(T::from_i128))?)
         };
         Ok([at([0, 0])?, at([1, 0])?, at([0, along_y])?])
     }
@@ -281,14 +326,19 @@ pub fn bearable<C: Clone, E: From<Error>>(
     })
 }
 
+/// Returns 4cos²φ.
+fn across(pile: &Pile) -> BigRational {
+    let s = pile.sin_phi();
+    BigRational::from_i128(4) * (BigRational::one() - s * s)
+}
+
 /// Returns the least tilt at which a function is zero, and the first of the functions that are zero there. `None` if a
 /// function is negative under upright gravity.
 fn least_margin<C>(
     pile: &Pile,
     forces: impl IntoIterator<Item = (Affine, C)>,
 ) -> Option<Margin<C>> {
-    let s = pile.sin_phi();
-    let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
+    let across = across(pile);
     let mut least: Option<Margin<C>> = None;
     for (force, opens) in forces {
         if force.c.is_negative() {
