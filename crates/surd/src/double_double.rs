@@ -253,6 +253,7 @@ impl Add for DoubleDouble {
     type Output = Self;
 
     /// Returns the sum, by the algorithm `AccurateDWPlusDW`.
+    #[inline]
     fn add(self, rhs: Self) -> Self {
         let (s, s1) = two_sum(self.high, rhs.high);
         let (t, t1) = two_sum(self.low, rhs.low);
@@ -264,6 +265,7 @@ impl Add for DoubleDouble {
 impl Neg for DoubleDouble {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Self {
             high: -self.high,
@@ -275,6 +277,7 @@ impl Neg for DoubleDouble {
 impl Sub for DoubleDouble {
     type Output = Self;
 
+    #[inline]
     fn sub(self, rhs: Self) -> Self {
         let negated = -rhs;
         self + negated
@@ -294,6 +297,7 @@ impl Mul for DoubleDouble {
 impl Add<&Self> for DoubleDouble {
     type Output = Self;
 
+    #[inline]
     fn add(self, rhs: &Self) -> Self {
         self + *rhs
     }
@@ -302,6 +306,7 @@ impl Add<&Self> for DoubleDouble {
 impl Sub<&Self> for DoubleDouble {
     type Output = Self;
 
+    #[inline]
     fn sub(self, rhs: &Self) -> Self {
         self - *rhs
     }
