@@ -148,6 +148,12 @@ pub enum Error {
     },
     /// A pile without weight above the floor, on which a tilt of gravity has no effect.
     NoWeight,
+    /// A pile whose forces on a rough floor are not unique, or not covered.
+    #[non_exhaustive]
+    RoughFloor {
+        /// What the pile has: other than two layers, or a force that is not vertical.
+        given: Box<str>,
+    },
     /// A method that does not apply. Closed forms need a straight stacking, and sweeps need spheres instead of discs.
     #[non_exhaustive]
     NoSuchMethod {

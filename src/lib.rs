@@ -60,10 +60,9 @@
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for correctly rounded floats in slices |
 //! | forces row by row, for piles larger than memory | [`fill_row`](NearestLayers::fill_row) and similar methods; [`packing.places()`](Packing::places) for centres and contact points |
 //! | sums of forces | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
-//! | the tilts of gravity that a pile bears | [`Pile::stability`] |
-//! | the stability of a pile; the extreme forces on its base | [`Pile::standing`], [`Pile::base_extremes`] |
-//! | the stable stackings | [`census`] |
-//! | theorems for every pile | [`theorem`] |
+//! | the stability of a pile; the tilts of gravity that it bears; the extreme forces on its base | [`Pile::standing`]; [`Pile::stability`]; [`Pile::base_extremes`] |
+//! | the stable stackings; theorems for every pile | [`census`]; [`theorem`] |
+//! | two layers with friction | [`Pile::on_rough_floor`] |
 //! | a force as a function of a load or tilt | [`Forces::with_load`], [`Forces::with_tilt`] |
 //! | to cancel a long computation | `Interrupt` |
 //! | the work of a query, estimated and counted | [`Pile::plan`], [`Counters`] |
@@ -109,7 +108,7 @@
 //! | queries | `engine` | the [`Plan`], and the methods to compute forces; not part of the public API |
 //! | | [`Forces`], [`Packing`] | the forces, in pile units and in SI units |
 //! | | [`Standing`], [`stability`], [`census`] | stability |
-//! | | [`ForceChange`] | unequal spheres, to first order |
+//! | | [`ForceChange`], [`friction`] | unequal spheres, to first order; two layers on a rough table |
 //! | | [`theorem`] | theorems about [`formula`], for every pile |
 //! | tools | `data` | the serialised form of the types (feature `serde`) |
 //! | | `arbitrary` | random piles and their parts from plain bytes (feature `arbitrary`) |
@@ -155,6 +154,7 @@ pub mod engine;
 mod error;
 mod forces;
 pub mod formula;
+pub mod friction;
 pub mod geometry;
 pub mod lattice;
 mod packing;

@@ -59,6 +59,9 @@ mod forces {
     mod symmetry;
 }
 
+#[cfg(feature = "std")]
+mod friction;
+
 mod packing {
     mod places;
     mod rounded;

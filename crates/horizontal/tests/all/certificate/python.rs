@@ -127,12 +127,12 @@ impl RandomCases {
         pile
     }
 
-    /// Returns the horizontal part (x, y) of a load. Each component is zero half the time.
+    /// Returns the horizontal part (x, y) of a load. Three of four components are zero.
     fn lean(&mut self, pile: &Pile) -> [BigRational; 2] {
         let in_plane = pile.dimension() == Dimension::Two;
         [false, in_plane].map(|upright| {
-            let part = self.number(-4) / ratio(10, 1);
-            if upright || self.below(2) == 0 {
+            let part = self.number(-4) / ratio(40, 1);
+            if upright || self.below(4) > 0 {
                 ratio(0, 1)
             } else {
                 part
