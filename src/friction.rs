@@ -1,48 +1,52 @@
-//! Friction: two layers on a rough table, without glue.
+//! Friction: two layers on a rough floor, without glue.
 //!
-//! Everywhere else the spheres are frictionless, and the bottom layer is glued to the floor. Here the lower of two layers
-//! lies on a plane, and its spheres may slide and roll. Friction acts at every contact. Neighbours in a layer do not touch:
-//! a > R. All loads are vertical. Then the forces are unique, and no law of springs, no ratio of stiffnesses and no history
-//! changes them.
+//! All other queries are about spheres without friction on a floor with glue. Here the lower of two layers lies on a plane, and
+//! its spheres may slide and roll. Each contact transmits a force with friction, and no moment. Neighbours in a layer do not
+//! touch: a > R. All loads are vertical. Then the forces are unique: they depend neither on the law of the springs nor on the
+//! history.
 //!
 //! # Forces
 //! A contact transmits N along its line, and T across it, in its vertical plane. With T = N·tan(θ/2):
 //!
 //! * The vertical part of both is N cosθ + T sinθ = N.
-//! * The horizontal part of both is N sinθ − T cosθ = T. It points away from the upper sphere.
-//! * The line of action of both leads from the contact to the point where the lower sphere touches the table. So the lower
+//! * The horizontal part of both is N sinθ − T cosθ = T. On the lower sphere it points away from the upper one.
+//! * The line of action of both leads from the contact to the point where the lower sphere touches the floor. So the lower
 //!   sphere does not roll, and contacts superpose.
 //!
 //! The upper sphere needs Σ N = w for its weight and loads w, and Σ N h = 0 for the horizontal directions h of its contacts.
 //! These are the equations of the frictionless pile, (5) of the paper, with other units: mg/W for N instead of f₀ =
 //! mg/(W cosθ), and mg·tan(θ/2) for horizontal forces instead of mg·tanθ. The numbers are the same.
 //!
-//! | force | frictionless | on a rough table |
+//! | force | frictionless | on a rough floor |
 //! |---|---|---|
 //! | contact, along its line | f·mg/(W cosθ) | f·mg/W |
 //! | contact, across its line | 0 | f·mg/W·tan(θ/2) |
 //! | floor, vertical | n·mg | n·mg |
 //! | floor, horizontal | h·mg·tanθ | h·mg·tan(θ/2) |
 //!
-//! The contacts need the coefficient of friction tan(θ/2) = (1 − cosθ)/sinθ.
-//! [`floor_friction_needed_squared`](RoughFloor::floor_friction_needed_squared) returns the coefficient at the floor.
+//! The contacts need a coefficient of friction of at least tan(θ/2) = (1 − cosθ)/sinθ, and the floor that of
+//! [`floor_friction_squared`](RoughFloor::floor_friction_squared). With less, no forces are in equilibrium.
 //!
 //! # Uniqueness
-//! Consider forces without loads.
+//! The difference of two sets of forces balances no loads.
 //!
 //! 1. *Upper sphere.* Forces at three points balance each other only if F_l = Σ_m λ_lm (c_m − c_l), with the points c and
-//!    symmetric λ. All contacts of an upper sphere are at one height, so these forces are horizontal. There is one λ for each
-//!    two neighbours in the lower layer with a common upper sphere.
-//! 2. *Lower sphere.* Its contacts have one height too, so moments about its point on the table give Σ F = 0, and the
+//!    symmetric λ. All contacts of an upper sphere are at one height, so these forces are horizontal, and c_m − c_l is half
+//!    the vector between two neighbours of the lower layer. There is one λ for each two neighbours. It is 0 without a common
+//!    upper sphere.
+//! 2. *Lower sphere.* Its contacts have one height too, so moments about its point on the floor give Σ F = 0, and the
 //!    moment of F about the vertical axis is 0. Let λ₁, …, λ₆ belong to its six neighbours in order. The first equation gives
 //!    λ₁ − λ₄ = λ₃ − λ₆ = λ₅ − λ₂ = κ. The second is κ·(sin 2A + sin 2B + sin 2C) = 0, with the angles A, B and C of the
 //!    triangle of three neighbours. The sum is 4 sin A sin B sin C > 0, so κ = 0.
 //! 3. So λ is the same on opposite sides of every lower sphere: each force runs straight on. A finite layer has an end, where
 //!    it is 0. ∎
 //!
+//! For discs, F is horizontal too, with one λ for each upper disc, and Σ F = 0 makes neighbouring λ equal.
+//!
 //! Three layers already have a state of self-stress. There the forces depend on the history, and no exact answer exists.
 
 use alloc::boxed::Box;
+use alloc::format;
 
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -53,14 +57,15 @@ use crate::scalar::{Algebra, Ring};
 use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Forces, Pile};
 
-/// Two layers on a rough table. Made by [`Pile::on_rough_floor`].
+/// Two layers on a rough floor. Made by [`Pile::on_rough_floor`].
 #[derive(Clone, Copy, Debug)]
 pub struct RoughFloor<'p> {
     pile: &'p Pile,
 }
 
 impl Pile {
-    /// Returns the pile on a rough table instead of a floor with glue.
+    /// Returns the pile on a rough floor instead of a floor with glue, for any spacing at which neighbours of a layer do not
+    /// touch, a > R.
     ///
     /// # Errors
     /// [`Error::RoughFloor`] unless there are two layers, gravity and all loads are vertical, and no horizontal contact has
@@ -79,27 +84,28 @@ impl Pile {
     /// let floor = four.base()?.next().unwrap()?;
     /// assert_eq!(floor.normal, ratio!(4/3));
     /// // A floor of friction tan(θ/2)/4 is enough.
-    /// assert_eq!(four.floor_friction_needed_squared()?, ratio!(1/16));
+    /// assert_eq!(four.floor_friction_squared()?, ratio!(1/16));
     /// assert!(Pile::triangular(3)?.on_rough_floor().is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn on_rough_floor(&self) -> Result<RoughFloor<'_>, Error> {
-        let refuse = |given: &str| {
-            Err(Error::RoughFloor {
-                given: Box::from(given),
-            })
-        };
-        if self.layers() != 2 {
-            return refuse(&alloc::format!("{} layers", self.layers()));
+        let refuse = |needed, given: Box<str>| Err(Error::RoughFloor { needed, given });
+        let layers = self.layers();
+        if layers != 2 {
+            let plural = if layers == 1 { "" } else { "s" };
+            return refuse("two layers", format!("{layers} layer{plural}").into());
         }
         if !self.tilt().iter().all(Zero::is_zero) {
-            return refuse("a tilt");
+            return refuse("vertical gravity", "a tilt".into());
         }
-        if self.loads().any(|(_, load)| !load.is_vertical()) {
-            return refuse("a load with a horizontal part");
+        if let Some((site, load)) = self.loads().find(|(_, load)| !load.is_vertical()) {
+            return refuse(
+                "vertical loads",
+                format!("the load {load} at (i,j,k) = {site}").into(),
+            );
         }
         if self.horizontal_forces().len() > 0 {
-            return refuse("horizontal contacts");
+            return refuse("no horizontal contacts", "forces of such contacts".into());
         }
         Ok(RoughFloor { pile: self })
     }
@@ -113,7 +119,7 @@ impl<'p> RoughFloor<'p> {
     ///
     /// # Examples
     /// See [`Pile::on_rough_floor`].
-    pub fn contact<T: Algebra>(&self, site: Site, direction: Direction) -> Result<T, Error> {
+    pub fn contact<T: Algebra>(self, site: Site, direction: Direction) -> Result<T, Error> {
         let force = self.pile.forces::<T>().contact(site, direction)?;
         Ok(force * &self.share())
     }
@@ -134,7 +140,7 @@ impl<'p> RoughFloor<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contacts<T: Algebra>(
-        &self,
+        self,
     ) -> Result<impl Iterator<Item = Result<ContactForce<T>, Error>> + use<'p, T>, Error> {
         let share: T = self.share();
         let contacts = Forces::contacts(&self.pile.forces::<T>(), Selection::All)?;
@@ -147,7 +153,7 @@ impl<'p> RoughFloor<'p> {
         }))
     }
 
-    /// Returns the forces of the lower spheres on the table: the normal force in mg, and the friction in mg·tan(θ/2) along x
+    /// Returns the forces of the lower spheres on the floor: the normal force in mg, and the friction in mg·tan(θ/2) along x
     /// and 2cosφ·mg·tan(θ/2) along y.
     ///
     /// # Errors
@@ -156,20 +162,20 @@ impl<'p> RoughFloor<'p> {
     /// # Examples
     /// See [`Pile::on_rough_floor`].
     pub fn base<T: Algebra>(
-        &self,
+        self,
     ) -> Result<impl Iterator<Item = Result<FloorForce<T>, Error>> + use<'p, T>, Error> {
         self.pile.forces::<T>().base(Selection::Base)
     }
 
-    /// Returns the square of the coefficient of friction that the floor needs, over tan²(θ/2): the largest ratio of friction
-    /// to normal force. 0 if no lower sphere has friction.
+    /// Returns the square of the coefficient of friction that the floor needs, over tan²(θ/2). This coefficient is the largest
+    /// ratio of friction to normal force, over all lower spheres.
     ///
     /// # Errors
     /// As for [`base`](Self::base).
     ///
     /// # Examples
     /// See [`Pile::on_rough_floor`].
-    pub fn floor_friction_needed_squared(&self) -> Result<BigRational, Error> {
+    pub fn floor_friction_squared(self) -> Result<BigRational, Error> {
         let s = self.pile.sin_phi();
         let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
         let mut greatest = BigRational::zero();
@@ -192,8 +198,8 @@ impl<'p> RoughFloor<'p> {
         Ok(greatest)
     }
 
-    /// Returns 1/W, the unit of N in mg.
-    fn share<T: Algebra>(&self) -> T {
+    /// Returns 1/W, which converts a number f to N in mg.
+    fn share<T: Algebra>(self) -> T {
         T::from_rational(&self.pile.system().increment_sum.recip())
     }
 }

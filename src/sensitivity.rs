@@ -61,7 +61,7 @@ pub struct Spread<T = BigRational> {
 
 impl<T: Field> Spread<T> {
     /// Returns the square of the relative standard deviation r of the radii at which the force is three standard
-    /// deviations from zero: f²/(9·variance). `None` if no radius changes the force.
+    /// deviations from zero: f²/(9·variance). `None` if the scalar cannot divide by the variance.
     ///
     /// # Examples
     /// See [`Packing::spread`].
@@ -87,9 +87,10 @@ impl Packing<'_> {
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
-    /// let changes = packing.sensitivity::<BigRational>(Site::new(0, 0, 1))?;
-    /// // A larger support moves the apex towards the others. The three changes balance no vertical force.
-    /// assert_eq!(changes.len(), 3);
+    /// let changes = packing.sensitivity::<BigRational>(Site { i: 0, j: 0, k: 1 })?;
+    /// // A larger support moves the apex towards the other two, which then carry more.
+    /// let changes: Vec<_> = changes.into_iter().map(|contact| contact.change).collect();
+    /// assert_eq!(changes, [ratio!(-283/234), ratio!(175/468), ratio!(175/468)]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn sensitivity<T: Field>(&self, site: Site) -> Result<Vec<ForceChange<T>>, Error> {
@@ -98,14 +99,13 @@ impl Packing<'_> {
     }
 
     /// Returns the contact that opens first under independent deviations of all radii: the one whose force is the least
-    /// multiple of its standard deviation.
+    /// multiple of its standard deviation. `None` if some contact needs tension, or if no radius changes a force.
     ///
     /// The theory for equal spheres describes a pile of real ones only while this deviation is small: see
     /// [`Spread::bearable_squared`].
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for more than ten thousand spheres; [`Error::OnFloor`] for a single layer, which has no
-    /// contacts; [`Error::Overflow`].
+    /// [`Error::TooLarge`] for more than ten thousand spheres; [`Error::Overflow`].
     ///
     /// # Examples
     /// ```
@@ -113,21 +113,20 @@ impl Packing<'_> {
     ///
     /// let pile = Pile::triangular(4)?;
     /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
-    /// let spread = packing.spread::<f64>()?;
-    /// // The standard deviation is 6.4 times the force for radii that differ by their whole size.
+    /// let spread = packing.spread::<f64>()?.unwrap();
+    /// // For radii of relative standard deviation r, the force has the relative standard deviation 6.4 r.
     /// let relative = spread.variance.sqrt() / spread.force;
     /// assert!((relative - 6.4).abs() < 0.1);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn spread<T: Field + PartialOrd>(&self) -> Result<Spread<T>, Error> {
+    pub fn spread<T: Field + PartialOrd>(&self) -> Result<Option<Spread<T>>, Error> {
         let pile = self.pile();
         let spheres = pile.sphere_count();
-        let remedy = "ask for single spheres";
+        let remedy = "ask for the changes by single spheres";
         refuse_beyond("the spread of this pile", spheres, MOST_VARIED, remedy)?;
         let network = Network::<T>::new(pile, self.inclination())?;
         let mut contacts: Vec<Spread<T>> = Vec::new();
         for site in pile.sites(Selection::All)? {
-            check_interrupt()?;
             let changes = network.changes(site)?;
             if contacts.is_empty() {
                 contacts.extend(changes.iter().map(|contact| Spread {
@@ -141,17 +140,22 @@ impl Packing<'_> {
                 contact.variance = contact.variance.clone() + &(change.clone() * &change);
             }
         }
+        if contacts.iter().any(|contact| contact.force < T::zero()) {
+            return Ok(None);
+        }
         // f/σ is less for the first contact if f²·σ′² < f′²·σ².
         let ratio =
             |one: &Spread<T>, other: &Spread<T>| one.force.clone() * &one.force * &other.variance;
-        let first = contacts.into_iter().reduce(|first, next| {
+        let varied = contacts
+            .into_iter()
+            .filter(|contact| !contact.variance.is_zero());
+        Ok(varied.reduce(|first, next| {
             if ratio(&next, &first) < ratio(&first, &next) {
                 next
             } else {
                 first
             }
-        });
-        first.ok_or(Error::OnFloor { site: Site::APEX })
+        }))
     }
 }
 
@@ -206,6 +210,7 @@ impl<'p, T: Field> Network<'p, T> {
         let moved = self.displacements(grown)?;
         let mut loads: BTreeMap<Site, Vector<T>> = BTreeMap::new();
         for (site, forces) in &self.forces {
+            check_interrupt()?;
             for direction in self.pile.dimension().directions() {
                 let support = self.support(*site, *direction)?;
                 let along = self.along(site.k, *direction);
@@ -251,6 +256,7 @@ impl<'p, T: Field> Network<'p, T> {
     fn displacements(&self, grown: Site) -> Result<BTreeMap<Site, Vector<T>>, Error> {
         let mut moved: BTreeMap<Site, Vector<T>> = BTreeMap::new();
         for site in self.forces.keys().rev() {
+            check_interrupt()?;
             let mut along = zeros();
             for direction in self.pile.dimension().directions() {
                 let support = self.support(*site, *direction)?;

@@ -76,7 +76,8 @@ impl<T: Ring> Affine<T> {
 }
 
 impl<T: Field> Affine<T> {
-    /// Returns the gradient and its square, in real units. `across` is 4cos²φ. `None` for numbers that are undefined.
+    /// Returns the gradient by the tilt, (a, b/4cos²φ), and its square a² + b²/4cos²φ. `across` is 4cos²φ. `None` for numbers
+    /// that are undefined.
     fn gradient(&self, across: &T) -> Option<([T; 2], T)> {
         let gradient = [self.a.clone(), self.b.checked_div(across)?];
         let [a, b] = &gradient;
@@ -115,7 +116,7 @@ pub struct Stability<C = (Site, Direction)> {
     /// The least tilt at which a contact opens, or `None` if the pile does not stand upright.
     pub margin: Option<Margin<C>>,
     /// The corners of the polygon of tilts that the pile bears, counterclockwise. For discs these are the two ends of an
-    /// interval along x. Empty if the pile bears no tilt.
+    /// interval along x. Empty if no tilt makes the pile stable.
     pub corners: Vec<Tilt>,
 }
 
@@ -168,11 +169,11 @@ impl Pile {
         })
     }
 
-    /// Returns the margin of the pile, as [`stability`](Self::stability) does, but in less time for a small pile: then the
-    /// contact that opens is the first of several in the order of tables.
+    /// Returns the margin of [`stability`](Self::stability). Up to 20,000 contacts, all forces are computed. Then the contact
+    /// is the first in the order of tables, if several open at the least tilt.
     ///
-    /// A pile of spheres of weight mg under a top is cut off below its last sign change. No further layer changes the
-    /// margin, because at the tilt ½, at which the top spheres alone roll off, no increment is negative.
+    /// A pile of spheres of weight mg under a top is cut off one step below its last sign change. No further layer changes
+    /// the margin, because at the tilt ½, at which the top spheres alone roll off, no increment is negative.
     ///
     /// # Errors
     /// As for [`stability`](Self::stability).

@@ -73,9 +73,12 @@ def test_the_response_is_the_difference_that_a_load_makes():
     for n, change in enumerate(contacts):
         difference = Fraction(after.numerators[n].item(), after.denominator)
         assert difference - Fraction(before.numerators[n].item(), before.denominator) == change
-    for (i, j), forces in zip(((0, -1), (1, -1)), response.base, strict=False):
-        normal = sum(part * force.normal for part, force in zip(load, forces, strict=True))
-        assert loaded.on_floor(i, j).normal - pile.on_floor(i, j).normal == normal
+    sites = [(i, j) for k, i, j in pile.sites().tolist() if k == 3]
+    for (i, j), forces in zip(sites, response.base, strict=True):
+        before, after = pile.on_floor(i, j), loaded.on_floor(i, j)
+        for n in range(3):
+            change = sum(part * force[n] for part, force in zip(load, forces, strict=True))
+            assert after[n] - before[n] == change
     discs = Pile(2, dimension=2).response(0, 0)
     assert discs.contacts == [(1, -1), (1, 1)]
     assert [len(forces) for forces in discs.base] == [2, 2]
@@ -86,13 +89,13 @@ def test_sensitivity_and_spread():
     changes = [pile.sensitivity(*map(int, pile.site(n + 1))) for n in range(pile.sphere_count)]
     variances = [sum(change[n] ** 2 for change in changes) for n in range(pile.contact_count)]
     least, variance, bearable_squared = pile.spread()
-    assert variance in variances
     assert bearable_squared == least.force**2 / (9 * variance)
     assert bearable_squared == min(
         Fraction(numerator.item()) ** 2 / (9 * variances[n])
         for n, numerator in enumerate(pile.multiples().numerators)
     )
-    assert Pile(2, weightless=True).spread().bearable_squared is None
+    for none in (Pile(2, weightless=True), Pile(1), Pile(6, "hcp")):
+        assert none.spread() is None
 
 
 def test_a_sphere_that_does_not_exist_has_no_response():

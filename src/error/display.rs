@@ -143,10 +143,9 @@ impl fmt::Display for Whole<'_> {
             Error::NoWeight => f.write_str(
                 "no sphere above the floor has a weight, so a tilt of gravity has no effect: give the pile weight",
             ),
-            Error::RoughFloor { given } => write!(
+            Error::RoughFloor { needed, given } => write!(
                 f,
-                "a rough floor has exact forces for two layers under vertical loads, not for {given}: use two layers, or the \
-                 floor with glue"
+                "on a rough floor a pile must have {needed}, and this one has {given}"
             ),
             Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")

@@ -122,7 +122,7 @@ impl Loading {
         }
     }
 
-    /// Returns the force of gravity on a weight.
+    /// Returns the force of gravity, for a sphere of this weight.
     fn gravity_on(&self, weight: BigRational) -> Load {
         if self.tilt.iter().all(Zero::is_zero) {
             weight.into()

@@ -83,8 +83,8 @@ impl System<'_> {
         })
     }
 
-    /// Returns a common denominator D of the increments of all spheres and of all loads times W. It is the product of
-    /// the denominator of the increments 1, 1, 2s and that of all loads, tilts and forces of horizontal contacts.
+    /// Returns a common denominator D of all increments, and of W times all loads. It is the denominator of 2s, times the
+    /// common denominator of tilt, loads and horizontal forces. It need not be the least one.
     pub(crate) fn denominator(&self) -> BigInt {
         let horizontal = self.loading.horizontal().map(|(_, force)| force);
         let given = common_denominator(self.loading.tilt().iter().chain(horizontal));

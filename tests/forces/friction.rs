@@ -1,9 +1,9 @@
-//! Two layers on a rough table, against all equations of equilibrium.
+//! Two layers on a rough floor, against all equations of equilibrium.
 
 use std::collections::BTreeMap;
 
 use cannonpile::geometry::{Vector, directions};
-use cannonpile::lattice::{Direction, Region, Sign, Site};
+use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Sign, Site};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Load, Pile, ratio};
 use num_rational::BigRational;
@@ -64,7 +64,9 @@ impl Equations {
                 continue;
             };
             assert_ne!(pivot, self.unknowns, "the equations contradict each other");
-            row.values_mut().for_each(|factor| *factor /= &lead);
+            for factor in row.values_mut() {
+                *factor /= &lead;
+            }
             for (_, known) in &mut solved {
                 subtract(known, pivot, &row);
             }
@@ -161,7 +163,7 @@ fn check(pile: &Pile) {
             needed = needed.max((x * x + y * y * &across) / (z * z * &half * &half));
         }
     }
-    assert_eq!(rough.floor_friction_needed_squared(), Ok(needed));
+    assert_eq!(rough.floor_friction_squared(), Ok(needed));
 }
 
 #[test]
@@ -221,7 +223,21 @@ fn discs() {
     let rough = pile.on_rough_floor().unwrap();
     let contact = rough.contact(Site::APEX, Direction::Alpha);
     assert_eq!(contact, Ok(ratio!(1 / 2)));
-    assert_eq!(rough.floor_friction_needed_squared(), Ok(ratio!(1 / 9)));
+    let base: Vec<_> = rough
+        .base::<BigRational>()
+        .unwrap()
+        .map(Result::unwrap)
+        .collect();
+    let forces = base.into_iter().map(|force| [force.normal, force.shear_x]);
+    let expected = [
+        [ratio!(3 / 2), ratio!(-1 / 2)],
+        [ratio!(3 / 2), ratio!(1 / 2)],
+    ];
+    assert!(forces.eq(expected));
+    assert_eq!(rough.floor_friction_squared(), Ok(ratio!(1 / 9)));
+    let weightless = pile.weightless();
+    let rough = weightless.on_rough_floor().unwrap();
+    assert_eq!(rough.floor_friction_squared(), Ok(ratio!(0)));
 }
 
 /// Three layers have a state of self-stress, so their forces depend on the history.
@@ -233,7 +249,7 @@ fn other_piles_are_refused() {
     };
     let two = || Pile::triangular(2).unwrap();
     assert_eq!(refused(Pile::triangular(3).unwrap()), "3 layers");
-    assert_eq!(refused(Pile::triangular(1).unwrap()), "1 layers");
+    assert_eq!(refused(Pile::triangular(1).unwrap()), "1 layer");
     let tilted = two().with_tilt([ratio!(1 / 9), ratio!(0)]).unwrap();
     assert_eq!(refused(tilted), "a tilt");
     let push = Load {
@@ -242,5 +258,12 @@ fn other_piles_are_refused() {
         y: ratio!(0),
     };
     let pushed = two().with_load(Site::APEX, push).unwrap();
-    assert_eq!(refused(pushed), "a load with a horizontal part");
+    assert_eq!(refused(pushed), "the load (0, 1, 0) at (i,j,k) = (0,0,0)");
+    let wide = Pile::under(Region::hexagon(2, 2).unwrap(), "+".parse().unwrap()).unwrap();
+    let contact = HorizontalContact {
+        site: wide.sites(Selection::Layer(0)).unwrap().next().unwrap(),
+        axis: Axis::ALL[0],
+    };
+    let held = wide.with_horizontal_force(contact, ratio!(1)).unwrap();
+    assert_eq!(refused(held), "forces of such contacts");
 }

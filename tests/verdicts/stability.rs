@@ -112,7 +112,24 @@ fn polygons_of_other_piles() {
     check(&heavy.unwrap());
 }
 
-/// `shared` values: t_c² of some stackings, the same for every number of layers.
+/// A pile with more contacts than `margin` examines has the margin of its polygon.
+#[test]
+fn margins_of_small_and_large_piles() {
+    let straight = |layers| Pile::isosceles(layers, ratio!(2 / 5)).unwrap();
+    let [small, large] = [5, 40].map(|layers| straight(layers).margin().unwrap().unwrap());
+    assert!(straight(40).contact_count() > 20_000_u32.into());
+    assert_eq!(small.squared, large.squared);
+    // All three contacts of the apex open at this distance, and all contacts that carry one sphere.
+    let opens = Pile::triangular(9)
+        .unwrap()
+        .margin()
+        .unwrap()
+        .unwrap()
+        .opens;
+    assert_eq!(opens, (Site::APEX, cannonpile::lattice::Direction::Alpha));
+}
+
+/// The values of t_c² of some stackings, the same for every number of layers.
 #[test]
 fn known_margins() {
     for layers in 6..=12_usize {

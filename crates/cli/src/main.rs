@@ -59,7 +59,7 @@ enum Command {
     Stability(stability::Stability),
     /// List the force of each contact per unit of a load on one sphere
     Response(response::Response),
-    /// List the change of each contact force if one sphere is larger, or the deviations of all radii that the pile bears
+    /// List the change of each contact force if one sphere is larger, or the effect of deviations of all radii
     Sensitivity(sensitivity::Sensitivity),
     /// Bound the base normal forces at a = R, with horizontal contacts
     Bounds(bounds::Bounds),

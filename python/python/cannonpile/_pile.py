@@ -721,14 +721,14 @@ class Pile:
         Returns
         -------
         Stability
-            ``margin_squared``, the exact square of the least tan(tilt)/tan(theta) at which a contact opens, or None if the pile
-            is unstable; ``opens``, that contact and its force, None at a = R, where forces are not unique; ``corners``, the
-            corners (x, y) of the polygon of tilts.
+            ``margin_squared``, the exact square of the least tan(tilt)/tan(theta) beyond which the pile is unstable, or None if
+            it is unstable upright; ``opens``, the contact that opens there and its force, None at a = R, where forces are not
+            unique; ``corners``, the corners (x, y) of the polygon of tilts.
 
         Raises
         ------
         ValueError
-            If the spheres have no weight.
+            If the spheres have no weight, or the linear program at a = R was not solved.
         MemoryError
             If the pile is too large.
 
@@ -807,20 +807,20 @@ class Pile:
         """
         return native.sensitivity(self._native, k, i, j)
 
-    def spread(self) -> Spread:
-        """Return the contact that opens first if all radii deviate independently, and the deviation that it bears.
+    def spread(self) -> Spread | None:
+        """Return the contact that opens first if all radii deviate independently, and the deviation at which it does.
 
         Returns
         -------
-        Spread
+        Spread or None
             ``contact``, with its force; ``variance`` of this force, divided by the square of the relative standard deviation r
-            of the radii; ``bearable_squared``, r squared where the force is three standard deviations above zero, None if no
-            radius changes the force.
+            of the radii; ``bearable_squared``, r squared where the force is three standard deviations above zero. None if some
+            contact needs tension, or no radius changes a force.
 
         Raises
         ------
         ValueError
-            If the pile has one layer, or the spacing is impossible for this stacking.
+            If the spacing is impossible for this stacking.
         MemoryError
             If the pile is too large.
 
@@ -831,8 +831,8 @@ class Pile:
         >>> spread.contact, f"{float(spread.bearable_squared) ** 0.5:.3f}"
         (Contact(k=1, i=0, j=0, direction='beta', force=Fraction(1, 1)), '0.052')
         """
-        contact, variance, bearable_squared = native.spread(self._native)
-        return Spread(Contact(*contact), variance, bearable_squared)
+        spread = native.spread(self._native)
+        return None if spread is None else Spread(Contact(*spread[0]), *spread[1:])
 
     def bounds(self, i: int, j: int = 0) -> Bounds:
         """Return bounds of the normal force of a bottom sphere at a = R, over all admissible horizontal forces.

@@ -75,9 +75,9 @@ class Stability(namedtuple("Stability", "margin_squared opens corners")):
     Attributes
     ----------
     margin_squared : Fraction or None
-        The square of the least tan(tilt)/tan(theta) at which a contact opens, or None if the pile is unstable.
+        The square of the least tan(tilt)/tan(theta) beyond which the pile is unstable, or None if it is unstable upright.
     opens : Contact or None
-        The contact that opens there, and its force in f0 under upright gravity.
+        The contact that opens there, and its force in f0 under upright gravity. None at a = R, where forces are not unique.
     corners : list of tuple of Fraction
         The corners (x, y) of the polygon of tilts, counterclockwise.
 
@@ -122,8 +122,8 @@ class Spread(namedtuple("Spread", "contact variance bearable_squared")):
         The contact and its force among equal spheres.
     variance : Fraction
         The variance of this force divided by r squared, in f0 squared.
-    bearable_squared : Fraction or None
-        r squared where the force is three standard deviations above zero. None if no radius changes the force.
+    bearable_squared : Fraction
+        r squared where the force is three standard deviations above zero.
 
     Examples
     --------

@@ -34,7 +34,7 @@ class Response(NamedTuple):
 class Spread(NamedTuple):
     contact: Contact
     variance: Fraction
-    bearable_squared: Fraction | None
+    bearable_squared: Fraction
 
 class Bounds(NamedTuple):
     least: Fraction

@@ -4,6 +4,7 @@ use cannonpile::geometry::LayerGap;
 use cannonpile::lattice::{ContactKind, Direction, HorizontalContact, Site};
 use cannonpile::shape::Selection;
 use cannonpile::{Load, Spread};
+use cannonpile_dem::table::refuse_beyond;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -84,7 +85,7 @@ pub(crate) fn stability(pile: &Pile, py: Python<'_>) -> PyResult<Stability> {
         .exact
         .clearance()
         .check(&pile.scene.spacing().map_err(raised)?);
-    if touching.as_deref() == Ok(&[LayerGap { layers: 0 }]) {
+    if pile.exact.is_regular() && touching.as_deref() == Ok(&[LayerGap { layers: 0 }]) {
         let exact = pile.exact.clone();
         let stability = work_of_long_steps(py, move || cannonpile_horizontal::stability(&exact))?;
         let squared = stability.margin.map(|margin| margin.squared);
@@ -123,6 +124,10 @@ pub(crate) fn response(
     let site = input::site(&k, &i, &j)?;
     work(py, || {
         let bare = pile.exact.bare();
+        refuse_beyond(
+            &bare.contact_count(),
+            "use fewer layers, or a smaller top or base",
+        )?;
         let axes = bare.dimension().directions().len();
         let loads = Load::units().into_iter().take(axes);
         let units = loads.map(|load| {
@@ -137,7 +142,8 @@ pub(crate) fn response(
                 base.collect::<Result<_, _>>()?,
             ))
         });
-        units.collect::<Result<_, cannonpile::Error>>()
+        let units = units.collect::<Result<_, cannonpile::Error>>();
+        units.map_err(Error::from)
     })
 }
 
@@ -158,16 +164,19 @@ pub(crate) fn sensitivity(
 }
 
 /// The contact that opens first under deviations of all radii, the variance of its force, and the square of the deviation
-/// that it bears.
+/// at which it does.
 #[pyfunction]
 pub(crate) fn spread(
     pile: &Pile,
     py: Python<'_>,
-) -> PyResult<(Weakest, BigRational, Option<BigRational>)> {
-    let spread: Spread = work(py, || Ok::<_, Error>(pile.packing()?.spread()?))?;
-    let bearable = spread.bearable_squared();
-    let contact = contact(spread.site, spread.direction, spread.force);
-    Ok((contact, spread.variance, bearable))
+) -> PyResult<Option<(Weakest, BigRational, BigRational)>> {
+    let spread: Option<Spread> = work(py, || Ok::<_, Error>(pile.packing()?.spread()?))?;
+    Ok(spread.and_then(|spread| {
+        // The variance is not zero.
+        let bearable = spread.bearable_squared()?;
+        let contact = contact(spread.site, spread.direction, spread.force);
+        Some((contact, spread.variance, bearable))
+    }))
 }
 
 /// The contact with the smallest force.

@@ -8,7 +8,7 @@ use cannonpile::shape::Selection;
 use cannonpile::{ForceChange, Load, Packing, Pile, SiBasis, ratio};
 use cannonpile_testkit::dual::Dual;
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 
 type V = [f64; 3];
 
@@ -137,7 +137,7 @@ fn spreads_of_straight_piles() {
     for (layers, known) in [(4, 6.4), (6, 13.0), (8, 21.0)] {
         let pile = Pile::triangular(layers).unwrap();
         let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
-        let spread = packing.spread::<f64>().unwrap();
+        let spread = packing.spread::<f64>().unwrap().unwrap();
         let relative = spread.variance.sqrt() / spread.force;
         assert!((relative - known).abs() < 0.5, "{layers} {relative}");
         let bearable = spread.bearable_squared().unwrap().sqrt();
@@ -145,10 +145,28 @@ fn spreads_of_straight_piles() {
     }
     let pile = Pile::triangular(3).unwrap();
     let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
-    let [exact, float] = [packing.spread::<BigRational>().unwrap().variance, ratio!(0)];
-    assert!(!exact.is_zero() && float.is_zero());
-    let rounded = packing.spread::<f64>().unwrap().variance;
+    let exact = packing.spread::<BigRational>().unwrap().unwrap().variance;
+    let rounded = packing.spread::<f64>().unwrap().unwrap().variance;
     assert!((exact.to_f64().unwrap() - rounded).abs() < 1e-9);
+}
+
+/// A contact whose force no radius changes is not the one that opens first, and an unstable pile has no such contact.
+#[test]
+fn spreads_of_other_piles() {
+    let spread = |pile: Pile| {
+        let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
+        packing.spread::<BigRational>().unwrap()
+    };
+    let load = |pile: Pile| {
+        pile.with_load(Site { i: 0, j: 0, k: 1 }, ratio!(1))
+            .unwrap()
+    };
+    let below = spread(load(Pile::triangular(3).unwrap().weightless())).unwrap();
+    assert_eq!((below.site.k, below.force), (1, ratio!(1)));
+    let hcp = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
+    assert_eq!(spread(hcp), None);
+    assert_eq!(spread(Pile::triangular(1).unwrap()), None);
+    assert_eq!(spread(Pile::triangular(3).unwrap().weightless()), None);
 }
 
 /// If all spheres grow alike, the pile keeps its shape only if the floor grows too. In a pile of discs every force has a

@@ -30,8 +30,8 @@ Columns:
   base_spheres             number of bottom spheres
   normal_min, normal_max   range of the base normal forces, in mg; empty for unstable stackings
   k, i, j, direction       contact with the smallest force
-  margin_squared           t_c², the square of the least tilt at which a contact opens (see stability); empty for unstable
-                           stackings, and for a single layer
+  margin_squared           t_c², the square of the least tilt at which a contact opens (see stability), without horizontal
+                           contacts; empty for stackings that need these, for unstable ones, and for a single layer
 
 With --spacing 1 horizontal contacts may support the pile, and decided_by names the proof:
   sloping     no contact between layers needs tension

@@ -1,10 +1,10 @@
 //! `sensitivity`: the changes of the contact forces if spheres are unequal.
 
-use cannonpile_dem::Key;
 use clap::Args;
 
+use super::stability::Contacts;
 use crate::args::{Number, Output, SceneOptions, parse_site};
-use crate::output::{Failure, InputError, print_message};
+use crate::output::{Failure, print_message};
 use crate::progress::Progress;
 use crate::tables;
 
@@ -23,8 +23,9 @@ Columns of --spread, one row:
   force_deviation     standard deviation of this force, divided by r
   radius_deviation    r at which this force is three standard deviations above zero: force/(3·force_deviation)
 
-Real spheres that vary more than radius_deviation do not stand like the pile of equal ones: contacts open. Forces on contacts
-of spheres that touch at --spacing in addition, as neighbours do at a = R, are not included.
+If the spheres vary by radius_deviation or more, some contacts probably open, and the forces are others. The answer is without
+the contacts of further spheres that touch at --spacing, such as neighbours in a layer at a = R. An unstable pile has no
+spread, and the exit status is 1.
 
 Examples:
   cannonpile sensitivity --layers 4 --at 3,0,0
@@ -39,7 +40,7 @@ pub(crate) struct Sensitivity {
     /// Larger sphere: K,I,J with k from 0 at the top, or I,J on the base (discs: K,I or I)
     #[arg(long, value_name = "K,I,J", allow_hyphen_values = true)]
     at: Option<String>,
-    /// Find the contact that opens first if all radii deviate, and how large the deviations may be
+    /// Find the contact that opens first if all radii deviate, and the deviation at which it does
     #[arg(long)]
     spread: bool,
     /// Format of numbers
@@ -48,6 +49,9 @@ pub(crate) struct Sensitivity {
     #[command(flatten)]
     output: Output,
 }
+
+const NO_CHANGE: &str =
+    "no radius changes a contact force: use two or more layers, and give the pile weight or loads";
 
 const FURTHER_CONTACTS: &str = "note: further spheres touch at this spacing, and a larger sphere may push them apart: this answer is without their contacts";
 
@@ -60,13 +64,16 @@ impl Sensitivity {
         let progress = Progress::begin("computing the changes of the forces");
         let table = match site {
             Some(site) => tables::sensitivity(&pile, packing.sensitivity(site)?),
-            None => {
-                let spread = packing.spread().map_err(|error| match pile.layers() {
-                    1 => InputError::of(Key::Layers, error),
-                    _ => error.into(),
-                })?;
-                tables::spread(&pile, spread)
-            }
+            None => match packing.spread()? {
+                Some(spread) => tables::spread(&pile, spread),
+                None if pile.first_failure()?.is_some() => {
+                    drop(progress);
+                    let unstable = Contacts::Sloping.instability(&pile);
+                    print_message(&format!("no spread: {unstable}"));
+                    return Ok(false);
+                }
+                None => return Err(Failure::Message(NO_CHANGE.to_owned())),
+            },
         };
         self.output.write_table(table, self.number, &progress)?;
         drop(progress);

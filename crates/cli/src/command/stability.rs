@@ -27,8 +27,8 @@ Columns:
 Columns of --polygon, a row for each corner, counterclockwise:
   x, y                tilt, in tanθ and √3·tanθ (2cosφ·tanθ with --sin-phi)
 
-At a = R horizontal contacts may support the pile, and the margin is the least tilt beyond which it is unstable. A contact is
-then named only if it opens at the same tilt without them.
+At a = R horizontal contacts may support the pile. Then forces are not unique, and no contact is named: beyond the margin no
+compressive forces balance the pile. The command summary writes a proof for a given tilt: --tilt X,Y --certificate FILE.
 
 The margin is 0 if a contact of the pile has no force and opens at the slightest tilt. An unstable pile has no margin, and
 the exit status is 1. A straight pile has the margin 1/2 for every number of layers.
@@ -60,16 +60,12 @@ impl Stability {
         // The default spacing may be invalid for this pile.
         let touching = pile.clearance().check(&scene.spacing()?);
         let progress = Progress::begin("searching for the contacts that open first");
-        let has_horizontal_contacts = touching.as_deref() == Ok(&[LayerGap { layers: 0 }]);
-        let answer = if has_horizontal_contacts {
-            self.with_horizontal_contacts(&pile)
-        } else {
-            self.of_sloping_contacts(&pile)
-        };
+        let answer = self.answer(&pile, touching.as_deref().unwrap_or_default());
         let Answer {
             squared,
             opens,
             corners,
+            contacts,
         } = answer.map_err(|error| of_weight(&pile, error))?;
         let stands = squared.is_some();
         let table = if self.polygon {
@@ -85,23 +81,39 @@ impl Stability {
         }
         drop(progress);
         if !stands {
-            print_message(&instability(&pile, touching.as_deref().unwrap_or_default()));
+            print_message(&format!("no margin: {}", contacts.instability(&pile)));
             return Ok(false);
         }
-        match touching {
-            Err(error) if !self.polygon => print_message(&format!("note: no angle: {error}")),
-            Ok(_) if has_horizontal_contacts && !self.polygon && opens.is_none() => {
-                print_message(NO_CONTACT);
-            }
-            Ok(touching) if !touching.is_empty() && !has_horizontal_contacts => {
-                print_message(SLOPING_ONLY);
-            }
-            _ => {}
+        if let (Err(error), false) = (touching, self.polygon) {
+            print_message(&format!("note: no angle: {error}"));
+        }
+        if let Contacts::SlopingOnly { reason } = contacts {
+            print_message(&format!(
+                "note: further spheres touch at this spacing: this answer is without their contacts, and the pile may bear \
+                 more{reason}"
+            ));
         }
         Ok(true)
     }
 
-    fn of_sloping_contacts(&self, pile: &Pile) -> Result<Answer, Error> {
+    fn answer(&self, pile: &Pile, touching: &[LayerGap]) -> Result<Answer, Error> {
+        if touching.is_empty() {
+            return self.of_sloping_contacts(pile, Contacts::Sloping);
+        }
+        let mut reason = String::new();
+        if *touching == [LayerGap { layers: 0 }] && pile.is_regular() {
+            match self.with_horizontal_contacts(pile) {
+                Err(
+                    error @ (Error::Horizontal(cannonpile_horizontal::Error::NotSolved { .. })
+                    | Error::Core(cannonpile::Error::TooLarge { .. })),
+                ) => reason = format!(" ({error})"),
+                answer => return answer,
+            }
+        }
+        self.of_sloping_contacts(pile, Contacts::SlopingOnly { reason })
+    }
+
+    fn of_sloping_contacts(&self, pile: &Pile, contacts: Contacts) -> Result<Answer, Error> {
         let (margin, corners) = if self.polygon {
             let stability = pile.stability()?;
             (stability.margin, stability.corners)
@@ -114,26 +126,22 @@ impl Stability {
             squared,
             opens,
             corners,
+            contacts,
         })
     }
 
     fn with_horizontal_contacts(&self, pile: &Pile) -> Result<Answer, Error> {
-        if self.polygon {
+        let (margin, corners) = if self.polygon {
             let stability = cannonpile_horizontal::stability(pile)?;
-            return Ok(Answer {
-                squared: stability.margin.map(|margin| margin.squared),
-                opens: None,
-                corners: stability.corners,
-            });
-        }
-        let squared = cannonpile_horizontal::margin(pile)?.map(|margin| margin.squared);
-        let alone = pile
-            .margin()?
-            .filter(|alone| Some(&alone.squared) == squared.as_ref());
+            (stability.margin, stability.corners)
+        } else {
+            (cannonpile_horizontal::margin(pile)?, Vec::new())
+        };
         Ok(Answer {
-            squared,
-            opens: alone.map(|margin| margin.opens),
-            corners: Vec::new(),
+            squared: margin.map(|margin| margin.squared),
+            opens: None,
+            corners,
+            contacts: Contacts::Horizontal,
         })
     }
 }
@@ -143,14 +151,36 @@ struct Answer {
     squared: Option<BigRational>,
     opens: Option<(Site, Direction)>,
     corners: Vec<Tilt>,
+    contacts: Contacts,
 }
 
-/// The answer includes no forces of spheres two layers apart. These forces may be zero, so they never reduce the margin.
-const SLOPING_ONLY: &str = "note: spheres two layers apart touch at this spacing: this answer is without their contacts, and the pile may bear more";
+/// The contacts that an answer is about.
+pub(super) enum Contacts {
+    /// Sloping contacts, and there are no others.
+    Sloping,
+    /// Sloping contacts, although further spheres touch. The forces of these may be zero, so they never reduce the margin.
+    SlopingOnly { reason: String },
+    /// Sloping and horizontal contacts.
+    Horizontal,
+}
 
-/// At a = R the forces are not unique, and a pile may become unstable although each contact alone could stay closed.
-const NO_CONTACT: &str = "note: no single contact opens at this tilt: beyond it no forces with horizontal contacts are in equilibrium (for a proof, \
-     see summary --certificate with a greater --tilt)";
+impl Contacts {
+    /// Returns the message that a pile is unstable.
+    pub(super) fn instability(&self, pile: &Pile) -> String {
+        let contacts = match self {
+            Self::Horizontal => {
+                return "this pile is unstable, with horizontal contacts too".to_owned();
+            }
+            Self::Sloping => "",
+            Self::SlopingOnly { .. } => " without the further contacts at this spacing",
+        };
+        let reason = match pile.first_failure() {
+            Ok(Some(layer)) => format!(": below layer k = {layer} some contact needs tension"),
+            _ => String::new(),
+        };
+        format!("this pile is unstable{contacts}{reason}")
+    }
+}
 
 /// Returns the angle of the margin, or `None` if the default spacing does not fit the pile.
 fn angle_of(scene: &Scene, pile: &Pile, squared: &BigRational) -> Result<Option<f64>, Error> {
@@ -159,18 +189,4 @@ fn angle_of(scene: &Scene, pile: &Pile, squared: &BigRational) -> Result<Option<
         Err(error) if scene.spacing.is_some() => Err(error.into()),
         Err(_) => Ok(None),
     }
-}
-
-/// Returns the message that an unstable pile has no margin.
-fn instability(pile: &Pile, touching: &[LayerGap]) -> String {
-    let contacts = if touching.is_empty() {
-        ""
-    } else {
-        " without the further contacts at this spacing"
-    };
-    let reason = match pile.first_failure() {
-        Ok(Some(layer)) => format!(": below layer k = {layer} some contact needs tension"),
-        _ => String::new(),
-    };
-    format!("no margin: this pile is unstable{contacts}{reason}")
 }

@@ -24,8 +24,8 @@ Columns:
   max_shear_ratio            largest ratio of shear to normal force at the base
   touching                   spheres that touch at --spacing in addition to those of adjacent layers
   plan                       method that computes the forces
-  margin_squared             t_c², the square of the least tilt at which a contact opens (see stability); empty for an unstable
-                             pile, and without weight above the floor
+  margin_squared             t_c², the square of the least tilt at which a contact opens (see stability), without horizontal
+                             contacts; empty if the pile needs these, is unstable, or has no weight above the floor
 
 At a = R neighbours in a layer touch, and stands takes these horizontal contacts into account. The exit status is 1 unless
 the pile is stable. The table shows - for a value that takes too long to compute, and a note gives the reason. With

@@ -18,8 +18,8 @@ pub(crate) fn sensitivity(pile: &Pile, changes: Vec<ForceChange>) -> Table<'stat
     Table::of_rows(columns(pile, &names), "contacts", rows.into_iter())
 }
 
-/// Returns one row: `k, i, j, direction, force, force_deviation, radius_deviation`. Discs have no `j`. The last cell is empty
-/// if no radius changes the force.
+/// Returns one row: `k, i, j, direction, force, force_deviation, radius_deviation`. Discs have no `j`. The last one is
+/// exact.
 pub(crate) fn spread(pile: &Pile, spread: Spread) -> Table<'static> {
     let bearable: Option<BigRational> = spread.bearable_squared();
     let mut cells = contact_cells(pile, spread.site, spread.direction);
@@ -64,7 +64,7 @@ mod tests {
         let row = |direction: &str| format!("0,0,0,{direction},1,-6/13\n");
         let rows = ["alpha", "beta", "gamma"].map(row).concat();
         assert_eq!(table, format!("{head}{rows}"));
-        let table = csv(spread(&pile, packing.spread().unwrap()));
+        let table = csv(spread(&pile, packing.spread().unwrap().unwrap()));
         assert!(
             table.starts_with(
                 "k,i,j,direction,force,force_deviation,radius_deviation\n0,0,0,alpha,1,"

@@ -3,7 +3,7 @@
 use cannonpile::lattice::Region;
 use cannonpile::{Load, Pile, ratio};
 use cannonpile_horizontal::certificate::{Certificate, Claim};
-use cannonpile_horizontal::{equilibrium, stability};
+use cannonpile_horizontal::{equilibrium, margin, stability};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -15,6 +15,24 @@ fn stands(pile: &Pile, tilt: [BigRational; 2]) -> bool {
     let certificate = equilibrium(&pile.clone().with_tilt(tilt).unwrap()).unwrap();
     assert_eq!(certificate.check(), Ok(()));
     certificate.claim == Claim::Stands
+}
+
+/// The margin of a pile that is cut off below its last sign change is that of the whole pile.
+#[test]
+fn margins_of_long_piles() {
+    for (top, stacking) in [
+        (Region::SITE, "+-++"),
+        (Region::SITE, "+--"),
+        (Region::SITE, "+-+-+"),
+        (Region::hexagon(2, 2).unwrap(), "+-+"),
+    ] {
+        let pile = under(top, stacking);
+        let tilted = pile.clone().with_tilt([ratio!(1 / 500), ratio!(0)]);
+        for pile in [pile, tilted.unwrap()] {
+            let whole = stability(&pile).unwrap().margin.unwrap().squared;
+            assert_eq!(margin(&pile).unwrap().unwrap().squared, whole, "{pile}");
+        }
+    }
 }
 
 /// Just inside its polygon a pile stands, and just outside it falls. Both are proved by certificates.

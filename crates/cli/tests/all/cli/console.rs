@@ -55,9 +55,9 @@ console! {
     prove: 11;
     response: 9;
     scene: 18;
-    sensitivity: 13;
+    sensitivity: 15;
     spheres: 15;
-    stability: 28;
+    stability: 31;
     summary: 36;
     tables: 9;
     verify: 14;
