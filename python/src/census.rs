@@ -20,12 +20,13 @@ struct Entry {
     stands: bool,
 }
 
-/// An entry: stacking, layers, stability, smallest contact force, and the smallest and largest normal force of its
-/// base.
+/// An entry: stacking, layers, stability, smallest contact force, the smallest and largest normal force of its base, and
+/// the squared margin.
 type Row = (
     String,
     BigInt,
     bool,
+    Option<BigRational>,
     Option<BigRational>,
     Option<BigRational>,
     Option<BigRational>,
@@ -82,6 +83,7 @@ impl Entry {
         } else {
             None
         };
+        let margin = if stands { margin(pile)? } else { None };
         let (normal_min, normal_max) = base.map(|base| (base.normal_min, base.normal_max)).unzip();
         Ok((
             stacking.to_string(),
@@ -90,7 +92,18 @@ impl Entry {
             least.map(|contact| contact.force),
             normal_min,
             normal_max,
+            margin,
         ))
+    }
+}
+
+/// Returns the squared margin of a pile, or `None` for a single layer or a pile that is too large.
+fn margin(pile: &cannonpile::Pile) -> Result<Option<BigRational>, Error> {
+    match pile.margin() {
+        Err(cannonpile::Error::NoWeight) => Ok(None),
+        margin => Ok(unless_too_large(margin)?
+            .flatten()
+            .map(|margin| margin.squared)),
     }
 }
 

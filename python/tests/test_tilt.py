@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from cannonpile import Pile
+from cannonpile import Pile, census
 
 TILT = ("1/20", "-1/30")
 LOADS = {(1, 0, 0): ("1/2", "-1/10", "1/5")}
@@ -50,6 +50,13 @@ def test_stability():
     for x, y in stability.corners:
         assert Pile(6, "+-+++", tilt=(x, y)).weakest().force == 0
     assert Pile(6, "hcp").stability().margin_squared is None
+
+
+def test_margins_of_the_census():
+    margins = [entry.margin_squared for entry in census(6, standing=True)]
+    known = ["1/4", "1/16", "1/43", "4/469", "1/1036", "1/2224", "1/100", "1/208", "1/559", "0", "0"]
+    assert margins == list(map(Fraction, known))
+    assert [entry.margin_squared for entry in census(1)] == [None]
 
 
 def test_horizontal_contacts_enlarge_the_polygon():

@@ -41,7 +41,7 @@ __all__ = [
 __version__: str
 
 _Difference = tuple[tuple[int, int], int, int, int, str, float, float | None, float, str]
-_Entry = tuple[str, int, bool, Fraction | None, Fraction | None, Fraction | None]
+_Entry = tuple[str, int, bool, Fraction | None, Fraction | None, Fraction | None, Fraction | None]
 _Contact = tuple[int, int, int, str, Fraction]
 _Loads = list[tuple[str, str]]
 

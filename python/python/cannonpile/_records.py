@@ -184,7 +184,7 @@ class Theorem(namedtuple("Theorem", "name statement hypotheses symbols method ho
     __slots__ = ()
 
 
-class CensusEntry(namedtuple("CensusEntry", "stacking layers stands least_force normal_min normal_max")):
+class CensusEntry(namedtuple("CensusEntry", "stacking layers stands least_force normal_min normal_max margin_squared")):
     """A stacking and its stability.
 
     Attributes
@@ -199,6 +199,9 @@ class CensusEntry(namedtuple("CensusEntry", "stacking layers stands least_force 
         The smallest normal force on the floor in mg. None for a pile that is unstable without horizontal contacts.
     normal_max : Fraction or None
         The largest normal force on the floor in mg.
+    margin_squared : Fraction or None
+        The square of the least tan(tilt)/tan(theta) at which a contact opens, without horizontal contacts. None for a pile that
+        is unstable without them, and for a single layer.
 
     Examples
     --------

@@ -56,6 +56,7 @@ class CensusEntry(NamedTuple):
     least_force: Fraction | None
     normal_min: Fraction | None
     normal_max: Fraction | None
+    margin_squared: Fraction | None
 
 class MeanForce(NamedTuple):
     a: int
