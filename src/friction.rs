@@ -76,12 +76,13 @@ impl Pile {
     /// ```
     /// use cannonpile::lattice::{Direction, Site};
     /// use cannonpile::{Pile, ratio};
+    /// use num_rational::BigRational;
     ///
     /// let pile = Pile::triangular(2)?;
     /// let four = pile.on_rough_floor()?;
     /// // 1/3 mg along the contact, and 1/3 mg·tan(θ/2) across it.
-    /// assert_eq!(four.contact(Site::APEX, Direction::Alpha)?, ratio!(1/3));
-    /// let floor = four.base()?.next().unwrap()?;
+    /// assert_eq!(four.contact::<BigRational>(Site::APEX, Direction::Alpha)?, ratio!(1/3));
+    /// let floor = four.base::<BigRational>()?.next().unwrap()?;
     /// assert_eq!(floor.normal, ratio!(4/3));
     /// // A floor of friction tan(θ/2)/4 is enough.
     /// assert_eq!(four.floor_friction_squared()?, ratio!(1/16));
