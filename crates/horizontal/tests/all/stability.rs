@@ -24,7 +24,7 @@ fn margins_of_long_piles() {
         (Region::SITE, "+-++"),
         (Region::SITE, "+--"),
         (Region::SITE, "+-+-+"),
-        (Region::hexagon(2, 2).unwrap(), "+-+"),
+        (Region::hexagon(2, 2).unwrap(), "+-++"),
     ] {
         let pile = under(top, stacking);
         let tilted = pile.clone().with_tilt([ratio!(1 / 500), ratio!(0)]);
