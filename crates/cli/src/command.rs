@@ -76,6 +76,15 @@ fn has_horizontal_contacts(
     )))
 }
 
+/// Returns the message that a pile is unstable, without the contacts that `without` names.
+fn instability(pile: &Pile, without: &str) -> String {
+    let reason = match pile.first_failure() {
+        Ok(Some(layer)) => format!(": below layer k = {layer} some contact needs tension"),
+        _ => String::new(),
+    };
+    format!("this pile is unstable{without}{reason}")
+}
+
 /// Prints a note on stderr if the pile is unstable.
 fn note_instability(pile: &Pile) {
     if pile.is_weightless() {

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::stability::Contacts;
+use super::instability;
 use crate::args::{Number, Output, SceneOptions, parse_site};
 use crate::output::{Failure, print_message};
 use crate::progress::Progress;
@@ -68,8 +68,7 @@ impl Sensitivity {
                 Some(spread) => tables::spread(&pile, spread),
                 None if pile.first_failure()?.is_some() => {
                     drop(progress);
-                    let unstable = Contacts::Sloping.instability(&pile);
-                    print_message(&format!("no spread: {unstable}"));
+                    print_message(&format!("no spread: {}", instability(&pile, "")));
                     return Ok(false);
                 }
                 None => return Err(Failure::Message(NO_CHANGE.to_owned())),

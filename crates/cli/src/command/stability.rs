@@ -9,7 +9,7 @@ use cannonpile_dem::scene::Scene;
 use clap::Args;
 use num_rational::BigRational;
 
-use super::of_weight;
+use super::{instability, of_weight};
 use crate::args::{Number, Output, SceneOptions};
 use crate::output::{Failure, print_message};
 use crate::progress::Progress;
@@ -155,8 +155,8 @@ struct Answer {
 }
 
 /// The contacts that an answer is about.
-pub(super) enum Contacts {
-    /// Sloping contacts, and there are no others.
+enum Contacts {
+    /// Sloping contacts, the only ones.
     Sloping,
     /// Sloping contacts, although further spheres touch. The forces of these may be zero, so they never reduce the margin.
     SlopingOnly { reason: String },
@@ -166,19 +166,14 @@ pub(super) enum Contacts {
 
 impl Contacts {
     /// Returns the message that a pile is unstable.
-    pub(super) fn instability(&self, pile: &Pile) -> String {
-        let contacts = match self {
-            Self::Horizontal => {
-                return "this pile is unstable, with horizontal contacts too".to_owned();
+    fn instability(&self, pile: &Pile) -> String {
+        match self {
+            Self::Sloping => instability(pile, ""),
+            Self::SlopingOnly { .. } => {
+                instability(pile, " without the further contacts at this spacing")
             }
-            Self::Sloping => "",
-            Self::SlopingOnly { .. } => " without the further contacts at this spacing",
-        };
-        let reason = match pile.first_failure() {
-            Ok(Some(layer)) => format!(": below layer k = {layer} some contact needs tension"),
-            _ => String::new(),
-        };
-        format!("this pile is unstable{contacts}{reason}")
+            Self::Horizontal => "this pile is unstable, with horizontal contacts too".to_owned(),
+        }
     }
 }
 
