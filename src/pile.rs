@@ -718,6 +718,12 @@ impl Pile {
         &self.loading
     }
 
+    /// Returns 4cos²φ, the squared length of the unit along y in the symbolic basis.
+    pub(crate) fn across(&self) -> BigRational {
+        let s = &self.sin_phi;
+        BigRational::from_i128(4) * (BigRational::one() - s * s)
+    }
+
     /// Returns the data of the pile for an engine.
     pub(crate) fn system(&self) -> System<'_> {
         let increments = formula::increments(&self.sin_phi);

@@ -162,7 +162,7 @@ impl Packing<'_> {
 /// A pile with its forces, ready to be differentiated.
 struct Network<'p, T> {
     pile: &'p Pile,
-    /// The same pile without weights and loads.
+    /// The pile without weights and loads.
     bare: Pile,
     directions: [Vector<T>; 3],
     /// sin²θ, 4cos²φ·sin²θ and cos²θ: the squares of the units of the symbolic basis.
@@ -190,16 +190,14 @@ impl<'p, T: Field> Network<'p, T> {
             let forces = below.entry(contact.site).or_insert_with(zeros);
             forces[contact.direction.index()] = contact.force;
         }
-        let s = pile.sin_phi();
-        let four = BigRational::from_integer(4.into());
-        let across = &four - &four * s * s;
+        let across = pile.across();
         let (sin2, cos2) = (inclination.sin2(), inclination.cos2());
         Ok(Self {
             pile,
             bare: pile.bare(),
             directions: pile.directions(),
             squares: [sin2.clone(), across * sin2, cos2].map(|square| T::from_rational(&square)),
-            s: T::from_rational(s),
+            s: T::from_rational(pile.sin_phi()),
             increment_sum: forces.increment_sum()?,
             forces: below,
         })

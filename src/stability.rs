@@ -20,7 +20,7 @@ use alloc::vec::Vec;
 
 use num_bigint::BigUint;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 use crate::engine::check_interrupt;
 use crate::error::bug;
@@ -204,7 +204,7 @@ impl Pile {
             contacts.collect::<Result<Vec<ContactForce<T>>, _>>()
         })?;
         let [upright, along_x, along_y] = forces.map(Vec::into_iter);
-        let across = T::from_rational(&across(self));
+        let across = T::from_rational(&self.across());
         let overflow = || Error::overflow("the margin", T::NAME);
         // The square of a margin is c²/g², with the gradient g.
         let mut first: Option<([T; 2], (Site, Direction))> = None;
@@ -327,19 +327,13 @@ pub fn bearable<C: Clone, E: From<Error>>(
     })
 }
 
-/// Returns 4cos²φ.
-fn across(pile: &Pile) -> BigRational {
-    let s = pile.sin_phi();
-    BigRational::from_i128(4) * (BigRational::one() - s * s)
-}
-
 /// Returns the least tilt at which a function is zero, and the first of the functions that are zero there. `None` if a
 /// function is negative under upright gravity.
 fn least_margin<C>(
     pile: &Pile,
     forces: impl IntoIterator<Item = (Affine, C)>,
 ) -> Option<Margin<C>> {
-    let across = across(pile);
+    let across = pile.across();
     let mut least: Option<Margin<C>> = None;
     for (force, opens) in forces {
         if force.c.is_negative() {

@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 
 use crate::error::bug;
 use crate::geometry::Vector;
-use crate::scalar::{Ring, Surd};
+use crate::scalar::Surd;
 use crate::{Error, Pile};
 
 /// The exact extremes of the force on the floor over the base of a pile.
@@ -65,9 +65,7 @@ impl Pile {
     /// ```
     pub fn base_extremes(&self) -> Result<BaseExtremes, Error> {
         let forces = self.forces::<BigRational>();
-        // The squared length of the unit of shear along y, 4cos²φ.
-        let s = self.sin_phi();
-        let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
+        let across = self.across();
         let mut extremes = Extremes::default();
         let unit = forces.ends_of_base(&across, |force| extremes.meet(force, &across))?;
         extremes.over(&unit)
