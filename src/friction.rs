@@ -25,7 +25,7 @@
 //! | floor, horizontal | h·mg·tanθ | h·mg·tan(θ/2) |
 //!
 //! The contacts need a coefficient of friction of at least tan(θ/2) = (1 − cosθ)/sinθ, and the floor that of
-//! [`floor_friction_squared`](RoughFloor::floor_friction_squared). With less, no forces are in equilibrium.
+//! [`floor_friction`](RoughFloor::floor_friction). With less, no forces are in equilibrium.
 //!
 //! # Uniqueness
 //! The difference of two sets of forces balances no loads.
@@ -48,14 +48,12 @@
 use alloc::boxed::Box;
 use alloc::format;
 
-use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::Zero;
 
-use crate::error::bug;
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Algebra, Ring};
+use crate::scalar::{Algebra, Surd};
 use crate::shape::Selection;
-use crate::{ContactForce, Error, FloorForce, Forces, Pile};
+use crate::{ContactForce, Error, FloorForce, Pile};
 
 /// Two layers on a rough floor. Made by [`Pile::on_rough_floor`].
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +83,7 @@ impl Pile {
     /// let floor = four.base::<BigRational>()?.next().unwrap()?;
     /// assert_eq!(floor.normal, ratio!(4/3));
     /// // A floor of friction tan(θ/2)/4 is enough.
-    /// assert_eq!(four.floor_friction_squared()?, ratio!(1/16));
+    /// assert_eq!(four.floor_friction()?.to_string(), "1/4");
     /// assert!(Pile::triangular(3)?.on_rough_floor().is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -116,7 +114,7 @@ impl<'p> RoughFloor<'p> {
     /// Returns the normal force N of a contact, in mg. The tangential force is the same number, in mg·tan(θ/2).
     ///
     /// # Errors
-    /// As for [`Forces::contact`].
+    /// As for [`Forces::contact`](crate::Forces::contact).
     ///
     /// # Examples
     /// See [`Pile::on_rough_floor`].
@@ -128,7 +126,7 @@ impl<'p> RoughFloor<'p> {
     /// Returns all contacts in the order of tables. `force` is N in mg, and T in mg·tan(θ/2).
     ///
     /// # Errors
-    /// As for [`Forces::contacts`].
+    /// As for [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -144,7 +142,7 @@ impl<'p> RoughFloor<'p> {
         self,
     ) -> Result<impl Iterator<Item = Result<ContactForce<T>, Error>> + use<'p, T>, Error> {
         let share: T = self.share();
-        let contacts = Forces::contacts(&self.pile.forces::<T>(), Selection::All)?;
+        let contacts = self.pile.forces::<T>().contacts(Selection::All)?;
         Ok(contacts.map(move |contact| {
             let contact = contact?;
             Ok(ContactForce {
@@ -158,7 +156,7 @@ impl<'p> RoughFloor<'p> {
     /// and 2cosφ·mg·tan(θ/2) along y.
     ///
     /// # Errors
-    /// As for [`Forces::base`].
+    /// As for [`Forces::base`](crate::Forces::base).
     ///
     /// # Examples
     /// See [`Pile::on_rough_floor`].
@@ -168,35 +166,15 @@ impl<'p> RoughFloor<'p> {
         self.pile.forces::<T>().base(Selection::Base)
     }
 
-    /// Returns the square of the coefficient of friction that the floor needs, over tan²(θ/2). This coefficient is the largest
-    /// ratio of friction to normal force, over all lower spheres.
+    /// Returns the coefficient of friction that the floor needs, over tan(θ/2): the largest ratio of friction to normal force.
     ///
     /// # Errors
-    /// As for [`base`](Self::base).
+    /// As for [`Pile::base_extremes`].
     ///
     /// # Examples
     /// See [`Pile::on_rough_floor`].
-    pub fn floor_friction_squared(self) -> Result<BigRational, Error> {
-        let s = self.pile.sin_phi();
-        let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
-        let mut greatest = BigRational::zero();
-        for force in self.base::<BigRational>()? {
-            let FloorForce {
-                normal,
-                shear_x,
-                shear_y,
-                ..
-            } = force?;
-            let square = &shear_x * &shear_x + &shear_y * &shear_y * &across;
-            if square.is_zero() {
-                continue;
-            }
-            if !normal.is_positive() {
-                return Err(bug("a sphere with friction presses on the floor"));
-            }
-            greatest = greatest.max(square / (&normal * &normal));
-        }
-        Ok(greatest)
+    pub fn floor_friction(self) -> Result<Surd, Error> {
+        Ok(self.pile.base_extremes()?.max_shear_ratio)
     }
 
     /// Returns 1/W, which converts a number f to N in mg.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use cannonpile::geometry::{Vector, directions};
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Sign, Site};
+use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Load, Pile, ratio};
 use num_rational::BigRational;
@@ -163,7 +164,7 @@ fn check(pile: &Pile) {
             needed = needed.max((x * x + y * y * &across) / (z * z * &half * &half));
         }
     }
-    assert_eq!(rough.floor_friction_squared(), Ok(needed));
+    assert_eq!(rough.floor_friction(), Ok(Surd::sqrt(needed).unwrap()));
 }
 
 #[test]
@@ -234,10 +235,10 @@ fn discs() {
         [ratio!(3 / 2), ratio!(1 / 2)],
     ];
     assert!(forces.eq(expected));
-    assert_eq!(rough.floor_friction_squared(), Ok(ratio!(1 / 9)));
+    assert_eq!(rough.floor_friction(), Ok(ratio!(1 / 3).into()));
     let weightless = pile.weightless();
     let rough = weightless.on_rough_floor().unwrap();
-    assert_eq!(rough.floor_friction_squared(), Ok(ratio!(0)));
+    assert_eq!(rough.floor_friction(), Ok(ratio!(0).into()));
 }
 
 /// Three layers have a state of self-stress, so their forces depend on the history.
