@@ -8,7 +8,7 @@ use cannonpile::shape::Selection;
 use cannonpile::{ForceChange, Load, Packing, Pile, SiBasis, ratio};
 use cannonpile_testkit::dual::Dual;
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use num_traits::{ToPrimitive, Zero};
 
 type V = [f64; 3];
 
@@ -146,6 +146,7 @@ fn spreads_of_straight_piles() {
     let pile = Pile::triangular(3).unwrap();
     let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
     let exact = packing.spread::<BigRational>().unwrap().unwrap().variance;
+    assert!(!exact.is_zero());
     let rounded = packing.spread::<f64>().unwrap().unwrap().variance;
     assert!((exact.to_f64().unwrap() - rounded).abs() < 1e-9);
 }
