@@ -151,9 +151,9 @@ pub enum Error {
     /// A pile whose forces on a rough floor are not unique, or not covered.
     #[non_exhaustive]
     RoughFloor {
-        /// What the pile must have.
+        /// The property that the pile must have.
         needed: &'static str,
-        /// What it has instead.
+        /// The property that it has instead.
         given: Box<str>,
     },
     /// A method that does not apply. Closed forms need a straight stacking, and sweeps need spheres instead of discs.

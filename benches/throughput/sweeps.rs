@@ -78,8 +78,8 @@ fn alternating(layers: i128) -> Pile {
     Pile::under(Region::SITE, stacking).expect("a pile")
 }
 
-/// Returns a pile under upright gravity and the same pile under a tilt. Its layers have no threefold symmetry, of which an
-/// upright sweep would make use.
+/// Returns a pile under upright gravity and the same pile under a tilt. Its layers have no threefold symmetry, which would
+/// make an upright sweep faster.
 fn without_symmetry(layers: i128) -> [Pile; 2] {
     let top = Region::hexagon(2, 3).expect("a region");
     let stacking = Stacking::hcp(layers).expect("a stacking");
