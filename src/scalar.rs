@@ -163,6 +163,10 @@ impl Exactness {
 /// * `+` and `*` are commutative and associative, and `*` distributes over `+`.
 /// * [`Zero::zero`] and [`One::one`] are their neutral elements, and `a + &(-a)` is zero.
 /// * [`from_i128`](Self::from_i128) respects `+`, `*` and 1.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a ring of cannonpile",
+    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring`, `Algebra` and `OwnNumerators`"
+)]
 pub trait Ring:
     Clone
     + Debug
@@ -263,6 +267,10 @@ pub trait OwnNumerators: Algebra + Numerators<Numerator = Self> {
 ///
 /// A scalar of your own gets this trait from [`OwnNumerators`].
 #[doc(hidden)]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not say how it divides numerators",
+    note = "a scalar of your own implements `OwnNumerators`: `fn ratio(n, d)` returns n/d"
+)]
 pub trait Numerators: Sized {
     /// The type of the numerators: the scalar itself, or integers for rationals, which avoids reductions of
     /// intermediate fractions.
@@ -321,6 +329,10 @@ impl<T: OwnNumerators> Numerators for T {
 /// # Laws
 /// `a.checked_div(b)` is `None` if and only if `b` is zero or undefined; otherwise
 /// `a.checked_div(b) * b = a`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a scalar of cannonpile with division",
+    note = "a scalar of your own implements `Field`: `fn checked_div` returns the quotient, or `None` for a divisor of zero"
+)]
 pub trait Field: Algebra {
     /// Returns `self / divisor`, or `None` if the divisor is zero or undefined.
     ///
