@@ -17,6 +17,7 @@
 //! | module or type | contents |
 //! |---|---|
 //! | [`Surd`] | numbers c·√r: products, comparison, extraction of square factors |
+//! | [`SurdSum`] | exact sums of two surds: products with a surd, sign, comparison with floats, correct rounding |
 //! | [`CorrectlyRounded`] | correct rounding of a rational, by a double-double enclosure or by integer arithmetic |
 //! | [`DoubleDouble`] | unevaluated sums of two floats, about 106 bits, after Joldes, Muller and Popescu (2017) |
 //! | [`error_free`] | error-free transformations: sums and products of floats with their rounding errors |
@@ -46,6 +47,7 @@ pub mod rational;
 mod screen;
 #[doc(hidden)]
 pub mod short;
+mod sum;
 mod surd;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
@@ -56,6 +58,7 @@ pub use error::Error;
 pub use nearest::CorrectlyRounded;
 #[doc(hidden)]
 pub use nearest::float_between;
+pub use sum::SurdSum;
 pub use surd::Surd;
 
 pub use {num_bigint, num_rational};

@@ -254,8 +254,7 @@ impl Surd {
 
     /// Returns the sum, or `None` if it is not a surd.
     ///
-    /// The sum is a surd if both numbers are multiples of the same root, or if one is zero. `None` also
-    /// results if the stored radicands differ because a common square factor was not found.
+    /// The sum is a surd if the ratio of both numbers is rational, or if one is zero.
     ///
     /// # Examples
     /// ```
@@ -275,10 +274,17 @@ impl Surd {
         if other.coefficient.is_zero() {
             return Some(self.clone());
         }
-        (self.radicand == other.radicand).then(|| {
-            let coefficient = &self.coefficient + &other.coefficient;
-            Self::normal(coefficient, self.radicand.clone())
-        })
+        let coefficient = if self.radicand == other.radicand {
+            other.coefficient.clone()
+        } else {
+            // b√n = b·√(mn)/m·√m
+            let product = &self.radicand * &other.radicand;
+            let (root, rest) = whole_square(product);
+            let factor = BigRational::new(root.into(), self.radicand.clone().into());
+            rest.is_one().then(|| &other.coefficient * factor)?
+        };
+        let coefficient = &self.coefficient + coefficient;
+        Some(Self::normal(coefficient, self.radicand.clone()))
     }
 
     /// Returns 1 / `self`, or `None` for zero.
