@@ -48,12 +48,14 @@
 use alloc::boxed::Box;
 use alloc::format;
 
-use num_traits::Zero;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
 
+use crate::geometry::LayerGap;
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Algebra, Surd};
+use crate::scalar::{Algebra, Surd, SurdSum, product};
 use crate::shape::Selection;
-use crate::{ContactForce, Error, FloorForce, Pile};
+use crate::{ContactForce, Error, FloorForce, Packing, Pile};
 
 /// Two layers on a rough floor. Made by [`Pile::on_rough_floor`].
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +75,7 @@ impl Pile {
     /// Four balls: each of the three lower ones carries 1/3 mg of the upper one.
     /// ```
     /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Pile, ratio};
     /// use num_rational::BigRational;
     ///
@@ -80,7 +83,7 @@ impl Pile {
     /// let four = pile.on_rough_floor()?;
     /// // 1/3 mg along the contact, and 1/3 mg·tan(θ/2) across it.
     /// assert_eq!(four.contact::<BigRational>(Site::APEX, Direction::Alpha)?, ratio!(1/3));
-    /// let floor = four.base::<BigRational>()?.next().unwrap()?;
+    /// let floor = four.base::<BigRational>(Selection::Base)?.next().unwrap()?;
     /// assert_eq!(floor.normal, ratio!(4/3));
     /// // A floor of friction tan(θ/2)/4 is enough.
     /// assert_eq!(four.floor_friction()?.to_string(), "1/4");
@@ -92,7 +95,10 @@ impl Pile {
         let layers = self.layers();
         if layers != 2 {
             let plural = if layers == 1 { "" } else { "s" };
-            return refuse("two layers", format!("{layers} layer{plural}").into());
+            return refuse(
+                "two layers (with three, the forces are not unique)",
+                format!("{layers} layer{plural}").into(),
+            );
         }
         if !self.tilt().iter().all(Zero::is_zero) {
             return refuse("vertical gravity", "a tilt".into());
@@ -110,6 +116,38 @@ impl Pile {
     }
 }
 
+impl<'p> Packing<'p> {
+    /// Returns the packing on a rough floor, for forces in SI units.
+    ///
+    /// # Errors
+    /// [`Error::RoughFloor`] as for [`Pile::on_rough_floor`], and if neighbours of a layer touch, a = R.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let friction = packing.on_rough_floor()?.contact_friction();
+    /// assert_eq!(friction.to_string(), "5/6*sqrt(3)-1/6*sqrt(39)");
+    /// assert!(Packing::new(&pile, &"1".parse()?)?.on_rough_floor().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn on_rough_floor(&self) -> Result<RoughPacking<'p>, Error> {
+        let on_rough_floor = self.pile().on_rough_floor()?;
+        if self.touching().contains(&LayerGap { layers: 0 }) {
+            return Err(Error::RoughFloor {
+                needed: "gaps between neighbours of a layer, a > R",
+                given: "the spacing a = R".into(),
+            });
+        }
+        Ok(RoughPacking {
+            packing: self.clone(),
+            on_rough_floor,
+        })
+    }
+}
+
 impl<'p> RoughFloor<'p> {
     /// Returns the normal force N of a contact, in mg. The tangential force is the same number, in mg·tan(θ/2).
     ///
@@ -123,7 +161,7 @@ impl<'p> RoughFloor<'p> {
         Ok(force * &self.share())
     }
 
-    /// Returns all contacts in the order of tables. `force` is N in mg, and T in mg·tan(θ/2).
+    /// Returns the contacts of a part of the pile. `force` is N in mg, and T in mg·tan(θ/2).
     ///
     /// # Errors
     /// As for [`Forces::contacts`](crate::Forces::contacts).
@@ -132,17 +170,19 @@ impl<'p> RoughFloor<'p> {
     /// ```
     /// use cannonpile::Pile;
     /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::under(Region::hexagon(2, 2)?, "+".parse()?)?;
-    /// let forces = pile.on_rough_floor()?.contacts::<f64>()?;
+    /// let forces = pile.on_rough_floor()?.contacts::<f64>(Selection::All)?;
     /// assert!(forces.map(Result::unwrap).all(|contact| contact.force == 1.0 / 3.0));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contacts<T: Algebra>(
         self,
+        part: Selection,
     ) -> Result<impl Iterator<Item = Result<ContactForce<T>, Error>> + use<'p, T>, Error> {
         let share: T = self.share();
-        let contacts = self.pile.forces::<T>().contacts(Selection::All)?;
+        let contacts = self.pile.forces::<T>().contacts(part)?;
         Ok(contacts.map(move |contact| {
             let contact = contact?;
             Ok(ContactForce {
@@ -162,8 +202,9 @@ impl<'p> RoughFloor<'p> {
     /// See [`Pile::on_rough_floor`].
     pub fn base<T: Algebra>(
         self,
+        part: Selection,
     ) -> Result<impl Iterator<Item = Result<FloorForce<T>, Error>> + use<'p, T>, Error> {
-        self.pile.forces::<T>().base(Selection::Base)
+        self.pile.forces::<T>().base(part)
     }
 
     /// Returns the coefficient of friction that the floor needs, over tan(θ/2): the largest ratio of friction to normal force.
@@ -180,5 +221,153 @@ impl<'p> RoughFloor<'p> {
     /// Returns 1/W, which converts a number f to N in mg.
     fn share<T: Algebra>(self) -> T {
         T::from_rational(&self.pile.system().increment_sum.recip())
+    }
+}
+
+/// Two layers on a rough floor, in SI units. Made by [`Packing::on_rough_floor`].
+#[derive(Clone, Debug)]
+pub struct RoughPacking<'p> {
+    packing: Packing<'p>,
+    on_rough_floor: RoughFloor<'p>,
+}
+
+/// A contact with friction: forces in N, positions in m. The vectors are forces on the upper sphere, with z up.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RoughContact {
+    /// The upper sphere.
+    pub site: Site,
+    /// The direction from the upper to the lower sphere.
+    pub direction: Direction,
+    /// The normal force N.
+    pub normal: BigRational,
+    /// The tangential force T = N·tan(θ/2).
+    pub tangential: SurdSum,
+    /// The normal force as a vector, along the contact.
+    pub normal_vector: [Surd; 3],
+    /// The tangential force as a vector, in the vertical plane of the contact.
+    pub tangential_vector: [SurdSum; 3],
+    /// The point of contact.
+    pub point: [Surd; 3],
+}
+
+impl<'p> RoughPacking<'p> {
+    /// Returns the contacts of a part of the pile: N and T = N·tan(θ/2), in N.
+    ///
+    /// # Errors
+    /// As for [`Packing::contacts`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile, ratio};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// for contact in packing.on_rough_floor()?.contacts(Selection::All)? {
+    ///     let contact = contact?;
+    ///     assert_eq!(contact.normal, ratio!(1/3));
+    ///     assert_eq!(contact.tangential.nearest::<f64>(), Some(0.13418089108033268));
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contacts(
+        &self,
+        part: Selection,
+    ) -> Result<impl Iterator<Item = Result<RoughContact, Error>> + use<'p>, Error> {
+        let (packing, tan_half) = (self.packing.clone(), self.contact_friction());
+        let (ratio, cos) = (self.ratio(), packing.inclination().cos());
+        let unit = self.on_rough_floor.share::<BigRational>() * packing.sphere_weight();
+        let contacts = packing.forces().contacts(part)?;
+        Ok(contacts.map(move |contact| {
+            let contact = contact?;
+            let normal = product(&contact.force, &unit);
+            let (direction, packed) = (contact.direction, packing.contact_in_si(contact)?);
+            let normal_vector = packed.vector.map(|part| part * &cos);
+            let [x, y, z] = normal_vector.clone();
+            let aside = |part: Surd| ratio.clone() * &-part;
+            Ok(RoughContact {
+                site: packed.site,
+                direction,
+                tangential: tan_half.clone() * &normal.clone().into(),
+                tangential_vector: [aside(x), aside(y), SurdSum::new(normal.clone().into(), -z)],
+                normal,
+                normal_vector,
+                point: packed.point,
+            })
+        }))
+    }
+
+    /// Returns the forces of the lower spheres on the floor, in N: the normal force downwards, and friction along x and y.
+    ///
+    /// # Errors
+    /// As for [`Packing::base`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let floor = packing.on_rough_floor()?.base(Selection::Base)?.last().unwrap()?;
+    /// assert_eq!(floor.normal.to_string(), "4/3");
+    /// // tan(θ/2)/3, along x.
+    /// assert_eq!(floor.shear_x.to_string(), "5/18*sqrt(3)-1/18*sqrt(39)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn base(
+        &self,
+        part: Selection,
+    ) -> Result<impl Iterator<Item = Result<FloorForce<SurdSum>, Error>> + use<'p>, Error> {
+        let (packing, ratio) = (self.packing.clone(), self.ratio());
+        let forces = packing.forces().base(part)?;
+        Ok(forces.map(move |force| {
+            let force = packing.floor_force_in_si(force?);
+            Ok(FloorForce {
+                site: force.site,
+                normal: force.normal.into(),
+                shear_x: ratio.clone() * &force.shear_x,
+                shear_y: ratio.clone() * &force.shear_y,
+            })
+        }))
+    }
+
+    /// Returns the least coefficient of friction of a contact with a force, tan(θ/2).
+    ///
+    /// # Examples
+    /// See [`Packing::on_rough_floor`].
+    #[must_use]
+    pub fn contact_friction(&self) -> SurdSum {
+        // (1 − cosθ)/sinθ = (1 − cosθ)·sinθ/sin²θ
+        let inclination = self.packing.inclination();
+        let sin = inclination.sin().scaled(&inclination.sin2().recip());
+        SurdSum::new(BigRational::one().into(), -inclination.cos()) * &sin
+    }
+
+    /// Returns the coefficient of friction that the floor needs: the largest ratio of friction to normal force.
+    ///
+    /// # Errors
+    /// As for [`Pile::base_extremes`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let friction = packing.on_rough_floor()?.floor_friction()?;
+    /// assert_eq!(friction.nearest::<f64>(), Some(0.1006356683102495));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn floor_friction(&self) -> Result<SurdSum, Error> {
+        Ok(self.contact_friction() * &self.on_rough_floor.floor_friction()?)
+    }
+
+    /// Returns tan(θ/2)/tanθ = (cosθ − cos²θ)/sin²θ, which converts horizontal forces.
+    fn ratio(&self) -> SurdSum {
+        let inclination = self.packing.inclination();
+        let cos = inclination.cos().scaled(&inclination.sin2().recip());
+        SurdSum::new(BigRational::one().into(), -inclination.cos()) * &cos
     }
 }

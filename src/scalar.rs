@@ -63,7 +63,7 @@ mod polynomial;
 mod ratio;
 mod rational;
 
-pub use exact_surd::{CorrectlyRounded, DoubleDouble, Surd, parse};
+pub use exact_surd::{CorrectlyRounded, DoubleDouble, Surd, SurdSum, parse};
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
 pub use polynomial::{Polynomial, Symbol};

@@ -145,7 +145,7 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::RoughFloor { needed, given } => write!(
                 f,
-                "on a rough floor a pile must have {needed}, and this one has {given}"
+                "a rough floor needs {needed}, but this pile has {given}: change that, or use a floor with glue"
             ),
             Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")

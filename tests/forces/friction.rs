@@ -6,7 +6,7 @@ use cannonpile::geometry::{Vector, directions};
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Sign, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
-use cannonpile::{Error, Load, Pile, ratio};
+use cannonpile::{Error, Load, Packing, Pile, ratio};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -140,7 +140,10 @@ fn check(pile: &Pile) {
     }
     let solution = equations.solve();
     let rough = pile.on_rough_floor().unwrap();
-    let found: Vec<_> = rough.contacts::<BigRational>().unwrap().collect();
+    let found: Vec<_> = rough
+        .contacts::<BigRational>(Selection::All)
+        .unwrap()
+        .collect();
     assert_eq!(found.len(), contacts.len());
     for (n, (contact, known)) in found.into_iter().zip(&contacts).enumerate() {
         let contact = contact.unwrap();
@@ -154,7 +157,11 @@ fn check(pile: &Pile) {
     let mut needed = BigRational::zero();
     let s = pile.sin_phi();
     let across = ratio!(4) * (BigRational::one() - s * s);
-    for (place, force) in rough.base::<BigRational>().unwrap().enumerate() {
+    for (place, force) in rough
+        .base::<BigRational>(Selection::Base)
+        .unwrap()
+        .enumerate()
+    {
         let force = force.unwrap();
         assert_eq!(force.site, lower[place]);
         let [x, y, z] = [0, 1, 2].map(|axis| &solution[table + 3 * place + axis]);
@@ -225,7 +232,7 @@ fn discs() {
     let contact = rough.contact(Site::APEX, Direction::Alpha);
     assert_eq!(contact, Ok(ratio!(1 / 2)));
     let base: Vec<_> = rough
-        .base::<BigRational>()
+        .base::<BigRational>(Selection::Base)
         .unwrap()
         .map(Result::unwrap)
         .collect();
@@ -267,4 +274,91 @@ fn other_piles_are_refused() {
     };
     let held = wide.with_horizontal_force(contact, ratio!(1)).unwrap();
     assert_eq!(refused(held), "forces of such contacts");
+}
+
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Forces and moments of every sphere about its centre, from the vectors and points in SI units alone.
+#[test]
+fn forces_in_si_units_are_in_equilibrium() {
+    let wide = Pile::under(Region::hexagon(3, 2).unwrap(), "+".parse().unwrap())
+        .and_then(|pile| pile.with_load(Site::new(0, 0, 0), ratio!(7 / 2)))
+        .unwrap();
+    let piles = [
+        Pile::triangular(2).unwrap(),
+        Pile::isosceles(2, ratio!(2 / 5)).unwrap(),
+        Pile::discs(2).unwrap(),
+        wide,
+    ];
+    for (pile, spacing) in piles
+        .iter()
+        .flat_map(|pile| [(pile, "6/5"), (pile, "11/10")])
+    {
+        let packing = Packing::new(pile, &spacing.parse().unwrap())
+            .and_then(|packing| packing.with_radius(ratio!(1 / 3)))
+            .and_then(|packing| packing.with_mass(ratio!(2)))
+            .and_then(|packing| packing.with_gravity(ratio!(981 / 100)))
+            .unwrap();
+        let rough = packing.on_rough_floor().unwrap();
+        let friction = rough.contact_friction().nearest::<f64>().unwrap();
+        let mut sums: BTreeMap<Site, [f64; 6]> = BTreeMap::new();
+        let mut add = |site: Site, point: [f64; 3], force: [f64; 3]| {
+            let centre = packing.position(site).unwrap().map(|x| x.to_f64());
+            let arm = [0, 1, 2].map(|axis| point[axis] - centre[axis]);
+            let moment =
+                [(1, 2), (2, 0), (0, 1)].map(|(a, b)| arm[a] * force[b] - arm[b] * force[a]);
+            let sum = sums.entry(site).or_default();
+            for (n, part) in force.into_iter().chain(moment).enumerate() {
+                sum[n] += part;
+            }
+        };
+        for contact in rough.contacts(Selection::All).unwrap() {
+            let contact = contact.unwrap();
+            let normal = contact.normal_vector.map(|x| x.to_f64());
+            let tangential = contact
+                .tangential_vector
+                .map(|x| x.nearest::<f64>().unwrap());
+            let [n, t] = [&normal, &tangential].map(|force| dot(force, force).sqrt());
+            let magnitude = contact.tangential.nearest::<f64>().unwrap();
+            assert!((n - Surd::from(contact.normal).to_f64()).abs() < 1e-13 * n);
+            assert!((t - magnitude).abs() < 1e-12 * n && (t - friction * n).abs() < 1e-12 * n);
+            assert!(dot(&normal, &tangential).abs() < 1e-13 * n * n);
+            let point = contact.point.map(|x| x.to_f64());
+            let force = [0, 1, 2].map(|axis| normal[axis] + tangential[axis]);
+            let lower = pile.shape().below(contact.site, contact.direction).unwrap();
+            add(contact.site, point, force);
+            add(lower, point, force.map(|part| -part));
+        }
+        let radius = Surd::from(packing.radius().clone()).to_f64();
+        let mut needed = 0.0_f64;
+        for force in rough.base(Selection::Base).unwrap() {
+            let force = force.unwrap();
+            let [x, y, z] = [&force.shear_x, &force.shear_y, &force.normal];
+            let [x, y, z] = [x, y, z].map(|part| part.nearest::<f64>().unwrap());
+            needed = needed.max(x.hypot(y) / z);
+            let mut point = packing.position(force.site).unwrap().map(|x| x.to_f64());
+            point[2] -= radius;
+            add(force.site, point, [-x, -y, z]);
+        }
+        assert!((needed - rough.floor_friction().unwrap().nearest::<f64>().unwrap()).abs() < 1e-14);
+        let unit = Surd::from(packing.sphere_weight()).to_f64();
+        for (site, [x, y, z, moment @ ..]) in sums {
+            let load = Surd::from(pile.load(site).unwrap().down + ratio!(1)).to_f64();
+            assert!((z / unit - load).abs() < 1e-13, "{pile} {site}");
+            assert!(x.hypot(y) < 1e-13 * unit, "{pile} {site}");
+            assert!(dot(&moment, &moment).sqrt() < 1e-13 * unit, "{pile} {site}");
+        }
+    }
+}
+
+#[test]
+fn spheres_that_touch_in_a_layer_are_refused() {
+    let pile = Pile::triangular(2).unwrap();
+    let packing = Packing::new(&pile, &"1".parse().unwrap()).unwrap();
+    match packing.on_rough_floor() {
+        Err(Error::RoughFloor { given, .. }) => assert_eq!(&*given, "the spacing a = R"),
+        other => panic!("{other:?}"),
+    }
 }
