@@ -11,7 +11,7 @@ use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Dimension;
 use cannonpile::{Packing, Verdict};
 use cannonpile_dem::scene;
-use cannonpile_dem::scene::{Scene, State};
+use cannonpile_dem::scene::{Floor, Scene, State};
 use cannonpile_dem::table::{Summary, Units};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -40,6 +40,13 @@ impl Pile {
         let exact = work_of_long_steps(py, move || {
             let scene = wanted;
             scene.check_sizes()?;
+            if scene.floor != Floor::Glued {
+                let given = cannonpile::Error::syntax(
+                    scene.floor.name(),
+                    "a floor that Python supports: glued",
+                );
+                return Err(Raised::Named("floor", Box::new(given.into())));
+            }
             // The only sites in a scene are those of loads.
             let pile = scene.pile().map_err(|error| match error.into() {
                 error @ Error::Core(cannonpile::Error::SiteOutside { .. }) => {

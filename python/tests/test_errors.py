@@ -150,6 +150,8 @@ def test_scene_files():
         Pile.from_toml('colour = "red"')
     with pytest.raises(ValueError):
         Pile.from_toml("layers = ")
+    with pytest.raises(ValueError, match="floor"):
+        Pile.from_toml('layers = 2\nfloor = "rough"')
     with pytest.raises(TypeError):
         Pile.from_toml(b"layers = 3")
 

@@ -18,7 +18,7 @@ use num_bigint::BigUint;
 use crate::output::{Failure, InputError, write_to};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
-pub(crate) use scene::SceneOptions;
+pub(crate) use scene::{SceneOptions, in_state};
 pub(crate) use stackings::RandomSceneOptions;
 
 /// The option `--at`, for one sphere of the base.
@@ -118,6 +118,16 @@ impl MethodOption {
         match self.method {
             None => Ok(units),
             Some(method) => Ok(units.with_method(method.into())?),
+        }
+    }
+
+    /// Returns an error with this reason if a method is given.
+    pub(crate) fn refuse(&self, reason: &str) -> Result<(), Failure> {
+        match self.method {
+            None => Ok(()),
+            Some(_) => Err(Failure::Message(format!(
+                "--method: {reason}: leave it out"
+            ))),
         }
     }
 }

@@ -35,6 +35,9 @@ use crate::Error;
 use crate::output::{Failure, InputError, print_message};
 use crate::progress::Progress;
 
+/// The message for `--certificate` with `--floor rough`.
+const CERTIFICATE_ON_ROUGH_FLOOR: &str = "--certificate: forces on a rough floor need no certificate, because they are unique: leave it out";
+
 /// Parses the probability of a sign change.
 fn fault_probability(text: &str) -> Result<BigRational, Error> {
     let q = parse::rational(text)?;

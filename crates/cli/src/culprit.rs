@@ -116,6 +116,7 @@ fn of_core(error: &cannonpile::Error) -> Option<Culprit> {
         Error::OutOfPlane { quantity, .. } if *quantity == Key::Tilt.name() => Key::Tilt.into(),
         Error::NegativeLoad { .. } | Error::OutOfPlane { .. } => Key::Load.into(),
         Error::NoWeight => Key::Weightless.into(),
+        Error::RoughFloor { .. } => Key::Floor.into(),
         Error::Overlap { .. } | Error::TooFlat { .. } | Error::NotTouching { .. } => {
             Key::Spacing.into()
         }

@@ -90,6 +90,12 @@ pub enum Error {
         /// The remedy.
         remedy: &'static str,
     },
+    /// A file that only exists for a floor with glue.
+    #[non_exhaustive]
+    GluedOnly {
+        /// The file.
+        file: &'static str,
+    },
 }
 
 /// An error that displays its numbers in full.
@@ -103,6 +109,12 @@ impl fmt::Display for Whole<'_> {
             Error::SinPhiOfDiscs => {
                 f.write_str("a pile of discs has no sin phi: leave it out, or use dimension 3")
             }
+            Error::Excluded {
+                given: Key::State,
+                beside: Key::Floor,
+            } => f.write_str(
+                "the elastic state needs a floor with glue, not a rough one: leave out state or floor",
+            ),
             Error::Excluded { given, beside } => {
                 // Only the dimension 2 excludes other options.
                 let two = if *beside == Key::Dimension { " 2" } else { "" };
@@ -135,6 +147,10 @@ impl fmt::Display for Whole<'_> {
             Error::NeedsUnits { quantity } => write!(
                 f,
                 "{quantity} are in newtons and metres: use a packing, with a radius, a mass and a spacing"
+            ),
+            Error::GluedOnly { file } => write!(
+                f,
+                "{file} is only written for a floor with glue: use the formats of LAMMPS and YADE, or a floor with glue"
             ),
             Error::MustPull { remedy } => write!(
                 f,

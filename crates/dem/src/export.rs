@@ -8,6 +8,7 @@ use num_bigint::BigUint;
 use super::card::CardTitle;
 use super::file::{OtherFile, PileFile, PileFormat, Written};
 use super::numbered::NumberedPile;
+use super::rough::{self, Friction};
 use super::{card, csv, lammps, lammps_test, vtp, yade, yade_check};
 use crate::Error;
 use crate::table::{Progress, WriteError, write_all};
@@ -38,6 +39,8 @@ pub struct PileExport<'p> {
     pile: NumberedPile<'p>,
     scene: Option<String>,
     title: CardTitle,
+    /// The coefficients of friction, on a rough floor.
+    friction: Option<Friction>,
 }
 
 impl<'p> PileExport<'p> {
@@ -69,6 +72,7 @@ impl<'p> PileExport<'p> {
             pile: numbered,
             scene: None,
             title: CardTitle::default(),
+            friction: None,
         })
     }
 
@@ -116,6 +120,31 @@ impl<'p> PileExport<'p> {
     #[must_use]
     pub fn with_title(self, title: CardTitle) -> Self {
         Self { title, ..self }
+    }
+
+    /// Returns the export of the pile on a rough floor. Only [`PileFormat::Lammps`] and [`PileFormat::Yade`] support it.
+    ///
+    /// # Errors
+    /// [`Error::RoughFloor`](cannonpile::Error::RoughFloor).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::{Friction, PileExport, PileFile};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let export = PileExport::new(&packing)?.on_rough_floor(Friction::sufficient(&packing)?)?;
+    /// let mut script = Vec::new();
+    /// export.write_file(PileFile::LammpsInput, &mut script, &mut |_| {})?;
+    /// assert!(String::from_utf8(script)?.contains("wall/gran granular"));
+    /// assert!(export.write_file(PileFile::CardJson, &mut Vec::new(), &mut |_| {}).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn on_rough_floor(self, friction: Friction) -> Result<Self, Error> {
+        self.packing().on_rough_floor()?;
+        let friction = Some(friction);
+        Ok(Self { friction, ..self })
     }
 
     /// Returns the packing.
@@ -199,6 +228,7 @@ impl<'p> PileExport<'p> {
     ///   `f64`.
     /// * [`WriteError::Answer`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) if a suite test would have too
     ///   many spheres, and with [`Error::MustPull`] if it would have no state at rest.
+    /// * [`WriteError::Answer`] with [`Error::GluedOnly`] for a file that a rough floor does not support.
     /// * [`WriteError::Io`] if writing to `out` fails.
     ///
     /// # Examples
@@ -229,6 +259,16 @@ impl<'p> PileExport<'p> {
     ) -> Result<(), WriteError> {
         let (pile, mut row) = (&self.pile, Progress::new(progress));
         let row = &mut || row.row();
+        self.check_floor(file)?;
+        match (file, self.friction) {
+            (PileFile::LammpsInput, Some(friction)) => {
+                return rough::write_lammps(pile, friction, out);
+            }
+            (PileFile::YadeScript, Some(friction)) => {
+                return rough::write_yade(pile, friction, out);
+            }
+            _ => {}
+        }
         match file {
             PileFile::SpheresCsv => csv::write_spheres(pile, out, row),
             PileFile::ContactsCsv => csv::write_contacts(pile, out, row),
@@ -249,6 +289,19 @@ impl<'p> PileExport<'p> {
             }
             PileFile::YadeCheck => yade_check::write(pile, &card::heading(pile, &self.title), out),
             PileFile::Scene => Ok(out.write_all(self.scene.as_deref().unwrap_or("").as_bytes())?),
+        }
+    }
+
+    /// Checks that the floor of the export supports a file.
+    fn check_floor(&self, file: PileFile) -> Result<(), Error> {
+        match file {
+            PileFile::LammpsInput
+            | PileFile::LammpsData
+            | PileFile::YadeScript
+            | PileFile::YadeSpheres
+            | PileFile::Scene => Ok(()),
+            _ if self.friction.is_none() => Ok(()),
+            _ => Err(Error::GluedOnly { file: file.name() }),
         }
     }
 
@@ -316,6 +369,9 @@ impl<'p> PileExport<'p> {
         folder: &Path,
         progress: &mut dyn FnMut(u64),
     ) -> Result<Vec<Written>, WriteError> {
+        for file in formats.iter().flat_map(|format| format.files()) {
+            self.check_floor(*file)?;
+        }
         let mut formats = formats.to_vec();
         formats.sort_unstable();
         formats.dedup();

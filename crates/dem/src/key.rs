@@ -47,11 +47,13 @@ pub enum Key {
     State,
     /// κ′/κ, the stiffness of horizontal contacts over that of sloping contacts.
     StiffnessRatio,
+    /// A floor with glue, or a rough one.
+    Floor,
 }
 
 impl Key {
     /// All keys, in the order of a written scene file.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Layers,
         Self::Stacking,
         Self::Top,
@@ -67,6 +69,7 @@ impl Key {
         Self::Gravity,
         Self::State,
         Self::StiffnessRatio,
+        Self::Floor,
     ];
 
     /// Returns the key as written in a file: `layers`, `sin-phi`.
@@ -95,6 +98,7 @@ impl Key {
             Self::Gravity => "gravity",
             Self::State => "state",
             Self::StiffnessRatio => "stiffness-ratio",
+            Self::Floor => "floor",
         }
     }
 }

@@ -66,6 +66,37 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
         None => String::new(),
         Some(gravity) => format!("fix             weight all {gravity}\n"),
     };
+    let mut texts = texts_of(pile, &springs);
+    texts.extend([
+        ("weight", weight),
+        ("loads", loads(pile, "# Loads, in N.\n", WORDS)?),
+    ]);
+    Ok(out.write_all(fill(include_str!("pile.in"), &texts).as_bytes())?)
+}
+
+/// Returns the texts of the script for a rough floor, but for friction and loads.
+pub(super) fn script_texts(pile: &NumberedPile<'_>) -> Result<Vec<(&'static str, String)>, Error> {
+    let springs = Springs::of(pile)?;
+    let weight = match springs.gravity {
+        [_, _, 0.0] => String::new(),
+        [_, _, z] => format!(
+            "variable        weight equal {:?}*v_part\nfix             weight all gravity v_weight vector 0 0 -1\n",
+            -z
+        ),
+    };
+    let mut texts = texts_of(pile, &springs);
+    texts.extend([
+        ("weight", weight),
+        // The mass of the pair of a sphere and the floor is m.
+        (
+            "wall_damping",
+            format!("{:?}", springs.dashpot() / springs.mass),
+        ),
+    ]);
+    Ok(texts)
+}
+
+fn texts_of(pile: &NumberedPile<'_>, springs: &Springs) -> Vec<(&'static str, String)> {
     let plane = match pile.pile().dimension() {
         Dimension::Two => {
             "# Discs stay in their plane.\nfix             plane all setforce NULL 0.0 NULL\n"
@@ -73,24 +104,18 @@ pub(super) fn write_input(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resul
         Dimension::Three => "",
     };
     let number = |x: f64| format!("{x:?}");
-    let script = fill(
-        include_str!("pile.in"),
-        &[
-            ("stiffness", number(springs.stiffness)),
-            // LAMMPS multiplies this number by the mass of the pair, m/2.
-            ("damping", number(springs.dashpot() / (springs.mass / 2.0))),
-            ("skin", number(0.2 * springs.radius)),
-            ("weight", weight),
-            ("loads", loads(pile, "# Loads, in N.\n", WORDS)?),
-            ("drag", number(springs.drag())),
-            ("plane", plane.to_owned()),
-            ("timestep", number(springs.timestep)),
-            ("last_digit", number(springs.last_digit)),
-            ("rest", number(springs.rest())),
-            ("most_steps", springs.most_steps.to_string()),
-        ],
-    );
-    Ok(out.write_all(script.as_bytes())?)
+    vec![
+        ("stiffness", number(springs.stiffness)),
+        // LAMMPS multiplies this number by the mass of the pair, m/2.
+        ("damping", number(springs.dashpot() / (springs.mass / 2.0))),
+        ("skin", number(0.2 * springs.radius)),
+        ("drag", number(springs.drag())),
+        ("plane", plane.to_owned()),
+        ("timestep", number(springs.timestep)),
+        ("last_digit", number(springs.last_digit)),
+        ("rest", number(springs.rest())),
+        ("most_steps", springs.most_steps.to_string()),
+    ]
 }
 
 /// Returns the style and the arguments of the fix for this gravity, or `None` for weightless spheres.

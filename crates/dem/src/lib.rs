@@ -59,6 +59,7 @@ mod lammps_test;
 #[doc(hidden)]
 pub mod numbered;
 mod polydata;
+mod rough;
 pub mod scene;
 mod springs;
 mod suite;
@@ -84,6 +85,7 @@ pub use file::{OtherFile, PileFile, PileFormat, Written, files};
 pub use grown::{anchor, brief, stacking};
 pub use key::Key;
 pub use numbered::{NumberedContact, NumberedPile};
+pub use rough::Friction;
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

@@ -1,6 +1,7 @@
 //! Scenes: the options that describe a pile and its spheres, the parsers of their values, and scene files.
 
 mod cases;
+mod floor;
 pub mod parse;
 mod toml;
 
@@ -22,6 +23,7 @@ use parse::At;
 
 pub use cannonpile::shape::Anchor;
 pub use cases::{Case, cases};
+pub use floor::Floor;
 pub use toml::SceneFile;
 
 /// The state of the contact forces, where horizontal contacts allow more than one.
@@ -152,6 +154,8 @@ pub struct Scene {
     /// κ′/κ for the elastic state, the stiffness of horizontal contacts over that of sloping contacts (default: 1).
     #[serde(with = "cannonpile::data::number")]
     pub stiffness_ratio: BigRational,
+    /// The floor (default: glued).
+    pub floor: Floor,
 }
 
 /// Returns the key of the layer that the pile grows from: the top or the base.
@@ -179,6 +183,7 @@ impl Default for Scene {
             gravity: BigRational::one(),
             state: State::Isostatic,
             stiffness_ratio: BigRational::one(),
+            floor: Floor::Glued,
         }
     }
 }
@@ -192,7 +197,7 @@ impl Scene {
     /// # Errors
     /// The errors of the constructors and loads of [`Pile`], and of
     /// [`Clearance::check`](cannonpile::geometry::Clearance::check); [`Error::SinPhiOfDiscs`] and [`Error::Excluded`]
-    /// for options that exclude each other.
+    /// for options that exclude each other; those of [`Pile::on_rough_floor`] for a rough floor.
     ///
     /// # Examples
     /// ```
@@ -219,7 +224,25 @@ impl Scene {
         if let Some(spacing) = &self.spacing {
             pile.clearance().check(spacing)?;
         }
+        if self.floor == Floor::Rough {
+            self.check_rough(&pile)?;
+        }
         Ok(pile)
+    }
+
+    /// Checks that the forces on a rough floor are unique.
+    fn check_rough(&self, pile: &Pile) -> Result<(), Error> {
+        if self.state == State::Elastic {
+            return Err(Error::Excluded {
+                given: Key::State,
+                beside: Key::Floor,
+            });
+        }
+        pile.on_rough_floor()?;
+        if let Some(spacing) = &self.spacing {
+            Packing::new(pile, spacing)?.on_rough_floor()?;
+        }
+        Ok(())
     }
 
     fn unloaded(&self) -> Result<Pile, Error> {

@@ -68,6 +68,7 @@ pub use summary::{stacking, steps};
 pub use tables::{MAX_ROWS, base, contacts, spheres, touching_contacts};
 #[doc(hidden)]
 pub use tables::{indices, places, refuse_beyond};
+pub use tables::{rough_base, rough_contacts, rough_summary};
 pub use unfinished::remove_unfinished;
 pub(crate) use unfinished::{Pending, remove_leftovers};
 pub use units::Units;

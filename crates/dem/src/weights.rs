@@ -189,8 +189,16 @@ pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<BTreeMap<Site, f64>, E
 /// Returns the spheres above the floor on which gravity and load differ from gravity on their [`inertia`]: the sphere
 /// number, and the additional force in N as x, y and z (up).
 pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<(u64, [f64; 3])>, Error> {
+    burdens_above(pile, pile.pile().layers() - 1)
+}
+
+/// Returns the same for the spheres of all layers, for a bottom layer that is free to move.
+pub(super) fn burdens_of_all(pile: &NumberedPile<'_>) -> Result<Vec<(u64, [f64; 3])>, Error> {
+    burdens_above(pile, pile.pile().layers())
+}
+
+fn burdens_above(pile: &NumberedPile<'_>, floor: i128) -> Result<Vec<(u64, [f64; 3])>, Error> {
     let (packing, ordinary) = (pile.packing(), ordinary_weight(pile.pile()));
-    let floor = pile.pile().layers() - 1;
     let mut burdens = Vec::new();
     let special = special_sites(pile.pile()).into_iter();
     for site in special.filter(|site| site.k < floor) {

@@ -69,7 +69,7 @@ fn blocked(pile: &NumberedPile<'_>) -> &'static str {
 }
 
 /// Returns a Python dictionary.
-fn by_id(entries: impl Iterator<Item = (u64, String)>) -> String {
+pub(super) fn by_id(entries: impl Iterator<Item = (u64, String)>) -> String {
     let entries = entries.map(|(id, text)| format!("    {id}: {text},\n"));
     format!("{{\n{}}}", entries.collect::<String>())
 }
@@ -78,7 +78,7 @@ fn with_number((id, number): (u64, f64)) -> (u64, String) {
     (id, format!("{number:?}"))
 }
 
-fn with_vector((id, force): (u64, [f64; 3])) -> (u64, String) {
+pub(super) fn with_vector((id, force): (u64, [f64; 3])) -> (u64, String) {
     (id, vector(force))
 }
 

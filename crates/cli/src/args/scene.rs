@@ -8,7 +8,7 @@ use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::stacking::Pattern;
 use cannonpile_dem::Key;
-use cannonpile_dem::scene::{Anchor, Case, Scene, SceneFile, State, parse};
+use cannonpile_dem::scene::{Anchor, Case, Floor, Scene, SceneFile, State, parse};
 use clap::Args;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -35,7 +35,7 @@ pub(crate) struct SceneOptions {
         value_parser = NamedFile::of_case,
         conflicts_with_all = [
             "scene_file", "layers", "stacking", "top", "base", "dimension", "sin_phi", "load", "tilt", "weightless", "spacing", "radius",
-            "mass", "gravity", "stiffness_ratio",
+            "mass", "gravity", "stiffness_ratio", "floor",
         ]
     )]
     case: Option<NamedFile>,
@@ -86,6 +86,9 @@ pub(crate) struct SceneOptions {
     /// Stiffness of horizontal contacts over that of sloping ones, with --state elastic [default: 1]
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::rational)]
     stiffness_ratio: Option<BigRational>,
+    /// Floor: glued, or rough for two layers with friction everywhere [default: glued]
+    #[arg(long, value_name = "FLOOR", value_parser = str::parse::<Floor>)]
+    floor: Option<Floor>,
 }
 
 impl SceneOptions {
@@ -94,8 +97,7 @@ impl SceneOptions {
     /// This function checks sizes and weights even if the command does not use them.
     ///
     /// # Errors
-    /// The options select the elastic state, which only [`read_state`](Self::read_state) and [`read_whole`](Self::read_whole)
-    /// accept.
+    /// The options select the elastic state or a rough floor.
     pub(crate) fn read(&self) -> Result<(Scene, Pile), Failure> {
         Ok(check_scene(self.isostatic()?)?)
     }
@@ -103,17 +105,36 @@ impl SceneOptions {
     /// Returns the scene and its pile, with the horizontal forces of its state.
     pub(crate) fn read_state(&self) -> Result<(Scene, Pile), Failure> {
         let (scene, pile) = self.read_whole()?;
-        let progress = Progress::begin("computing the elastic state");
-        let pile = scene.in_state(pile)?;
-        drop(progress);
+        let pile = in_state(&scene, pile)?;
         Ok((scene, pile))
     }
 
     /// Returns the scene with its state, and its pile without horizontal forces.
+    ///
+    /// # Errors
+    /// The options select a rough floor, which only [`read_any`](Self::read_any) accepts.
     pub(crate) fn read_whole(&self) -> Result<(Scene, Pile), Failure> {
+        let scene = self.on_glue()?;
+        self.check_ratio(&scene)?;
+        Ok(check_scene(scene)?)
+    }
+
+    /// Returns the scene with any state and floor, and its pile without horizontal forces.
+    pub(crate) fn read_any(&self) -> Result<(Scene, Pile), Failure> {
         let scene = self.scene()?;
         self.check_ratio(&scene)?;
         Ok(check_scene(scene)?)
+    }
+
+    fn on_glue(&self) -> Result<Scene, Failure> {
+        let scene = self.scene()?;
+        if scene.floor == Floor::Glued {
+            return Ok(scene);
+        }
+        let place = self.place(Key::Floor);
+        Err(Failure::Message(format!(
+            "{place}: only base, contacts, summary, export and scene support a rough floor: use --floor glued"
+        )))
     }
 
     fn check_ratio(&self, scene: &Scene) -> Result<(), Failure> {
@@ -127,10 +148,16 @@ impl SceneOptions {
     }
 
     fn isostatic(&self) -> Result<Scene, Failure> {
-        let scene = self.scene()?;
+        let scene = self.on_glue()?;
+        self.refuse_elastic(&scene)?;
+        self.check_ratio(&scene)?;
+        Ok(scene)
+    }
+
+    /// Returns an error if the scene is in the elastic state.
+    pub(crate) fn refuse_elastic(&self, scene: &Scene) -> Result<(), Failure> {
         if scene.state == State::Isostatic {
-            self.check_ratio(&scene)?;
-            return Ok(scene);
+            return Ok(());
         }
         let place = self.place(Key::State);
         let remedy = match self.case {
@@ -283,6 +310,7 @@ impl SceneOptions {
             gravity: self.gravity.clone().unwrap_or(file.gravity),
             state: self.state.unwrap_or(file.state),
             stiffness_ratio: self.stiffness_ratio.clone().unwrap_or(file.stiffness_ratio),
+            floor: self.floor.unwrap_or(file.floor),
         })
     }
 
@@ -367,6 +395,7 @@ impl SceneOptions {
             "gravity" => self.gravity.is_some(),
             "state" => self.state.is_some(),
             "stiffness-ratio" => self.stiffness_ratio.is_some(),
+            "floor" => self.floor.is_some(),
             _ => false,
         }
     }
@@ -392,6 +421,14 @@ fn farthest_from_one(scene: &Scene) -> Key {
         .filter(|(key, size)| *key != Key::Radius || 3 * distance(size) >= FLOATS);
     let farthest = sizes.max_by_key(|(_, size)| distance(size));
     farthest.map_or(Key::Mass, |(key, _)| key)
+}
+
+/// Returns the pile with the horizontal forces of the state of the scene.
+pub(crate) fn in_state(scene: &Scene, pile: Pile) -> Result<Pile, InputError> {
+    let progress = Progress::begin("computing the elastic state");
+    let pile = scene.in_state(pile)?;
+    drop(progress);
+    Ok(pile)
 }
 
 /// Checks the sizes of a scene, and returns it with its pile.

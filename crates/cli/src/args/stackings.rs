@@ -4,7 +4,7 @@ use cannonpile::Load;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile_dem::Key;
 use cannonpile_dem::scene::parse::At;
-use cannonpile_dem::scene::{Anchor, Scene, State, parse};
+use cannonpile_dem::scene::{Anchor, Floor, Scene, State, parse};
 use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
 use clap::Args;
 use num_traits::Zero;
@@ -77,6 +77,8 @@ struct UnsupportedOptions {
     #[arg(long, hide = true, allow_hyphen_values = true)]
     stiffness_ratio: Option<String>,
     #[arg(long, hide = true, allow_hyphen_values = true)]
+    floor: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
     radius: Option<String>,
     #[arg(long, hide = true, allow_hyphen_values = true)]
     mass: Option<String>,
@@ -94,6 +96,7 @@ impl UnsupportedOptions {
             (Key::Spacing, &self.spacing),
             (Key::State, &self.state),
             (Key::StiffnessRatio, &self.stiffness_ratio),
+            (Key::Floor, &self.floor),
             (Key::Radius, &self.radius),
             (Key::Mass, &self.mass),
             (Key::Gravity, &self.gravity),
@@ -117,6 +120,8 @@ fn unsupported_key(scene: &Scene) -> Option<Key> {
         Some(Key::Spacing)
     } else if scene.state != State::Isostatic {
         Some(Key::State)
+    } else if scene.floor != Floor::Glued {
+        Some(Key::Floor)
     } else {
         None
     }
@@ -127,6 +132,7 @@ const fn reason(key: Key) -> &'static str {
     match key {
         Key::Stacking => "the mean is over all stackings: leave it out, or use the command base",
         Key::Tilt => UPRIGHT_GRAVITY,
+        Key::Floor => "random stackings stand on a floor with glue: leave it out",
         Key::Dimension | Key::SinPhi => {
             "random stackings consist of spheres on an equilateral lattice: leave it out"
         }

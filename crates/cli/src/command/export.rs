@@ -5,15 +5,18 @@ use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
 use cannonpile::Packing;
-use cannonpile_dem::scene::{Scene, State};
+use cannonpile_dem::scene::{Floor, Scene, State, parse};
 use cannonpile_dem::table::{NumberFormat, WriteError, write_aside};
-use cannonpile_dem::{CardTitle, OtherFile, PileExport, PileFile, PileFormat, Written, files};
+use cannonpile_dem::{
+    CardTitle, Friction, OtherFile, PileExport, PileFile, PileFormat, Written, files,
+};
 use cannonpile_figure::viewer::Page;
 use clap::{Args, ValueEnum};
+use num_rational::BigRational;
 use num_traits::One;
 
 use super::note_instability;
-use crate::args::{Format, SceneOptions, resolve_format};
+use crate::args::{Format, SceneOptions, in_state, resolve_format};
 use crate::output::{Failure, print_message, write_to};
 use crate::progress::Progress;
 
@@ -31,6 +34,7 @@ Examples:
   cannonpile export pile --to lammps --layers 10 --spacing 1.2
   cannonpile export pile --to csv,vtp --layers 40 --list files.csv
   cannonpile export C2 --case C2 --to csv,card
+  cannonpile export four --layers 2 --floor rough --to lammps,yade --friction 0.41 --floor-friction 0.11
   cannonpile export checks --case C4 --to yade-check,lammps-test
   cannonpile export pile.html --to html --top hexagon:3 --stacking hcp --layers 4";
 
@@ -51,6 +55,12 @@ pub(crate) struct Export {
     to: Vec<Target>,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
+    /// Coefficient of friction between spheres, with --floor rough [default: twice the needed one]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = parse::rational)]
+    friction: Option<BigRational>,
+    /// Coefficient of friction of the floor, with --floor rough [default: twice the needed one]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = parse::rational)]
+    floor_friction: Option<BigRational>,
     /// File for the list of the written files [default: stdout]
     #[arg(
         long,
@@ -123,12 +133,17 @@ const LARGE_EXPORT: u64 = 1_000_000_000;
 impl Export {
     /// Writes the files, and then their list.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read_state()?;
+        let (scene, pile) = self.scene.read_any()?;
+        let pile = in_state(&scene, pile)?;
         let packing = scene.packing(&pile)?;
+        let formats = self.formats();
         let export = PileExport::new(&packing)?
             .with_scene(scene.to_toml())
             .with_title(self.title(&scene));
-        let formats = self.formats();
+        let export = match self.friction(&scene, &packing, &formats)? {
+            None => export,
+            Some(friction) => export.on_rough_floor(friction)?,
+        };
         check_springs(&scene, &formats)?;
         let page = self.page(&packing, &scene)?;
         self.check_list_path(&formats)?;
@@ -164,6 +179,49 @@ impl Export {
         note_instability(&pile);
         print_rate(&written, begun);
         Ok(true)
+    }
+
+    /// Returns the coefficients of friction of a scene with a rough floor.
+    fn friction(
+        &self,
+        scene: &Scene,
+        packing: &Packing<'_>,
+        formats: &[PileFormat],
+    ) -> Result<Option<Friction>, Failure> {
+        let given = [
+            ("friction", &self.friction),
+            ("floor-friction", &self.floor_friction),
+        ];
+        if scene.floor == Floor::Glued {
+            let given = given.into_iter().find(|(_, given)| given.is_some());
+            return match given {
+                None => Ok(None),
+                Some((option, _)) => Err(Failure::Message(format!(
+                    "--{option}: only a rough floor has friction: add --floor rough, or leave it out"
+                ))),
+            };
+        }
+        let simulated = [PileFormat::Lammps, PileFormat::Yade];
+        let is_other = |format: &PileFormat| !simulated.contains(format);
+        if self.to.contains(&Target::Html) || formats.iter().any(is_other) {
+            return Err(Failure::Message(
+                "--to: a rough floor supports lammps and yade: use --to lammps,yade".to_owned(),
+            ));
+        }
+        let mut friction = Friction::sufficient(packing)?;
+        for ((option, given), with) in given
+            .into_iter()
+            .zip([Friction::with_spheres, Friction::with_floor])
+        {
+            if let Some(given) = given {
+                friction = with(friction, given).map_err(|_| {
+                    Failure::Message(format!(
+                        "--{option}: {given} is not a positive number in the range of f64: use a coefficient such as 0.5"
+                    ))
+                })?;
+            }
+        }
+        Ok(Some(friction))
     }
 
     /// Returns whether the viewer is the only file, named by the user.

@@ -4,16 +4,17 @@ use std::path::PathBuf;
 
 use cannonpile::Pile;
 use cannonpile::shape::Selection;
-use cannonpile_dem::scene::{Scene, State};
+use cannonpile_dem::scene::{Floor, Scene, State};
 use cannonpile_dem::table;
 use cannonpile_dem::table::{Table, Units};
 use cannonpile_horizontal::certificate::{Certificate, write_certificate};
 use clap::Args;
 
-use super::TensionCheck;
+use super::{CERTIFICATE_ON_ROUGH_FLOOR, TensionCheck};
 use crate::Culprit;
 use crate::args::{
-    BasePart, MethodOption, Numbers, Output, Part, SceneOptions, spheres, with_row_options,
+    BasePart, MethodOption, Numbers, Output, Part, SceneOptions, in_state, spheres,
+    with_row_options,
 };
 use crate::output::{Failure, InputError, write_to};
 use crate::progress::Progress;
@@ -60,17 +61,26 @@ struct ForceQuery {
     column: &'static str,
     /// The number of rows of a sphere.
     rows: usize,
+    /// The table of a pile on a rough floor.
+    rough: for<'p> fn(&Units<'p>, Selection) -> Result<Table<'p>, cannonpile_dem::Error>,
     table: for<'p> fn(&Units<'p>, Selection) -> Result<Table<'p>, cannonpile_dem::Error>,
 }
 
 impl<P: Args> Forces<P> {
     /// Returns the scene, its pile with the horizontal forces of its state, and their certificate, if `--certificate` is given.
     fn read(&self) -> Result<(Scene, Pile, Option<Certificate>), Failure> {
+        let (scene, pile) = self.scene.read_any()?;
+        if scene.floor == Floor::Rough {
+            self.method
+                .refuse("forces on a rough floor have only one method")?;
+            if self.certificate.is_some() {
+                return Err(Failure::Message(CERTIFICATE_ON_ROUGH_FLOOR.to_owned()));
+            }
+        }
         if self.certificate.is_none() {
-            let (scene, pile) = self.scene.read_state()?;
+            let pile = in_state(&scene, pile)?;
             return Ok((scene, pile, None));
         }
-        let (scene, pile) = self.scene.read_whole()?;
         if scene.state == State::Isostatic {
             return Err(Failure::Message(
                 "--certificate: isostatic forces need no certificate, because they are unique: add --state elastic, or leave \
@@ -102,8 +112,11 @@ impl<P: Args> Forces<P> {
         let rows = spheres(pile, selection)? * query.rows;
         let progress = Progress::of_rows(query.doing, rows.try_into().ok());
         let units = self.method.apply(self.numbers.units.of(scene, pile)?)?;
-        let table =
-            (query.table)(&units, selection).map_err(|error| with_row_options(error, selection))?;
+        let table = match scene.floor {
+            Floor::Rough => query.rough,
+            _ => query.table,
+        };
+        let table = table(&units, selection).map_err(|error| with_row_options(error, selection))?;
         if let Some(certificate) = certificate {
             write_to("certificate", self.certificate.as_deref(), |mut out| {
                 Ok(write_certificate(certificate, &mut out)?)
@@ -127,6 +140,9 @@ Columns (force of the pile on the floor):
   shear_y   horizontal force along y, in √3·mg·tanθ (in 2cosφ·mg·tanθ with --sin-phi)
 With --units si all forces are in N.
 
+With --floor rough the horizontal force is friction, in friction_x and friction_y. Its units are mg·tan(θ/2) along x and
+√3·mg·tan(θ/2) along y (2cosφ·mg·tan(θ/2) with --sin-phi).
+
 Examples:
   cannonpile base --layers 10
   cannonpile base --layers 10 --spacing 6/5 --units si --number f64 --output base.csv
@@ -139,6 +155,7 @@ Examples:
             doing: "base forces",
             column: "normal",
             rows: 1,
+            rough: table::rough_base,
             table: table::base,
         };
         self.write(&read, selection, &query)
@@ -157,16 +174,28 @@ Columns:
 With --state elastic closed horizontal contacts have rows too, once for each pair. Their direction gives the neighbour:
   alpha-beta (i+1, j)    alpha-gamma (i, j+1)    gamma-beta (i+1, j-1)
 
+With --floor rough the columns after direction are
+  normal, tangential   in mg and mg·tan(θ/2); in N with --units si
+  nx to nz, tx to tz   with --units si: both forces as vectors on the upper sphere, in N
+  x, y, z              with --units si: contact point, in m
+
 Examples:
   cannonpile contacts --layers 4
   cannonpile contacts --stacking hcp --layers 7 --layer 4
   cannonpile contacts --stacking=+-+-+ --spacing 1 --state elastic
+  cannonpile contacts --layers 2 --floor rough --units si
   cannonpile contacts --layers 20 --units si --number f64 --output contacts.csv";
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let read = self.read()?;
         let (scene, pile, _) = &read;
         let selection = self.part.part.selection(pile)?;
+        if self.part.touching && scene.floor == Floor::Rough {
+            return Err(Failure::Message(
+                "--touching: on a rough floor neighbours of a layer do not touch: leave it out"
+                    .to_owned(),
+            ));
+        }
         if self.part.touching && scene.state == State::Isostatic {
             return Err(Failure::Message(
                 "--touching: only the elastic state has horizontal contacts: add --state elastic, or leave it out"
@@ -186,6 +215,7 @@ Examples:
             doing: "contact forces",
             column: "force",
             rows: pile.dimension().directions().len(),
+            rough: table::rough_contacts,
             table: if self.part.touching {
                 table::touching_contacts
             } else {

@@ -24,7 +24,7 @@ pub(crate) struct WriteScene {
 
 impl WriteScene {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, _) = self.scene.read_whole()?;
+        let (scene, _) = self.scene.read_any()?;
         let text = scene.to_toml();
         write_to("output", self.file.as_deref(), |out| {
             Ok(out.write_all(text.as_bytes())?)

@@ -4,11 +4,14 @@ use std::path::PathBuf;
 
 use cannonpile::Verdict;
 use cannonpile::geometry::LayerGap;
+use cannonpile_dem::scene::Floor;
 use cannonpile_dem::table;
+use cannonpile_dem::table::Units;
 use cannonpile_horizontal::certificate::write_certificate;
 use cannonpile_horizontal::equilibrium;
 use clap::Args;
 
+use super::CERTIFICATE_ON_ROUGH_FLOOR;
 use crate::args::{Numbers, Output, SceneOptions};
 use crate::output::{Failure, print_message, write_to};
 use crate::progress::Progress;
@@ -31,8 +34,13 @@ At a = R neighbours in a layer touch, and stands takes these horizontal contacts
 the pile is stable. The table shows - for a value that takes too long to compute, and a note gives the reason. With
 --units si forces are in N.
 
+With --floor rough the columns are layers, spheres, contacts, weight, base_spheres, normal_min, normal_max, and
+  friction_needed            least coefficient of friction of a contact with a force, in tan(θ/2); a number with --units si
+  floor_friction_needed      least coefficient of friction of the floor, in the same unit
+
 Examples:
   cannonpile summary --stacking hcp --layers 7
+  cannonpile summary --layers 2 --floor rough --units si --number f64
   cannonpile summary --stacking=++--+ --spacing 1 --certificate c.json
   cannonpile summary --top hexagon:3 --stacking=++-+ --units si --gravity 9.81";
 
@@ -51,10 +59,25 @@ pub(crate) struct Summary {
 }
 
 impl Summary {
+    fn write_rough(&self, units: &Units<'_>) -> Result<bool, Failure> {
+        if self.certificate.is_some() {
+            return Err(Failure::Message(CERTIFICATE_ON_ROUGH_FLOOR.to_owned()));
+        }
+        let progress = Progress::begin("computing the extreme forces");
+        let table = table::rough_summary(units)?;
+        self.output
+            .write_table(table, self.numbers.number, &progress)?;
+        Ok(true)
+    }
+
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
+        let (scene, pile) = self.scene.read_any()?;
         self.output.format()?;
         let units = self.numbers.units.of(&scene, &pile)?;
+        if scene.floor == Floor::Rough {
+            return self.write_rough(&units);
+        }
+        self.scene.refuse_elastic(&scene)?;
         // The default spacing may be invalid for this pile.
         let touching = pile.clearance().check(&scene.spacing()?);
         if self.certificate.is_some() && touching.as_deref() != Ok(&[LayerGap { layers: 0 }]) {

@@ -63,6 +63,7 @@ const LONGEST: usize = 16 << 20;
 /// | `weightless` | `true` or `false` | `false` |
 /// | `state` | `"isostatic"` or `"elastic"` | `"isostatic"` |
 /// | `stiffness-ratio` | a number | 1 |
+/// | `floor` | `"glued"` or `"rough"` | `"glued"` |
 ///
 /// A number is a TOML number or a string, and is read exactly: `6`, `1.2`, `1e-3`, `"6/5"`. Keys outside the table are
 /// rejected. A load may also be written as
@@ -235,6 +236,7 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
             "gravity" => scene.gravity = value.read(parse::rational)?,
             "state" => scene.state = value.read(str::parse)?,
             "stiffness-ratio" => scene.stiffness_ratio = value.read(parse::rational)?,
+            "floor" => scene.floor = value.read(str::parse)?,
             // The dimension has been read already.
             _ => {}
         }

@@ -2,14 +2,15 @@
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::fmt;
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::Signed;
 
 use super::line::Line;
 use crate::Error;
-use cannonpile::scalar::{CorrectlyRounded, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd, SurdSum};
 
 /// One entry of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +22,8 @@ pub enum Cell {
     Index(i128),
     /// An exact quantity, shown in the requested number format.
     Number(Box<Surd>),
+    /// An exact sum of two surds, shown in the requested number format.
+    Sum(Box<SurdSum>),
     /// A quantity already rounded to `f64`.
     F64(f64),
     /// A quantity already rounded to `f32`.
@@ -48,6 +51,15 @@ impl From<BigRational> for Cell {
 impl From<Surd> for Cell {
     fn from(value: Surd) -> Self {
         Self::Number(value.into())
+    }
+}
+
+impl From<SurdSum> for Cell {
+    fn from(value: SurdSum) -> Self {
+        match value.to_surd() {
+            Some(surd) => surd.clone().into(),
+            None => Self::Sum(value.into()),
+        }
     }
 }
 
@@ -85,6 +97,7 @@ impl Cell {
             Self::Integer(n) => n.is_negative(),
             Self::Index(n) => n.is_negative(),
             Self::Number(x) => x.coefficient().is_negative(),
+            Self::Sum(x) => x.sign() == Sign::Minus,
             Self::F64(x) => *x < 0.0,
             Self::F32(x) => *x < 0.0,
             Self::Word(_) | Self::Flag(_) | Self::Missing => false,
@@ -100,8 +113,15 @@ impl Cell {
         heads: usize,
         line: &mut Line,
     ) -> Result<(), Error> {
-        if let (Self::Number(x), NumberFormat::Interval) = (self, numbers) {
-            ends(x, column)?.iter().for_each(|end| line.push_str(end));
+        let interval = match (self, numbers) {
+            (Self::Number(x), NumberFormat::Interval) => Some(ends(&**x, column)?),
+            (Self::Sum(x), NumberFormat::Interval) => Some(ends(&**x, column)?),
+            _ => None,
+        };
+        if let Some(interval) = interval {
+            for end in interval {
+                line.push_str(&end);
+            }
             return Ok(());
         }
         for _ in 0..heads {
@@ -113,6 +133,7 @@ impl Cell {
                     Err(_) => line.push(n),
                 },
                 Self::Number(x) => line.push_str(&numbers.show(x, column)?),
+                Self::Sum(x) => line.push_str(&numbers.shown(&**x, column)?),
                 Self::F64(x) => line.push(format_args!("{x:?}")),
                 Self::F32(x) => line.push(format_args!("{x:?}")),
                 Self::Word(word) => line.push_str(word),
@@ -121,6 +142,25 @@ impl Cell {
             }
         }
         Ok(())
+    }
+}
+
+/// An exact number that a [`NumberFormat`] shows: [`Surd`] and [`SurdSum`].
+trait Exact: fmt::Display + PartialOrd<f64> {
+    /// Returns the correctly rounded float; `None` if it overflows.
+    #[must_use]
+    fn rounded<F: CorrectlyRounded + PartialEq>(&self) -> Option<F>;
+}
+
+impl Exact for Surd {
+    fn rounded<F: CorrectlyRounded + PartialEq>(&self) -> Option<F> {
+        self.nearest()
+    }
+}
+
+impl Exact for SurdSum {
+    fn rounded<F: CorrectlyRounded + PartialEq>(&self) -> Option<F> {
+        self.nearest()
     }
 }
 
@@ -157,6 +197,10 @@ impl NumberFormat {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn show(self, number: &Surd, quantity: &'static str) -> Result<String, Error> {
+        self.shown(number, quantity)
+    }
+
+    fn shown(self, number: &impl Exact, quantity: &'static str) -> Result<String, Error> {
         match self {
             Self::Exact => Ok(number.to_string()),
             Self::F64 => shortest::<f64>(number, quantity, "f64"),
@@ -171,9 +215,9 @@ impl NumberFormat {
 
 /// Returns the `f64` below and above a number, as the shortest texts that read back the same. Both are equal if the
 /// number is a float.
-fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
+fn ends(number: &impl Exact, quantity: &'static str) -> Result<[String; 2], Error> {
     let overflow = || Error::overflow(quantity, "f64");
-    let float = number.nearest::<f64>().ok_or_else(overflow)?;
+    let float: f64 = number.rounded().ok_or_else(overflow)?;
     let [lower, upper] = match number.partial_cmp(&float) {
         Some(Ordering::Less) => [float.next_down(), float],
         Some(Ordering::Greater) => [float, float.next_up()],
@@ -187,12 +231,12 @@ fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
 }
 
 /// Returns the correctly rounded float as the shortest text that reads back the same, as `Debug` prints it.
-fn shortest<F: CorrectlyRounded + core::fmt::Debug>(
-    number: &Surd,
+fn shortest<F: CorrectlyRounded + PartialEq + fmt::Debug>(
+    number: &impl Exact,
     quantity: &'static str,
     scalar: &'static str,
 ) -> Result<String, Error> {
-    let float = number.nearest::<F>();
+    let float: Option<F> = number.rounded();
     float
         .map(|x| format!("{x:?}"))
         .ok_or_else(|| Error::overflow(quantity, scalar))

@@ -49,7 +49,7 @@ fn write_value(
         Cell::Missing => return Ok(out.write_all(b"null")?),
         Cell::Flag(flag) => return Ok(write!(out, "{flag}")?),
         Cell::Word(_) => true,
-        Cell::Number(_) => numbers == NumberFormat::Exact,
+        Cell::Number(_) | Cell::Sum(_) => numbers == NumberFormat::Exact,
         Cell::Integer(n) => n.bits() > 53,
         Cell::Index(n) => n.unsigned_abs() >> 53 > 0,
         Cell::F64(_) | Cell::F32(_) => false,

@@ -2,10 +2,12 @@
 
 mod base;
 mod contacts;
+mod friction;
 mod spheres;
 
 pub use base::base;
 pub use contacts::{contacts, touching_contacts};
+pub use friction::{rough_base, rough_contacts, rough_summary};
 pub use spheres::spheres;
 
 use num_bigint::{BigInt, BigUint};

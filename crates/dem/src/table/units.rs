@@ -170,6 +170,32 @@ impl<'p> Units<'p> {
     }
 }
 
+/// The units of forces with friction, on a rough floor.
+impl Units<'_> {
+    pub(super) fn tangential(&self) -> &'static str {
+        match self {
+            Self::Si(_) => "N",
+            Self::Pile(_) => "mg·tan(θ/2)",
+        }
+    }
+
+    pub(super) fn friction_y(&self) -> &'static str {
+        match self {
+            Self::Si(_) => "N",
+            Self::Pile(_) if self.pile().is_regular() => "√3·mg·tan(θ/2)",
+            Self::Pile(_) => "2cosφ·mg·tan(θ/2)",
+        }
+    }
+
+    /// The unit of a coefficient of friction.
+    pub(super) fn half_angle(&self) -> &'static str {
+        match self {
+            Self::Si(_) => "",
+            Self::Pile(_) => "tan(θ/2)",
+        }
+    }
+}
+
 impl Units<'_> {
     /// Returns these units with a fixed method for all answers.
     ///

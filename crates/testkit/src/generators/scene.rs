@@ -6,7 +6,7 @@ use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
 use cannonpile::stacking::{Pattern, Stacking};
 use cannonpile_dem::scene::parse::At;
-use cannonpile_dem::scene::{Anchor, Scene, State};
+use cannonpile_dem::scene::{Anchor, Floor, Scene, State};
 use num_rational::BigRational;
 
 use super::{number, region, stacking};
@@ -49,6 +49,11 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
         gravity: number::quantity(u)?,
         state: *u.choose(&[State::Isostatic, State::Elastic])?,
         stiffness_ratio: number::quantity(u)?,
+        floor: if rarely(u, 4)? {
+            Floor::Rough
+        } else {
+            Floor::Glued
+        },
     })
 }
 

@@ -38,27 +38,27 @@ macro_rules! console {
 
 // The number of commands of each file.
 console! {
-    base: 100;
+    base: 109;
     bounds: 20;
     cases: 25;
     census: 21;
     check: 12;
     completions: 2;
-    contacts: 53;
+    contacts: 57;
     ensemble: 39;
     explain: 12;
-    export: 43;
+    export: 48;
     help: 19;
     mean: 49;
     merge: 13;
     plot: 44;
     prove: 11;
     response: 9;
-    scene: 18;
+    scene: 22;
     sensitivity: 15;
     spheres: 15;
     stability: 31;
-    summary: 36;
+    summary: 39;
     tables: 9;
     verify: 14;
 }

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
 use crate::scene::parse::At;
-use crate::scene::{Anchor, Scene, State};
+use crate::scene::{Anchor, Floor, Scene, State};
 use cannonpile::Load;
 use cannonpile::lattice::Dimension;
 
@@ -102,6 +102,10 @@ impl Scene {
         if self.state == State::Elastic || !self.stiffness_ratio.is_one() {
             let comment = "Stiffness of horizontal contacts over that of sloping ones.";
             file.key(comment, "stiffness-ratio", &number(&self.stiffness_ratio));
+        }
+        if self.floor != Floor::default() {
+            let comment = "The bottom spheres lie on a plane, and all contacts have friction.";
+            file.key(comment, "floor", &quoted(self.floor));
         }
         file.0
     }

@@ -4,7 +4,7 @@ use cannonpile::lattice::{Dimension, Region};
 use cannonpile::stacking::Pattern;
 use cannonpile::{Load, Pile};
 use cannonpile_dem::Error;
-use cannonpile_dem::scene::{Anchor, Scene, SceneFile, State, parse};
+use cannonpile_dem::scene::{Anchor, Floor, Scene, SceneFile, State, parse};
 use cannonpile_testkit::answers::ratio;
 
 /// Returns the error message for a file.
@@ -31,6 +31,7 @@ fn every_key() {
         gravity = 9.81
         state = "elastic"
         stiffness-ratio = "2/7"
+        floor = "rough"
     "#;
     let at = |text| parse::at(text, Dimension::Three).unwrap();
     let load = |parts: [(i64, i64); 3]| {
@@ -57,6 +58,7 @@ fn every_key() {
         gravity: ratio(981, 100),
         state: State::Elastic,
         stiffness_ratio: ratio(2, 7),
+        floor: Floor::Rough,
     };
     assert_eq!(Scene::from_toml(text).unwrap(), scene);
     assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
