@@ -117,7 +117,7 @@ impl SurdSum {
         if let Some(surd) = self.to_surd() {
             return surd.nearest();
         }
-        // An irrational number is no tie, so a narrow enclosure has one rounding.
+        // The sum is irrational, so all numbers in a narrow enclosure round to one float.
         let decided = |[below, above]: [BigRational; 2]| {
             // A sum that rounds to zero keeps its sign.
             if below.is_negative() != above.is_negative() {
