@@ -260,26 +260,23 @@ impl<'p> PileExport<'p> {
         let (pile, mut row) = (&self.pile, Progress::new(progress));
         let row = &mut || row.row();
         self.check_floor(file)?;
-        match (file, self.friction) {
-            (PileFile::LammpsInput, Some(friction)) => {
-                return rough::write_lammps(pile, friction, out);
-            }
-            (PileFile::YadeScript, Some(friction)) => {
-                return rough::write_yade(pile, friction, out);
-            }
-            _ => {}
-        }
         match file {
             PileFile::SpheresCsv => csv::write_spheres(pile, out, row),
             PileFile::ContactsCsv => csv::write_contacts(pile, out, row),
             PileFile::BaseCsv => csv::write_base(pile, out, row),
             PileFile::ColumnsCsv => csv::write_columns(pile, out),
             PileFile::LammpsData => lammps::write_data(pile, out, row),
-            PileFile::LammpsInput => lammps::write_input(pile, out),
+            PileFile::LammpsInput => match self.friction {
+                None => lammps::write_input(pile, out),
+                Some(friction) => rough::write_lammps(pile, friction, out),
+            },
             PileFile::SpheresVtp => vtp::write_spheres(pile, out, row),
             PileFile::ContactsVtp => vtp::write_contacts(pile, out, row),
             PileFile::YadeSpheres => yade::write_spheres(pile, out, row),
-            PileFile::YadeScript => yade::write_script(pile, out),
+            PileFile::YadeScript => match self.friction {
+                None => yade::write_script(pile, out),
+                Some(friction) => rough::write_yade(pile, friction, out),
+            },
             PileFile::CardMarkdown => {
                 card::write_markdown(pile, &self.title, self.scene.as_deref(), out)
             }

@@ -58,7 +58,7 @@ impl Friction {
     /// Returns these coefficients with another one between spheres.
     ///
     /// # Errors
-    /// [`Error::Core`] for a number that is not positive, or that is no normal `f64`.
+    /// [`Error::Core`] for zero, a negative number, or a number outside the normal range of `f64`.
     ///
     /// # Examples
     /// See [`with_floor`](Self::with_floor).

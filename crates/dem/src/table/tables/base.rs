@@ -79,7 +79,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
 }
 
 /// Returns the cells of a bottom sphere.
-fn floor_cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
+pub(super) fn floor_cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
     let mut cells = Vec::with_capacity(5);
     cells.extend(places(pile, force.site));
     cells.extend([force.normal.into(), force.shear_x.into()]);

@@ -123,7 +123,7 @@ fn table<'p>(
 }
 
 /// Returns the first cells of a contact's row: site and direction.
-fn contact_cells(pile: &Pile, site: Site, direction: ContactKind) -> Vec<Cell> {
+pub(super) fn contact_cells(pile: &Pile, site: Site, direction: ContactKind) -> Vec<Cell> {
     let mut cells = Vec::with_capacity(11);
     cells.push(site.k.into());
     cells.extend(places(pile, site));

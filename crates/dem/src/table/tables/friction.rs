@@ -1,14 +1,17 @@
 //! Two layers with friction on a rough floor.
 
-use super::{bounds, indices, narrower, places, refuse_beyond};
+use super::base::floor_cells;
+use super::contacts::contact_cells;
+use super::{bounds, indices, narrower, refuse_beyond};
 use crate::Error;
 use crate::table::cell::Cell;
 use crate::table::rows::{Column, RowIter, Table};
 use crate::table::units::Units;
-use cannonpile::friction::RoughPacking;
+use cannonpile::Packing;
+use cannonpile::friction::{RoughFloor, RoughPacking};
 use cannonpile::lattice::Dimension;
 use cannonpile::shape::Selection;
-use cannonpile::{FloorForce, Packing};
+use num_bigint::BigUint;
 use num_rational::BigRational;
 
 /// Returns the table of the contacts between spheres with friction on a rough floor: `k, i, j, direction, normal,
@@ -51,25 +54,19 @@ pub fn rough_contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Tab
     }
     let bounds = bounds(&columns, units, selection)?;
     let rows = move |_| -> Result<RowIter<'p>, Error> {
-        let first = move |site: cannonpile::lattice::Site, direction: &'static str| {
-            let mut cells: Vec<Cell> = vec![site.k.into()];
-            cells.extend(places(pile, site));
-            cells.push(direction.into());
-            cells
-        };
         Ok(match rough {
             Rough::Pile(forces) => {
                 let contacts = forces.contacts::<BigRational>(selection)?;
                 Box::new(contacts.map(move |contact| {
                     let contact = contact?;
-                    let mut cells = first(contact.site, contact.direction.name());
+                    let mut cells = contact_cells(pile, contact.site, contact.direction.into());
                     cells.extend([contact.force.clone().into(), contact.force.into()]);
                     Ok(cells)
                 }))
             }
             Rough::Si(packing) => Box::new(packing.contacts(selection)?.map(move |contact| {
                 let contact = contact?;
-                let mut cells = first(contact.site, contact.direction.name());
+                let mut cells = contact_cells(pile, contact.site, contact.direction.into());
                 cells.extend([contact.normal.into(), contact.tangential.into()]);
                 cells.extend(contact.normal_vector.map(Cell::from));
                 cells.extend(contact.tangential_vector.map(Cell::from));
@@ -116,22 +113,14 @@ pub fn rough_base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'
     }
     let bounds = bounds(&columns, units, selection)?;
     let rows = move |_| -> Result<RowIter<'p>, Error> {
-        fn cells<F: Into<Cell>>(pile: &cannonpile::Pile, force: FloorForce<F>) -> Vec<Cell> {
-            let mut cells: Vec<Cell> = places(pile, force.site).collect();
-            cells.extend([force.normal.into(), force.shear_x.into()]);
-            if pile.dimension() == Dimension::Three {
-                cells.push(force.shear_y.into());
-            }
-            cells
-        }
         Ok(match rough {
             Rough::Pile(forces) => {
                 let forces = forces.base::<BigRational>(selection)?;
-                Box::new(forces.map(move |force| Ok(cells(pile, force?))))
+                Box::new(forces.map(move |force| Ok(floor_cells(pile, force?))))
             }
             Rough::Si(packing) => {
                 let forces = packing.base(selection)?;
-                Box::new(forces.map(move |force| Ok(cells(pile, force?))))
+                Box::new(forces.map(move |force| Ok(floor_cells(pile, force?))))
             }
         })
     };
@@ -181,8 +170,7 @@ pub fn rough_summary(units: &Units<'_>) -> Result<Table<'static>, Error> {
         }
     };
     let force = |name, force| (Column::measured(name, units.normal()), in_units(force));
-    let count =
-        |name, count: num_bigint::BigUint| (Column::plain(name), Cell::Integer(count.into()));
+    let count = |name, count: BigUint| (Column::plain(name), Cell::Integer(count.into()));
     let coefficient = |name, cell| (Column::measured(name, units.half_angle()), cell);
     Ok(Table::record(vec![
         (Column::plain("layers"), pile.layers().into()),
@@ -199,7 +187,7 @@ pub fn rough_summary(units: &Units<'_>) -> Result<Table<'static>, Error> {
 
 /// Forces with friction, in the units of a table.
 enum Rough<'p> {
-    Pile(cannonpile::friction::RoughFloor<'p>),
+    Pile(RoughFloor<'p>),
     Si(Box<RoughPacking<'p>>),
 }
 
