@@ -47,7 +47,7 @@ mod tree;
 
 pub(crate) use cells::Cells;
 pub(crate) use closed::closed_contact;
-pub(crate) use grid::{Grid, MAX_NUMBERS};
+pub(crate) use grid::{Grid, Layer, MAX_NUMBERS};
 #[cfg(feature = "std")]
 pub use interrupt::Interrupt;
 pub use interrupt::check as check_interrupt;

@@ -14,6 +14,7 @@ mod numerators;
 #[cfg(feature = "rayon")]
 pub mod parallel;
 mod screen;
+mod stress;
 mod sums;
 mod terms;
 mod walk;
@@ -51,6 +52,7 @@ use walk::Walk;
 /// | the force of one sphere on the floor | [`on_floor`](Self::on_floor) |
 /// | contact forces, one by one | [`contacts`](Self::contacts) |
 /// | forces on the floor, one by one | [`base`](Self::base) |
+/// | the stress of a sphere | [`stress`](Self::stress), [`stresses`](Self::stresses) |
 /// | many forces into slices, fast | [`layers`](Self::layers) |
 /// | any of these in newtons and metres | a [`Packing`](crate::Packing) |
 ///

@@ -305,3 +305,8 @@ pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
         Dimension::Three => 3,
     })
 }
+
+/// Returns 4cos²φ, the squared length of the unit along y in the symbolic basis over sin²θ.
+pub(crate) fn square_across(sin_phi: &BigRational) -> BigRational {
+    BigRational::from_i128(4) * (BigRational::one() - sin_phi * sin_phi)
+}

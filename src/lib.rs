@@ -52,7 +52,7 @@
 //! | I want | call |
 //! |---|---|
 //! | one contact force, in any scalar, in multiples of f₀ | [`pile.forces::<T>()`](Pile::forces)[`.contact(site, direction)`](Forces::contact) |
-//! | the force of one bottom sphere on the floor | [`.on_floor(site)`](Forces::on_floor) |
+//! | the force of one bottom sphere on the floor; the stress of one sphere | [`.on_floor(site)`](Forces::on_floor), [`.stress(site)`](Forces::stress) |
 //! | all forces of a part, one by one | [`.contacts(part)`](Forces::contacts), [`.base(part)`](Forces::base); `part` is a [`Selection`](shape::Selection) |
 //! | the same on all cores (feature `rayon`) | `parallel::contacts(&forces, part)`, `parallel::base(&forces, part)` |
 //! | the sites of a part | [`pile.sites(part)`](Pile::sites); by rows: [`pile.rows(part)`](Pile::rows) |

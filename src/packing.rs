@@ -14,7 +14,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed};
 
 use crate::engine::{Counters, Method};
-use crate::geometry::{Inclination, LayerGap, Spacing, Vector};
+use crate::geometry::{Inclination, LayerGap, Spacing, Vector, square_across};
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Ring, Surd, product};
 use crate::{Error, FloorForce, Forces, Pile};
@@ -551,6 +551,52 @@ impl<'p> Packing<'p> {
         }
     }
 
+    /// Returns the stress of a sphere times its volume V = 4πR³/3, in N·m: xx, yy, zz, xy, xz, yz, positive in
+    /// compression. Divide by V for the stress in Pa. [`Forces::stress`] has the definition.
+    ///
+    /// # Errors
+    /// As for [`Forces::stress`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Packing, Pile, ratio};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?.with_radius(ratio!(1/100))?;
+    /// let [xx, _, zz, ..] = packing.stress(Site::APEX)?;
+    /// assert_eq!((xx.to_string(), zz.to_string()), ("3/3250*sqrt(13)".into(), "1/500*sqrt(13)".into()));
+    /// let volume = 4e-6 / 3.0 * core::f64::consts::PI;
+    /// let pressure = (2.0 * xx.to_f64() + zz.to_f64()) / volume / 3.0;
+    /// assert!((pressure - 1103.5).abs() < 0.1);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn stress(&self, site: Site) -> Result<[Surd; 6], Error> {
+        Ok(self.stress_in_si(&self.forces.stress(site)?))
+    }
+
+    /// Returns a stress times volume in N·m, from its multiples in [`Forces::stress`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let stresses = packing.forces().stresses(Selection::All)?;
+    /// for (stress, site) in stresses.zip(pile.sites(Selection::All)?) {
+    ///     assert_eq!(packing.stress_in_si(&stress?), packing.stress(site)?);
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn stress_in_si(&self, stress: &[BigRational; 6]) -> [Surd; 6] {
+        let unit = self.sphere_weight() * &self.radius;
+        let roots = &self.roots.stress;
+        core::array::from_fn(|n| roots[n].scaled(&product(&stress[n], &unit)))
+    }
+
     /// Returns a contact force in SI units, from its multiple of f₀.
     pub(crate) fn magnitude(&self, multiple: &BigRational) -> Surd {
         self.unit_force.scaled(multiple)
@@ -596,16 +642,20 @@ struct Roots {
     lengths: [Surd; 3],
     /// (tanθ, 2cosφ·tanθ, 1): the symbolic basis over cosθ.
     forces: [Surd; 3],
+    /// The units of [`Forces::stress`], over mgR.
+    stress: [Surd; 6],
 }
 
 impl Roots {
     fn new(inclination: &Inclination, sin_phi: &BigRational) -> Result<Self, Error> {
-        let cos2_phi = BigRational::one() - sin_phi * sin_phi;
-        let across = Surd::sqrt(BigRational::from_i128(4) * cos2_phi)?;
-        let (sin, tan) = (inclination.sin(), inclination.tan());
+        let across = Surd::sqrt(square_across(sin_phi))?;
+        let (sin, cos, tan) = (inclination.sin(), inclination.cos(), inclination.tan());
+        let (y, xx) = (sin.clone() * &across, sin.clone() * &tan);
+        let xy = xx.clone() * &across;
         Ok(Self {
             secant: Surd::sqrt(inclination.cos2().recip())?,
-            lengths: [sin.clone(), sin * &across, inclination.cos()],
+            stress: [xx.clone(), xx, cos.clone(), xy, sin.clone(), y.clone()],
+            lengths: [sin, y, cos],
             forces: [tan.clone(), tan * &across, BigRational::one().into()],
         })
     }

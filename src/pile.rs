@@ -16,7 +16,7 @@ use num_traits::{One, Signed, Zero};
 
 use crate::Error;
 use crate::formula;
-use crate::geometry::{Clearance, Load, Vector, directions, disc_directions};
+use crate::geometry::{Clearance, Load, Vector, directions, disc_directions, square_across};
 use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};
 use crate::scalar::{Algebra, Ring, sum_of};
 use crate::shape::{Numbering, Rows, Selection, Shape, Sites};
@@ -720,8 +720,7 @@ impl Pile {
 
     /// Returns 4cos²φ, the squared length of the unit along y in the symbolic basis.
     pub(crate) fn across(&self) -> BigRational {
-        let s = &self.sin_phi;
-        BigRational::from_i128(4) * (BigRational::one() - s * s)
+        square_across(&self.sin_phi)
     }
 
     /// Returns the data of the pile for an engine.

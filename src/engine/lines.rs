@@ -49,6 +49,8 @@ pub(crate) struct Lines<'p, T: Algebra> {
     /// sphere with horizontal contacts only.
     pub(super) extra_loads: BTreeMap<Site, Vector<T::Numerator>>,
     scale: T::Numerator,
+    /// 1/[`System::denominator`], whose numerator over `scale` is 1 in integers.
+    least: BigRational,
     /// Whether a sign change triples the denominator. It does if the ring of numerators does not contain 1/3.
     triples: bool,
 }
@@ -121,6 +123,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
             extras: BTreeMap::new(),
             extra_loads: BTreeMap::new(),
             scale,
+            least: least.clone(),
             triples: formula::triples::<T>(),
         };
         for Extra {
@@ -133,6 +136,11 @@ impl<'p, T: Algebra> Lines<'p, T> {
             lines.add(site, own.map(numerator), load);
         }
         lines
+    }
+
+    /// Returns a given horizontal force as a numerator over the denominator after `changes` sign changes.
+    pub(crate) fn numerator(&self, force: BigRational, changes: usize) -> T::Numerator {
+        self.scaled(numerator::<T>(force, &self.least), changes)
     }
 
     /// Adds to the load on a sphere, in a scalar that is its own numerator.

@@ -88,7 +88,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
             Self::Sweep(sweep) => {
                 let one = |site| {
                     meter.visit(1);
-                    sweep.received(site)
+                    sweep.received_before_turn(site)
                 };
                 sites.map(one).collect()
             }

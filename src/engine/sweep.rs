@@ -35,6 +35,7 @@ use super::nearest::{Readout, Unit};
 use super::thirds::turned;
 use crate::Error;
 use crate::error::bug;
+use crate::formula::half_turn;
 use crate::lattice::{Region, Row, Site};
 use crate::scalar::{Algebra, CorrectlyRounded};
 
@@ -145,6 +146,22 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         Ok(Received {
             forces,
             changes: self.changes(),
+        })
+    }
+
+    /// Returns [`received`](Self::received) at any layer. At a sign change, the numbers on the lines are already turned. The
+    /// half-turn is its own inverse.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if the sphere belongs to another layer.
+    pub(crate) fn received_before_turn(&self, site: Site) -> Result<Received<T>, Error> {
+        let Received { forces, changes } = self.received(site)?;
+        Ok(match self.pass {
+            Some(pass) if pass.turns => Received {
+                forces: half_turn::<T>(&forces),
+                changes: changes + 2,
+            },
+            _ => Received { forces, changes },
         })
     }
 

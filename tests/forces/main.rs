@@ -54,6 +54,8 @@ mod forces {
     #[cfg(feature = "std")]
     mod scalars;
     #[cfg(feature = "std")]
+    mod stress;
+    #[cfg(feature = "std")]
     mod stress_table;
     #[cfg(feature = "std")]
     mod symmetry;
