@@ -5,7 +5,7 @@ mod places;
 
 use num_traits::ToPrimitive;
 
-use super::numbered::{LinkedRow, rounded};
+use super::numbered::{LinkedRow, rounded, stresses};
 use crate::Error;
 use crate::table::{columns, slices};
 use cannonpile::lattice::{Direction, Site};
@@ -262,6 +262,34 @@ impl<'p> PileArrays<'p> {
             put_vectors(&found.collect::<Result<Vec<_>, Error>>()?, &mut left);
         }
         self.put_horizontal(left, |contact| rounded(&contact.point, "a position"))
+    }
+
+    /// Writes the stress of all spheres times the volume of a sphere, in N·m: xx, yy, zz, xy, xz, yz, as
+    /// [`Packing::stress`] defines them.
+    ///
+    /// # Errors
+    /// As for [`fill_centres`](Self::fill_centres).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::PileArrays;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let mut stresses = [[0.0; 6]; 3];
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// PileArrays::of_packing(&packing)?.fill_stresses(&mut stresses)?;
+    /// assert_eq!(stresses[0], [0.45, 0.0, 0.8, 0.0, 0.0, 0.0]);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn fill_stresses(&self, places: &mut [[f64; 6]]) -> Result<(), Error> {
+        check_length(self.spheres, places)?;
+        let packing = self.packing(Quantity::ContactVectors)?;
+        for (place, stress) in places.iter_mut().zip(stresses(packing)?) {
+            Interrupt::check()?;
+            *place = stress?;
+        }
+        Ok(())
     }
 
     fn packing(&self, quantity: Quantity) -> Result<&Packing<'p>, Error> {

@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use super::numbered::{NumberedContact, NumberedPile};
+use super::numbered::{NumberedContact, NumberedPile, stresses};
 use super::weights::{PerSphere, nearest_rational};
-use crate::table::WriteError;
+use crate::table::{WriteError, in_dimension};
 use cannonpile::FloorForce;
 use cannonpile::lattice::{Dimension, Site};
 
@@ -22,6 +22,10 @@ pub(super) fn write_spheres(
     let along = along.transpose()?;
     let axes = pile.pile().dimension().directions().len() - 1;
     let floor = pile.pile().layers() - 1;
+    let mut stresses = pile
+        .has_stress
+        .then(|| stresses(pile.packing()))
+        .transpose()?;
     for (id, centre) in (1_u64..).zip(pile.centres()?) {
         let (site, [x, y, z]) = centre?;
         let (mass, load) = (masses.of(site), loads.of(site));
@@ -34,6 +38,11 @@ pub(super) fn write_spheres(
         )?;
         for along in along.iter().flatten().take(axes) {
             write!(out, ",{:?}", along.of(site))?;
+        }
+        if let Some(stress) = stresses.as_mut().and_then(Iterator::next) {
+            for part in in_dimension(pile.pile(), stress?) {
+                write!(out, ",{part:?}")?;
+            }
         }
         writeln!(out)?;
         row();
@@ -109,10 +118,12 @@ pub(super) fn write_columns(
 /// Vertical loads have no components along x and y.
 fn columns(pile: &NumberedPile<'_>) -> impl Iterator<Item = &'static str> + use<> {
     let flat = pile.pile().dimension() == Dimension::Two;
-    let vertical = !has_horizontal_loads(pile);
+    let (vertical, has_stress) = (!has_horizontal_loads(pile), pile.has_stress);
     let lines = include_str!("columns.csv").lines();
     lines.filter(move |line| match line.split(',').nth(1) {
         Some("j" | "shear_y") => !flat,
+        Some("stress_xx" | "stress_zz" | "stress_xz") => has_stress,
+        Some("stress_yy" | "stress_xy" | "stress_yz") => has_stress && !flat,
         Some("load_x") => !vertical,
         Some("load_y") => !vertical && !flat,
         _ => true,

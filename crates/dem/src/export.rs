@@ -99,6 +99,28 @@ impl<'p> PileExport<'p> {
         Self { scene, ..self }
     }
 
+    /// Adds the stress of each sphere times its volume to `spheres.csv` and `spheres.vtp`, in N·m as from
+    /// [`Packing::stress`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::{PileExport, PileFile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let export = PileExport::new(&Packing::new(&pile, &"6/5".parse()?)?)?.with_stress();
+    /// let mut csv = Vec::new();
+    /// export.write_file(PileFile::SpheresCsv, &mut csv, &mut |_| {})?;
+    /// let apex = String::from_utf8(csv)?.lines().nth(1).map(str::to_owned);
+    /// assert!(apex.is_some_and(|apex| apex.ends_with(",0.45,0.8,0.0")));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_stress(mut self) -> Self {
+        self.pile.has_stress = true;
+        self
+    }
+
     /// Sets the texts of cards and the titles of tests.
     ///
     /// # Examples

@@ -87,7 +87,8 @@ impl PileFormat {
 #[non_exhaustive]
 pub enum PileFile {
     /// `spheres.csv`: the table of [`table::spheres`](crate::table::spheres), and `load`, the downward force in
-    /// addition to the weight.
+    /// addition to the weight. With [`with_stress`](super::PileExport::with_stress) the columns of
+    /// [`table::spheres_with_stress`](crate::table::spheres_with_stress) follow, in SI units.
     SpheresCsv,
     /// `contacts.csv`: `id1,id2,force,fx,fy,fz,k,i,j,direction`. The force acts on id1, the upper sphere, which has the
     /// site k, i, j.
@@ -100,7 +101,8 @@ pub enum PileFile {
     LammpsData,
     /// `pile.in`: relaxes the pile on springs, and writes the forces to `forces.dump`.
     LammpsInput,
-    /// `spheres.vtp`: points with `id`, `layer`, `radius`, `weight`, `load` and `reaction`, the force from the floor.
+    /// `spheres.vtp`: points with `id`, `layer`, `radius`, `weight`, `load` and `reaction`, the force from the floor. With
+    /// [`with_stress`](super::PileExport::with_stress) also `stress`, times the volume, as nine components.
     SpheresVtp,
     /// `contacts.vtp`: lines between centres with `id1`, `id2`, `direction` (0, 1, 2 for α, β, γ), `force`, and
     /// `force_vector` on the upper sphere. Both end points also have `force`, for the width of tubes.

@@ -32,6 +32,8 @@ use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
 pub struct NumberedPile<'p> {
     packing: Packing<'p>,
     numbering: Numbering<'p>,
+    /// Whether the files of spheres contain their stress.
+    pub(super) has_stress: bool,
 }
 
 /// A contact of a pile with its correctly rounded force.
@@ -97,6 +99,7 @@ impl<'p> NumberedPile<'p> {
         Ok(Self {
             numbering: pile.numbering()?,
             packing: packing.clone(),
+            has_stress: false,
         })
     }
 
@@ -447,13 +450,23 @@ impl NumberedContact {
 const FORCE: &str = "a contact force";
 
 /// Returns the correctly rounded components of a vector.
-pub(super) fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64; 3], Error> {
-    let [x, y, z] = vector;
-    Ok([
-        nearest(x, quantity)?,
-        nearest(y, quantity)?,
-        nearest(z, quantity)?,
-    ])
+pub(super) fn rounded<const N: usize>(
+    vector: &[Surd; N],
+    quantity: &'static str,
+) -> Result<[f64; N], Error> {
+    let mut floats = [0.0; N];
+    for (float, exact) in floats.iter_mut().zip(vector) {
+        *float = nearest(exact, quantity)?;
+    }
+    Ok(floats)
+}
+
+/// Iterates over the stress of all spheres times the volume of a sphere, in N·m and correctly rounded.
+pub(super) fn stresses<'p>(
+    packing: &Packing<'p>,
+) -> Result<impl Iterator<Item = Result<[f64; 6], Error>> + use<'p>, Error> {
+    let (packing, stresses) = (packing.clone(), packing.forces().stresses(Selection::All)?);
+    Ok(stresses.map(move |stress| rounded(&packing.stress_in_si(&stress?), "a stress")))
 }
 
 /// Returns a number correctly rounded. The error of an overflow contains `quantity`.

@@ -15,6 +15,7 @@
 //! | `normal` | mg |
 //! | `shear_x` | mg·tanθ |
 //! | `shear_y` | √3·mg·tanθ; 2cosφ·mg·tanθ in general |
+//! | `stress_xx` and others | as for [`Forces::stress`](cannonpile::Forces::stress) |
 //!
 //! so that all values are rational. In SI units ([`Units::of_packing`]) forces are in N, lengths in m, masses in kg.
 //!
@@ -65,7 +66,8 @@ pub use rows::{Column, Table};
 pub use summary::Summary;
 #[doc(hidden)]
 pub use summary::{stacking, steps};
-pub use tables::{MAX_ROWS, base, contacts, spheres, touching_contacts};
+pub(crate) use tables::in_dimension;
+pub use tables::{MAX_ROWS, base, contacts, spheres, spheres_with_stress, touching_contacts};
 #[doc(hidden)]
 pub use tables::{indices, places, refuse_beyond};
 pub use tables::{rough_base, rough_contacts, rough_summary};

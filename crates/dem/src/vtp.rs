@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::numbered::NumberedPile;
+use super::numbered::{NumberedPile, stresses};
 use super::polydata::{Array, Kind, PolyData, Section};
 use super::weights::{PerSphere, nearest_rational};
 use crate::table::WriteError;
@@ -15,17 +15,23 @@ pub(super) fn write_spheres(
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
     let n = pile.numbering().sphere_count();
+    let stress = pile
+        .has_stress
+        .then(|| Array::new("stress", Kind::Float64, 9, n));
     let sections = [
         Section {
             tag: "PointData",
-            arrays: vec![
+            arrays: [
                 Array::new("id", Kind::Int64, 1, n),
                 Array::new("layer", Kind::Int64, 1, n),
                 Array::new("radius", Kind::Float64, 1, n),
                 Array::new("weight", Kind::Float64, 1, n),
                 Array::new("load", Kind::Float64, 1, n),
                 Array::new("reaction", Kind::Float64, 3, n),
-            ],
+            ]
+            .into_iter()
+            .chain(stress)
+            .collect(),
         },
         Section {
             tag: "Points",
@@ -57,6 +63,15 @@ pub(super) fn write_spheres(
     }
     data.array()?;
     write_reactions(pile, &mut data)?;
+    if pile.has_stress {
+        data.array()?;
+        for stress in stresses(pile.packing())? {
+            let [xx, yy, zz, xy, xz, yz] = stress?;
+            for row in [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] {
+                data.vector(row)?;
+            }
+        }
+    }
     data.array()?;
     for centre in pile.centres()? {
         let (_, centre) = centre?;

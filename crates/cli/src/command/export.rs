@@ -61,6 +61,9 @@ pub(crate) struct Export {
     /// Coefficient of friction of the floor, with --floor rough [default: twice the needed one]
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = parse::rational)]
     floor_friction: Option<BigRational>,
+    /// Add the stress of each sphere times its volume to spheres.csv and spheres.vtp, in N·m
+    #[arg(long)]
+    stress: bool,
     /// File for the list of the written files [default: stdout]
     #[arg(
         long,
@@ -143,6 +146,12 @@ impl Export {
         let export = match self.friction(&scene, &packing, &formats)? {
             None => export,
             Some(friction) => export.on_rough_floor(friction)?,
+        };
+        let export = if self.stress {
+            check_stress(&formats)?;
+            export.with_stress()
+        } else {
+            export
         };
         check_springs(&scene, &formats)?;
         let page = self.page(&packing, &scene)?;
@@ -341,6 +350,16 @@ impl Export {
         ));
         Ok(())
     }
+}
+
+/// Checks that an exported file can contain the stress.
+fn check_stress(formats: &[PileFormat]) -> Result<(), Failure> {
+    if formats.contains(&PileFormat::Csv) || formats.contains(&PileFormat::Vtp) {
+        return Ok(());
+    }
+    Err(Failure::Message(
+        "--stress: only csv and vtp files contain the stress: add csv or vtp to --to, or leave it out".to_owned(),
+    ))
 }
 
 /// Checks that scripts for DEM codes, which have a single spring stiffness, can represent the scene.

@@ -1,11 +1,11 @@
-//! `spheres`: the position, radius and mass of each sphere.
+//! `spheres`: the position, radius, mass and stress of each sphere.
 
 use cannonpile::shape::Selection;
 use cannonpile_dem::table;
 use clap::Args;
 
 use super::note_instability;
-use crate::args::{Numbers, Output, Part, SceneOptions, spheres, with_row_options};
+use crate::args::{Numbers, Output, Part, SceneOptions, UnitSystem, spheres, with_row_options};
 use crate::output::Failure;
 use crate::progress::Progress;
 
@@ -17,9 +17,19 @@ Columns:
   radius, mass   in m and kg
   fixed          1 in the bottom layer, otherwise 0
 
+With --stress further columns give the stress of each sphere times its volume 4πR³/3, which is R Σ f ê⊗ê over its contacts:
+  stress_xx, stress_yy   in mgR·sinθ·tanθ
+  stress_zz              in mgR·cosθ
+  stress_xy              in √3·mgR·sinθ·tanθ (in 2cosφ·mgR·sinθ·tanθ with --sin-phi)
+  stress_xz              in mgR·sinθ
+  stress_yz              in √3·mgR·sinθ (in 2cosφ·mgR·sinθ with --sin-phi)
+With --units si they are in N·m; divide by the volume for Pa. Compression is positive. LAMMPS' compute stress/atom has the
+opposite sign. The forces of the floor and the loads are not included.
+
 Examples:
   cannonpile spheres --layers 4
-  cannonpile spheres --layers 4 --radius 1/100 --number f64 --output spheres.json";
+  cannonpile spheres --layers 4 --radius 1/100 --number f64 --output spheres.json
+  cannonpile spheres --layers 4 --stress --units si --number f64";
 
 #[derive(Args)]
 #[command(after_help = HELP)]
@@ -28,6 +38,9 @@ pub(crate) struct Spheres {
     pub(crate) scene: SceneOptions,
     #[command(flatten)]
     part: Part,
+    /// Add the stress of each sphere times its volume
+    #[arg(long, help_heading = "Output")]
+    stress: bool,
     #[command(flatten)]
     numbers: Numbers,
     #[command(flatten)]
@@ -36,13 +49,23 @@ pub(crate) struct Spheres {
 
 impl Spheres {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read_whole()?;
+        let (scene, pile) = if self.stress {
+            self.scene.read_state()?
+        } else {
+            self.scene.read_whole()?
+        };
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
         let rows = spheres(&pile, selection)?;
         let progress = Progress::of_rows("positions", rows.try_into().ok());
-        let table = table::spheres(&scene.packing(&pile)?, selection)
-            .map_err(|error| with_row_options(error, selection))?;
+        let packing = scene.packing(&pile)?;
+        let table = if self.stress {
+            let in_si = matches!(self.numbers.units, UnitSystem::Si);
+            table::spheres_with_stress(&packing, in_si, selection)
+        } else {
+            table::spheres(&packing, selection)
+        };
+        let table = table.map_err(|error| with_row_options(error, selection))?;
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         drop(progress);

@@ -8,7 +8,8 @@ mod spheres;
 pub use base::base;
 pub use contacts::{contacts, touching_contacts};
 pub use friction::{rough_base, rough_contacts, rough_summary};
-pub use spheres::spheres;
+pub(crate) use spheres::in_dimension;
+pub use spheres::{spheres, spheres_with_stress};
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;

@@ -4,6 +4,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
 
+use super::rows::Column;
 use crate::Error;
 use cannonpile::lattice::{Dimension, Site};
 use cannonpile::scalar::{CorrectlyRounded, Ring, Surd};
@@ -110,6 +111,54 @@ impl<'p> Units<'p> {
             Self::Pile(_) => force.map(Surd::from),
             Self::Si(packing) => packing.floor_force_in_si(force),
         }
+    }
+
+    /// Returns the stress of a sphere times its volume, from its multiples.
+    pub(super) fn stress(&self, multiples: [BigRational; 6]) -> [Surd; 6] {
+        match self {
+            Self::Pile(_) => multiples.map(Surd::from),
+            Self::Si(packing) => packing.stress_in_si(&multiples),
+        }
+    }
+
+    pub(super) fn stress_columns(&self) -> [Column; 6] {
+        let [xx, zz, xy, xz, yz] = match self {
+            Self::Si(_) => ["N·m"; 5],
+            Self::Pile(_) if self.pile().is_regular() => [
+                "mgR·sinθ·tanθ",
+                "mgR·cosθ",
+                "√3·mgR·sinθ·tanθ",
+                "mgR·sinθ",
+                "√3·mgR·sinθ",
+            ],
+            Self::Pile(_) => [
+                "mgR·sinθ·tanθ",
+                "mgR·cosθ",
+                "2cosφ·mgR·sinθ·tanθ",
+                "mgR·sinθ",
+                "2cosφ·mgR·sinθ",
+            ],
+        };
+        [
+            Column::measured("stress_xx", xx),
+            Column::measured("stress_yy", xx),
+            Column::measured("stress_zz", zz),
+            Column::measured("stress_xy", xy),
+            Column::measured("stress_xz", xz),
+            Column::measured("stress_yz", yz),
+        ]
+    }
+
+    /// Returns an upper bound of the stress of a selection times volume. A sphere has at most twelve contacts, and each
+    /// adds at most its force to a multiple. A disc has at most six, and each adds at most twice its force. In SI units each
+    /// contact adds at most R times its force.
+    pub(super) fn greatest_stress(&self, part: Selection) -> Result<Surd, Error> {
+        let contacts = BigRational::from_i128(12);
+        let force = self.greatest_force(part)?.scaled(&contacts);
+        Ok(match self {
+            Self::Pile(_) => force,
+            Self::Si(packing) => force.scaled(packing.radius()),
+        })
     }
 
     /// Returns an upper bound of the forces of a selection. In mg or f₀, no force exceeds three times the sum of
@@ -321,6 +370,15 @@ mod tests {
                     let [x, y, z] = packed.vector;
                     for force in [packed.force, x, y, z] {
                         assert!(of_si >= force && of_si >= -force, "{pile:?} {part:?}");
+                    }
+                }
+                for stress in pile.forces::<BigRational>().stresses(part).unwrap() {
+                    let stress = stress.unwrap();
+                    for units in [&in_pile, &in_si] {
+                        let bound = units.greatest_stress(part).unwrap();
+                        for part in units.stress(stress.clone()) {
+                            assert!(bound >= part && bound >= -part, "{pile:?}");
+                        }
                     }
                 }
                 let Ok(base) = pile.forces::<BigRational>().base(part) else {

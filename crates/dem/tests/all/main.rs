@@ -10,4 +10,5 @@ mod scene {
     mod cases;
     mod file;
 }
+mod stress;
 mod verify;

@@ -47,7 +47,7 @@ console! {
     contacts: 57;
     ensemble: 39;
     explain: 12;
-    export: 48;
+    export: 51;
     help: 19;
     mean: 49;
     merge: 13;
@@ -56,7 +56,7 @@ console! {
     response: 9;
     scene: 22;
     sensitivity: 15;
-    spheres: 15;
+    spheres: 22;
     stability: 31;
     summary: 39;
     tables: 9;

@@ -9,7 +9,8 @@ use crate::Error;
 use crate::table::cell::Cell;
 use crate::table::pieces::{columns, in_pieces, slices};
 use crate::table::rows::{Column, Row, RowIter, Table};
-use cannonpile::lattice::Site;
+use crate::table::units::Units;
+use cannonpile::lattice::{Dimension, Site};
 use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
 
@@ -42,6 +43,51 @@ use cannonpile::{Packing, Pile};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<'p>, Error> {
+    table(packing, None, selection)
+}
+
+/// Returns the table of [`spheres`] with the stress of each sphere times its volume: `stress_xx, stress_yy, stress_zz,
+/// stress_xy, stress_xz, stress_yz`; for discs `stress_xx, stress_zz, stress_xz`.
+///
+/// [`Forces::stress`](cannonpile::Forces::stress) defines the stress and its pile units. If `in_si` is true, the stress times
+/// the volume is in N·m.
+///
+/// # Errors
+/// As for [`spheres`]; [`Error::TooLarge`](cannonpile::Error::TooLarge) as for
+/// [`Forces::stresses`](cannonpile::Forces::stresses).
+///
+/// # Examples
+/// ```
+/// use cannonpile::shape::Selection;
+/// use cannonpile::{Packing, Pile};
+/// use cannonpile_dem::table;
+///
+/// let pile = Pile::triangular(2)?;
+/// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+/// let table = table::spheres_with_stress(&packing, false, Selection::All)?;
+/// let zz = &table.columns()[12];
+/// assert_eq!((zz.name, zz.unit), ("stress_zz", "mgR·cosθ"));
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+pub fn spheres_with_stress<'p>(
+    packing: &Packing<'p>,
+    in_si: bool,
+    selection: Selection,
+) -> Result<Table<'p>, Error> {
+    let units = if in_si {
+        Units::of_packing(packing.clone())
+    } else {
+        Units::Pile(Box::new(packing.forces().clone()))
+    };
+    table(packing, Some(units), selection)
+}
+
+/// Returns the table of spheres, with the stress in the given units.
+fn table<'p>(
+    packing: &Packing<'p>,
+    stress: Option<Units<'p>>,
+    selection: Selection,
+) -> Result<Table<'p>, Error> {
     let pile = packing.pile();
     let rows = pile.rows(selection)?;
     let count = rows.site_count();
@@ -50,10 +96,16 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
     columns.extend(["x", "y", "z", "radius"].map(|name| Column::measured(name, "m")));
     columns.push(Column::summed("mass", "kg"));
     columns.push(Column::plain("fixed"));
+    let mut greatest_stress = Cell::Missing;
+    if let Some(units) = &stress {
+        columns.extend(in_dimension(pile, units.stress_columns()));
+        greatest_stress = units.greatest_stress(selection)?.into();
+    }
     let bound = |column: &Column| match column.unit {
         "m" => greatest_place(packing).into(),
         "kg" => greatest_mass(packing).into(),
-        _ => Cell::Missing,
+        "" => Cell::Missing,
+        _ => greatest_stress.clone(),
     };
     let bounds = columns.iter().map(bound).collect();
     // Rows are consecutive, and so are sphere numbers.
@@ -64,12 +116,25 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
     let ids = core::iter::successors(Some(first), |id| Some(id + 1));
     let made = packing.clone();
     let rows = move |numbers| -> Result<RowIter<'p>, Error> {
-        Ok(match rounding(numbers, selection) {
-            Some(Rounding::F64) => rounded_spheres::<f64>(made, selection, ids)?,
-            Some(Rounding::F32) => rounded_spheres::<f32>(made, selection, ids)?,
-            None => Box::new(ids.zip(rows.flatten()).map(move |(id, site)| {
-                sphere_cells(&made, (id, site), made.position(site)?.map(Cell::from))
-            })),
+        let sites = rows.flatten();
+        let exact = |made: Packing<'p>| {
+            ids.clone().zip(sites).map(move |numbered| {
+                let centre = made.position(numbered.1)?.map(Cell::from);
+                sphere_cells(&made, numbered, centre)
+            })
+        };
+        Ok(match (stress, rounding(numbers, selection)) {
+            (Some(units), _) => {
+                let stresses = units.forces().stresses(selection)?;
+                Box::new(exact(made).zip(stresses).map(move |(cells, stress)| {
+                    let (mut cells, stress) = (cells?, units.stress(stress?));
+                    cells.extend(in_dimension(pile, stress.map(Cell::from)));
+                    Ok(cells)
+                }))
+            }
+            (None, Some(Rounding::F64)) => rounded_spheres::<f64>(made, selection, ids)?,
+            (None, Some(Rounding::F32)) => rounded_spheres::<f32>(made, selection, ids)?,
+            (None, None) => Box::new(exact(made)),
         })
     };
     let summed = packing.clone();
@@ -101,6 +166,14 @@ fn rounded_spheres<'p, F: Float>(
         rows.collect()
     });
     Ok(Box::new(rows))
+}
+
+/// Returns the components of a tensor that a pile has: all six, or xx, zz and xz of discs.
+pub(crate) fn in_dimension<C>(pile: &Pile, [xx, yy, zz, xy, xz, yz]: [C; 6]) -> Vec<C> {
+    match pile.dimension() {
+        Dimension::Two => vec![xx, zz, xz],
+        Dimension::Three => vec![xx, yy, zz, xy, xz, yz],
+    }
 }
 
 /// Returns the cells of a sphere.

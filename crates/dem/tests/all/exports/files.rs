@@ -183,6 +183,41 @@ fn array<'a>(arrays: &'a [(String, Vec<f64>)], name: &str) -> &'a [f64] {
     &found.expect("an array").1
 }
 
+/// Exports contain the same numbers on request only.
+#[test]
+fn exports_contain_the_stress_of_the_table() {
+    for_each_pile(|scene, export| {
+        let plain = text(export, PileFile::SpheresCsv);
+        assert!(
+            !plain.contains("stress") && !text(export, PileFile::ColumnsCsv).contains("stress")
+        );
+        let export = export.clone().with_stress();
+        let table = table::spheres_with_stress(export.packing(), true, Selection::All);
+        let (table, written) = (
+            columns(&csv_of(table.expect("a table"))),
+            columns(&text(&export, PileFile::SpheresCsv)),
+        );
+        let points = arrays(&bytes(&export, PileFile::SpheresVtp));
+        let tensors = array(&points, "stress");
+        let explained = text(&export, PileFile::ColumnsCsv);
+        let mut found = 0;
+        for (name, column) in table.iter().filter(|(name, _)| name.starts_with("stress")) {
+            assert_eq!(written[name], *column, "{scene:?} {name}");
+            assert!(explained.contains(name));
+            let axes = name
+                .bytes()
+                .rev()
+                .take(2)
+                .map(|axis| usize::from(axis - b'x'));
+            let place = axes.fold(0, |place, axis| 3 * place + axis);
+            let of_points = tensors.iter().skip(place).step_by(9);
+            assert!(of_points.eq(column), "{scene:?} {name}");
+            found += 1;
+        }
+        assert_eq!(found, written.len() - columns(&plain).len());
+    });
+}
+
 #[test]
 fn paraview_files_have_the_numbers_of_the_csv() {
     for_each_pile(|scene, export| {
