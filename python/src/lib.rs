@@ -37,7 +37,7 @@ mod _cannonpile {
     };
     #[pymodule_export]
     use crate::pile::arrays::{
-        base, contact_ids, contact_points, forces, multiples, positions, sites, vectors,
+        base, contact_ids, contact_points, forces, multiples, positions, sites, stresses, vectors,
     };
     #[pymodule_export]
     use crate::pile::tools::{compare, export, page, plot};

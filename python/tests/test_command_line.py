@@ -51,6 +51,12 @@ def test_spheres(table, options, pile):
     assert [pile.sphere_id(*site(row)) for row in rows] == [int(row["id"]) for row in rows]
 
 
+def test_stresses(table, options, pile):
+    rows = table("spheres", options, "--stress", *NEAREST)
+    names = [f"stress_{axes}" for axes in ("xx", "yy", "zz", "xy", "xz", "yz")]
+    assert pile.stresses().tolist() == [[float(row.get(name, 0)) for name in names] for row in rows]
+
+
 def test_base(table, options, pile):
     rows = table("base", options, *EXACT)
     for row in rows:

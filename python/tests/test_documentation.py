@@ -117,7 +117,7 @@ def test_missing_documentation_is_detected():
 
 
 def test_arrays_document_shape_and_type():
-    for name in ("positions", "sites", "contact_ids", "contact_points", "forces", "vectors", "base"):
+    for name in ("positions", "stresses", "sites", "contact_ids", "contact_points", "forces", "vectors", "base"):
         returned = sections(getattr(cannonpile.Pile, name).__doc__)["Returns"]
         assert re.search(r"\([NMB],( \d)?\)", returned), name
         assert re.search(r"float64|int64", returned), name

@@ -389,6 +389,35 @@ class Pile:
         """
         return native.positions(self._native)
 
+    def stresses(self) -> NDArray[np.float64]:
+        """Return the stress of all spheres times the volume of a sphere, correctly rounded.
+
+        The product is R Σ f e⊗e over the contacts of a sphere, with normal forces f, positive in compression, and unit
+        vectors e. Divide by 4/3 pi R**3 for the stress in Pa. LAMMPS' ``compute stress/atom`` has the opposite sign. The
+        floor, weights and loads are not included.
+
+        Returns
+        -------
+        numpy.ndarray
+            float64 of shape (N, 6), in N·m: xx, yy, zz, xy, xz, yz.
+
+        Raises
+        ------
+        ValueError
+            If the spacing is impossible for this stacking.
+        OverflowError
+            If a component exceeds float64.
+        MemoryError
+            If the array does not fit into memory.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2, dimension=2).stresses()[0]
+        array([0.45, 0.  , 0.8 , 0.  , 0.  , 0.  ])
+        """
+        return native.stresses(self._native)
+
     def sites(self) -> NDArray[np.int64]:
         """Return the sites of all spheres: layer k, counted from 0 at the top, and position (i, j) in it.
 

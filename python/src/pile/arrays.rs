@@ -49,6 +49,15 @@ pub(crate) fn positions<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py
     })
 }
 
+/// The stress of all spheres times the volume of a sphere.
+#[pyfunction]
+pub(crate) fn stresses<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let numbers = pile.numbers(true)?;
+    rows(py, numbers.spheres(), |stresses| {
+        numbers.fill_stresses(stresses)
+    })
+}
+
 /// The sites of all spheres.
 #[pyfunction]
 pub(crate) fn sites<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
