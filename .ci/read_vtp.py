@@ -74,6 +74,10 @@ def check_spheres(folder, spheres):
             force = [-float(felt["shear_x"]), -shear_y, float(felt["normal"])]
         reactions.extend(force)
     same("reaction", found["reaction"].ravel(), reactions)
+    if "stress" in found:
+        for name, columns in {"xx": [0], "yy": [4], "zz": [8], "xy": [1, 3], "xz": [2, 6], "yz": [5, 7]}.items():
+            for column in columns:
+                same(f"stress_{name}", found["stress"][:, column], [row.get(f"stress_{name}", 0) for row in spheres])
     carried = math.fsum(found["weight"]) + math.fsum(found["load"])
     pushed = math.fsum(found["reaction"][:, 2])
     require(math.isclose(carried, pushed, rel_tol=1e-12), f"weights and loads of {carried} N, reactions of {pushed} N")
