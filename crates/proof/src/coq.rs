@@ -19,6 +19,7 @@ const BY_HAND: &[(&str, &str)] = &[
     ("Census.v", include_str!("../coq/Census.v")),
     ("Regions.v", include_str!("../coq/Regions.v")),
     ("Loads.v", include_str!("../coq/Loads.v")),
+    ("Friction.v", include_str!("../coq/Friction.v")),
     ("Horizontal.v", include_str!("../coq/Horizontal.v")),
     ("Virtual.v", include_str!("../coq/Virtual.v")),
     ("Bounds.v", include_str!("../coq/Bounds.v")),
