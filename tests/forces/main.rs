@@ -63,6 +63,8 @@ mod forces {
 
 #[cfg(feature = "std")]
 mod friction;
+#[cfg(feature = "std")]
+mod uniqueness;
 
 mod packing {
     mod places;
