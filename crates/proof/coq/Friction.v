@@ -739,9 +739,10 @@ Definition numbers_above (s : Q) (top : list (Z * Z)) (sigma : sign) (n : Z * Z 
     if member top a b then force (n (a, b)) (on d (increments s)) else 0 in
   Three (from Alpha) (from Beta) (from Gamma).
 
-(** Two layers of weights n and m, in mg, under steps of either sign on an isosceles base: the only forces in
-    equilibrium are f along the vertical and tau f across it, with the numbers f = n w_d of the pile without friction.
-    The floor carries the vertical part of the recorded load on the supports, and tau times its horizontal part. *)
+(** Two layers of weights n and m, in mg, under steps of either sign on an isosceles base. With the numbers f of the
+    pile without friction, n times the increments, the only forces in equilibrium have the vertical parts f and the
+    horizontal parts tau f. The floor carries the vertical part of the recorded load on the supports, and tau times its
+    horizontal part. *)
 Theorem rough_floor : forall s rho top sigma n m f g, ~ 1 + s == 0 -> ~ 1 + rho == 0 ->
   let tau := / (1 + rho) in
   let mg := weight (increments s) in
