@@ -58,6 +58,7 @@ mod dimensions;
 
 mod display;
 mod formulas;
+mod friction;
 mod loads;
 #[doc(hidden)]
 pub mod setting;
@@ -292,6 +293,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         dimensions::THEOREMS,
         stackings::THEOREMS,
         loads::THEOREMS,
+        friction::THEOREMS,
     ]
     .into_iter()
     .flatten()

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::setting::{
-    P, Setting, above, by_component, by_line, equations, int, nothing_left, symbol, transmitted,
+    P, Setting, above, by_component, by_line, cross, equations, int, nothing_left, symbol,
+    transmitted,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
@@ -100,14 +101,7 @@ fn paper_system(f: &Formulas) -> Vec<Step> {
     let vertical = alpha.clone() + beta + gamma;
     let double = int(2) * &(int(1) + s);
     let [e_a, e_b, e_c] = e;
-    let cross = |v: &Vector<P>, w: &Vector<P>| {
-        [
-            v.y.clone() * &w.z - &(v.z.clone() * &w.y),
-            v.z.clone() * &w.x - &(v.x.clone() * &w.z),
-            v.x.clone() * &w.y - &(v.y.clone() * &w.x),
-        ]
-    };
-    let [x, y, z] = cross(e_b, e_c);
+    let Vector { x, y, z } = cross(e_b, e_c);
     let determinant = e_a.x.clone() * &x + &(e_a.y.clone() * &y) + &(e_a.z.clone() * &z);
     equations! {
         "(4a), x: s(α−α'+β−β') − γ+γ'": sum.x => along_x,

@@ -135,6 +135,16 @@ pub fn transmitted(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
     ]
 }
 
+/// Returns the cross product, with one factor for each component from the units of the vectors.
+#[must_use]
+pub fn cross(v: &Vector<P>, w: &Vector<P>) -> Vector<P> {
+    Vector {
+        x: v.y.clone() * &w.z - &(v.z.clone() * &w.y),
+        y: v.z.clone() * &w.x - &(v.x.clone() * &w.z),
+        z: v.x.clone() * &w.y - &(v.y.clone() * &w.x),
+    }
+}
+
 /// Returns one step for each component of two vectors.
 #[must_use]
 pub fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {

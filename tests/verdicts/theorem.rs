@@ -33,7 +33,7 @@ fn names_are_unique_and_found() {
 }
 
 /// The subject that each statement must name.
-const SUBJECTS: [(&str, &str); 32] = [
+const SUBJECTS: [(&str, &str); 35] = [
     ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
     ("rotation", "rotation"),
     ("spheres", "L(L+1)(L+2)/6 spheres"),
@@ -69,6 +69,9 @@ const SUBJECTS: [(&str, &str); 32] = [
         "tilt-total",
         "Total force and moment under gravity that leans",
     ),
+    ("rough-contact", "A contact on a rough floor"),
+    ("rough-floor", "Two layers on a rough floor"),
+    ("rough-unique", "Uniqueness on a rough floor"),
 ];
 
 #[test]
@@ -118,7 +121,7 @@ fn a_printed_proof_reports_its_failure() {
 }
 
 /// The number of steps of each proof, counted by cases. The theorem `dimensions` has 2d + 4 for each d from 2 to 6.
-const STEPS: [(&str, usize); 32] = [
+const STEPS: [(&str, usize); 35] = [
     ("counts", 15),
     ("rotation", 3),
     ("spheres", 3),
@@ -151,6 +154,9 @@ const STEPS: [(&str, usize); 32] = [
     ("load", 36),
     ("tilt", 19),
     ("tilt-total", 6),
+    ("rough-contact", 35),
+    ("rough-floor", 48),
+    ("rough-unique", 5),
 ];
 
 /// The numbers of steps equal the numbers of cases, so none is missing.

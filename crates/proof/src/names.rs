@@ -210,6 +210,34 @@ const NAMES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "rough-contact",
+        &[
+            "Friction.along_and_across",
+            "Friction.tangent_of_half_the_angle",
+            "Friction.no_moment_about_the_floor",
+        ],
+    ),
+    (
+        "rough-floor",
+        &[
+            "Friction.friction_balances",
+            "Friction.equilibrium_is_friction",
+            "Friction.rough_floor",
+            "Friction.friction_balances_discs",
+        ],
+    ),
+    (
+        "rough-unique",
+        &[
+            "Friction.area_of_isosceles",
+            "Friction.lambdas_give_the_forces",
+            "Friction.no_self_stress",
+            "Friction.forces_are_unique",
+            "Friction.discs_have_no_self_stress",
+            "Friction.forces_of_discs_are_unique",
+        ],
+    ),
+    (
         "horizontal-balance",
         &[
             "Horizontal.neighbours_touch",

@@ -30,24 +30,25 @@ pub(super) fn faults() -> Vec<Fault> {
         "the bottom layer's weight left out": support_load = |from_above, directions, _| {
             (RIGHT.resultant)(from_above, directions)
         } => ["equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio", "discs",
-                "tilt-total"];
+                "tilt-total", "rough-floor"];
         "the shear reversed": support_load = force!(|f, above| x = -f.x, y = -f.y)
-            => ["equilibrium", "shear", "shear-on-axis", "discs", "tilt-total"];
+            => ["equilibrium", "shear", "shear-on-axis", "discs", "tilt-total", "rough-floor"];
         "the shear rotated by 90°": support_load = force!(|f, above| x = -f.y, y = f.x)
-            => ["equilibrium", "shear", "total-moment", "shear-on-axis", "shear-ratio", "discs",
-                "tilt-total"];
+            => ["equilibrium", "shear", "total-moment", "shear-on-axis", "shear-ratio", "discs", "tilt-total",
+                "rough-floor"];
         "twice the shear": support_load = force!(|f, above| x = twice(&f.x), y = twice(&f.y))
-            => ["equilibrium", "shear", "shear-on-axis", "shear-ratio", "discs", "tilt-total"];
+            => ["equilibrium", "shear", "shear-on-axis", "shear-ratio", "discs", "tilt-total", "rough-floor"];
         "a constant shear along x": support_load = force!(|f, above| x = f.x + &P::one())
-            => ["equilibrium", "shear", "total-shear", "shear-on-axis", "shear-ratio", "discs", "tilt-total"];
+            => ["equilibrium", "shear", "total-shear", "shear-on-axis", "shear-ratio", "discs", "tilt-total",
+                "rough-floor"];
         "a constant shear along y": support_load = force!(|f, above| y = f.y + &P::one())
-            => ["equilibrium", "shear", "total-shear", "total-moment", "shear-on-axis", "shear-ratio",
-                "discs", "tilt-total"];
+            => ["equilibrium", "shear", "total-shear", "total-moment", "shear-on-axis", "shear-ratio", "discs",
+                "tilt-total", "rough-floor"];
         "load shifted from γ to α": support_load = force!(|f, above| z = f.z + &above[0] - &above[2])
             => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
-                "shear-ratio", "discs", "tilt-total"];
+                "shear-ratio", "discs", "tilt-total", "rough-floor"];
         "load shifted from the rim to the middle": support_load = force!(|f, above| z = f.z + &squeeze(above))
             => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
-                "shear-ratio", "discs", "tilt-total"];
+                "shear-ratio", "discs", "tilt-total", "rough-floor"];
     }
 }

@@ -10,17 +10,17 @@ pub(super) fn faults() -> Vec<Fault> {
     faults! {
         "equal increments for every φ": increments = |_| [P::one(), P::one(), P::one()]
             => ["paper-system", "equilibrium", "base-normal", "uniform-base", "total-shear", "total-moment",
-                "second-moment", "discs", "load", "tilt", "tilt-total"];
+                "second-moment", "discs", "load", "tilt", "tilt-total", "rough-floor"];
         "Δγ = s": increments = |s| [P::one(), P::one(), s.clone()]
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
                 "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio",
-                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "horizontal-balance",
-                "elastic-straight", "elastic-energy", "squares", "faults"];
+                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "rough-floor",
+                "horizontal-balance", "elastic-straight", "elastic-energy", "squares", "faults"];
         "Δβ = −Δα": increments = |s| [P::one(), -P::one(), twice(s)]
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
                 "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
-                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "horizontal-balance",
-                "elastic-straight", "squares", "faults"];
+                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "rough-floor",
+                "horizontal-balance", "elastic-straight", "squares", "faults"];
         "increments for twice the weight": increments = |s| (RIGHT.increments)(s).each_ref().map(twice)
             => ["paper-system", "central-force", "base-normal", "uniform-base", "shear", "shear-on-axis",
                 "shear-ratio", "discs", "edge", "point-load", "load", "tilt", "tilt-total",
@@ -30,12 +30,12 @@ pub(super) fn faults() -> Vec<Fault> {
             increments.first().map_or_else(P::zero, Clone::clone)
         } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
                 "shear-ratio", "discs", "dimensions", "change-of-sign", "load", "tilt", "tilt-total",
-                "horizontal-balance", "squares"];
+                "rough-floor", "horizontal-balance", "squares"];
         "the last increment left out": weight = |increments| {
             let [all @ .., _] = increments else { return P::zero() };
             (RIGHT.weight)(all)
         } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
-                "shear-ratio", "dimensions", "change-of-sign", "load", "tilt", "tilt-total",
+                "shear-ratio", "dimensions", "change-of-sign", "load", "tilt", "tilt-total", "rough-floor",
                 "horizontal-balance", "squares"];
 
         "one increment too many": force = |n, w| (RIGHT.force)(n + &P::one(), w) => ["surface",
@@ -47,8 +47,8 @@ pub(super) fn faults() -> Vec<Fault> {
                 "second-moment", "shear-on-axis", "shear-ratio", "discs", "dimensions", "run", "edge", "load",
                 "tilt", "tilt-total", "horizontal-balance", "elastic-straight", "elastic-energy", "squares"];
         "spheres of weight 1 whatever their increment": force = |n, _| n => ["equilibrium", "action-reaction",
-                "base-normal", "uniform-base", "weight", "total-shear", "total-moment", "second-moment",
-                "run", "change-of-sign", "load", "tilt", "tilt-total", "horizontal-balance", "squares"];
+                "base-normal", "uniform-base", "weight", "total-shear", "total-moment", "second-moment", "run",
+                "change-of-sign", "load", "tilt", "tilt-total", "rough-floor", "horizontal-balance", "squares"];
 
         "weightless spheres": transmitted = |received, _| received => ["equilibrium", "action-reaction",
                 "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt", "elastic-straight",
