@@ -6,7 +6,7 @@ use num_traits::Zero;
 use crate::Error;
 use crate::table::{columns, in_pieces, refuse_beyond, slices};
 use cannonpile::lattice::{ContactKind, Direction, Row, Site};
-use cannonpile::scalar::Surd;
+use cannonpile::scalar::{Surd, SurdSum};
 use cannonpile::shape::{Numbering, Rows, Selection};
 use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
 
@@ -290,6 +290,40 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
+    /// Returns all contacts of a pile on a rough floor with their normal forces, and the tangential force on the upper
+    /// sphere, in N. Each component is correctly rounded.
+    pub(super) fn rough_contacts(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(NumberedContact, [f64; 3]), Error>> + '_, Error> {
+        let contacts = self.packing.on_rough_floor()?.contacts(Selection::All)?;
+        Ok(self.touches()?.zip(contacts).map(|(touch, contact)| {
+            let ((direction, ids), contact) = (touch?, contact?);
+            let normal = NumberedContact {
+                ids,
+                site: contact.site,
+                direction,
+                force: nearest(&contact.normal.into(), FORCE)?,
+                vector: rounded(&contact.normal_vector, FORCE)?,
+            };
+            Ok((normal, all_rounded(&contact.tangential_vector)?))
+        }))
+    }
+
+    /// Returns the numbers of the bottom spheres on a rough floor, and the forces of the floor on them, in N and correctly
+    /// rounded.
+    pub(super) fn of_rough_floor(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(u64, [f64; 3]), Error>> + use<'p>, Error> {
+        let forces = self.packing.on_rough_floor()?.base(Selection::Base)?;
+        let ids = self.numbering.first_on_floor()..;
+        Ok(ids.zip(forces).map(|(id, force)| {
+            let force = force?;
+            let [x, y, normal] = all_rounded(&[force.shear_x, force.shear_y, force.normal])?;
+            // The subtraction yields 0, never −0.
+            Ok((id, [0.0 - x, 0.0 - y, normal]))
+        }))
+    }
+
     /// Returns the horizontal contacts with a force, in the order of the tables.
     pub(crate) fn horizontal(
         &self,
@@ -467,6 +501,16 @@ pub(super) fn stresses<'p>(
 ) -> Result<impl Iterator<Item = Result<[f64; 6], Error>> + use<'p>, Error> {
     let (packing, stresses) = (packing.clone(), packing.forces().stresses(Selection::All)?);
     Ok(stresses.map(move |stress| rounded(&packing.stress_in_si(&stress?), "a stress")))
+}
+
+/// Returns the correctly rounded components of a sum of vectors.
+pub(super) fn all_rounded<const N: usize>(vector: &[SurdSum; N]) -> Result<[f64; N], Error> {
+    let mut rounded = [0.0; N];
+    for (rounded, exact) in rounded.iter_mut().zip(vector) {
+        let nearest = exact.nearest();
+        *rounded = nearest.ok_or_else(|| Error::overflow(FORCE, "f64"))?;
+    }
+    Ok(rounded)
 }
 
 /// Returns a number correctly rounded. The error of an overflow contains `quantity`.

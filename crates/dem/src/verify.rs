@@ -26,11 +26,14 @@
 //! * A pair without a contact in the pile is extra if its force exceeds the accepted error times the largest exact
 //!   force. A smaller force is noise. The same holds for neighbours that touch without being contacts, as in a layer at
 //!   a = R.
-//! * The spheres of the bottom layer are fixed: pairs of two of them are counted, but not judged.
+//! * The spheres of the bottom layer are fixed, unless the floor is rough: pairs of two of them are counted, but not judged.
 //! * A sphere of the bottom layer may be paired with a number outside the pile, or touch a point below its centre. This
 //!   is a contact with the floor or with a wall. The sum of the vertical forces on the sphere is compared with the exact
-//!   normal force of the floor, relative to that force. Tangential forces of the floor are not judged. If there are
+//!   normal force of the floor, relative to that force. If there are
 //!   several such contacts, but only their magnitudes are known, they are counted as contacts with walls.
+//! * On a rough floor, the normal and the tangential force of each contact are compared, and the friction of the floor. The
+//!   error of a tangential force is |**T** − **T**₀|/|**T**₀|, or relative to the largest |**T**₀| where **T**₀ is 0. The
+//!   moment on a sphere is Σ **r** × **T**, with **r** from its centre to the contact.
 //! * If all measured forces are the exact ones times one factor, the report names this factor. A factor of 9.81 means
 //!   different gravity, and −1 means the opposite sign convention.
 //!
@@ -95,6 +98,7 @@ mod finding;
 mod floor;
 mod format;
 mod frame;
+mod friction;
 mod gathering;
 mod kind;
 mod ledger;
@@ -121,7 +125,7 @@ pub use axes::{Axes, Coordinate, TableAxis};
 pub use comparison::Comparison;
 pub use difference::{Difference, Extra};
 pub use entry::Force;
-pub use finding::Finding;
+pub use finding::{Finding, FrictionFault, FrictionOf};
 pub use format::{
     Columns, Dialect, DialectOptions, Mark, Preset, RowCounts, Separator, TextEncoding,
 };

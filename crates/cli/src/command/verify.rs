@@ -7,7 +7,7 @@ use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use cannonpile::Packing;
-use cannonpile_dem::scene::Scene;
+use cannonpile_dem::scene::{Floor, Scene};
 use cannonpile_dem::table::{FileFormat, NumberFormat};
 use cannonpile_dem::verify::{
     Columns, Compared, DialectOptions, Fault, Mark, Preset, Reader, RefinementFiles, Refusal,
@@ -16,9 +16,9 @@ use cannonpile_dem::verify::{
 use clap::{Args, ValueEnum};
 
 use super::note_instability;
-use crate::args::{Format, Output, SceneOptions};
+use crate::args::{Format, Output, SceneOptions, in_state};
 use crate::hashed::Hashed;
-use crate::output::{Failure, READABLE_FILE_OR_STDIN, print_message, unreadable, write_to};
+use crate::output::{Failure, READABLE_FILE_OR_STDIN, print_message, reason, unreadable, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -26,8 +26,13 @@ Error of a contact: relative to its exact force, or to the largest exact force i
 with force 0 is measured, with an error of 1. A pair may be in two rows, once in each order; the worse row counts.
 
 Pairs of spheres without an exact contact are extra, or noise if their force is below --accept times the largest force.
-Pairs of bottom spheres are fixed, and not compared. A bottom sphere paired with a number outside the pile touches the floor
+Pairs of bottom spheres are fixed, and not compared, unless the floor is rough. A bottom sphere paired with a number outside the pile touches the floor
 or a wall: the vertical forces on it are compared with the exact normal force of the floor.
+
+With --floor rough, tangential forces are compared too. They are in the columns tx, ty, tz, and fx, fy, fz is then the normal
+force. Without these columns, fx, fy, fz is the whole force. --floor-table adds the forces of the floor: one row for each
+bottom sphere, with columns of these names and a dialect that its first lines decide. The friction of the floor is compared,
+and the largest sum of moments on a sphere is reported.
 
 Findings explain the differences: a constant factor, swapped axes, a missing layer, and so on. The json report also records
 the scene, the SHA-256 of the file and the version of this program.
@@ -53,6 +58,7 @@ Examples:
   cannonpile verify Contact_pairs_0100.csv --preset dem-engine --scene pile.toml --accept 1e-3
   cannonpile verify --refinement 1e5=soft.csv,1e6=firm.csv,1e7=stiff.csv --scene pile.toml
   cannonpile verify table.csv.gz --separator ';' --decimal comma --step 500 --scene pile.toml
+  cannonpile verify pile/forces.dump --layers 2 --floor rough --floor-table pile/floor.dump --accept 1e-5
   cannonpile verify forces.csv --match place --columns x=cx,y=cy,z=cz --scene pile.toml --unbalanced rest.csv";
 
 #[derive(Args)]
@@ -82,7 +88,7 @@ pub(crate) struct Verify {
     /// Largest accepted relative error; 0 requires correctly rounded forces
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,
-    /// Columns for id1, id2, force, fx, fy, fz, x1 … z2 (centres), x, y, z (contact point), kind and step
+    /// Columns for id1, id2, force, fx, fy, fz, tx, ty, tz (tangential), x1 … z2 (centres), x, y, z (contact point), kind and step
     #[arg(
         long,
         value_name = "QUANTITY=COLUMN,...",
@@ -103,6 +109,14 @@ pub(crate) struct Verify {
     /// Number of the first sphere [default: 1, or that of the preset]
     #[arg(long, value_name = "N", help_heading = "Table")]
     first_id: Option<u64>,
+    /// File with the force of the floor on each sphere: columns id, fx, fy, fz, and possibly tx, ty, tz
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with = "refinement",
+        help_heading = "Table"
+    )]
+    floor_table: Option<PathBuf>,
     #[command(flatten)]
     dialect: DialectArgs,
     /// Step to read of a file with several, by its number or time [default: the last]
@@ -190,19 +204,31 @@ enum Matching {
 impl Verify {
     /// Returns whether the file is accepted, or whether the errors of the refinement study show an order.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let is_stdin = |path: &PathBuf| path == Path::new("-");
-        if self.measured.as_ref().is_some_and(is_stdin) && self.scene.is_from_stdin() {
-            let reason = "FILE and --scene are both -: only one of them can come from stdin, give a file for the other";
-            return Err(Failure::Message(reason.into()));
+        let is_stdin = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+        let given = [
+            ("FILE", is_stdin(&self.measured)),
+            ("--floor-table", is_stdin(&self.floor_table)),
+            ("--scene", self.scene.is_from_stdin()),
+        ];
+        let from_stdin = given.iter().filter(|(_, is_stdin)| *is_stdin);
+        if let [(one, _), (other, _), ..] = from_stdin.collect::<Vec<_>>()[..] {
+            return Err(Failure::Message(format!(
+                "{one} and {other} are both -: only one of them can come from stdin, give a file for the other"
+            )));
         }
         if self.parameter.is_some() && self.refinement.is_none() {
             let reason = "--parameter requires --refinement: add it, or leave out --parameter";
             return Err(Failure::Message(reason.into()));
         }
-        let (scene, pile) = self.scene.read_state()?;
+        let (scene, pile) = self.scene.read_any()?;
+        let pile = in_state(&scene, pile)?;
         let packing = scene.packing(&pile)?;
         let verdict = match (&self.measured, &self.refinement) {
             (Some(path), _) => self.compare_file(path, &scene, &packing)?,
+            (None, Some(_)) if scene.floor == Floor::Rough => {
+                let reason = "--refinement: its theory has no friction: leave out --floor rough, or give one FILE";
+                return Err(Failure::Message(reason.into()));
+            }
             (None, Some(files)) => self.compare_refinement(files, &scene, &packing)?,
             // The parser requires one of the two.
             (None, None) => false,
@@ -219,9 +245,14 @@ impl Verify {
         packing: &Packing<'_>,
     ) -> Result<bool, Failure> {
         let format = self.output.format()?;
-        let reader = self.reader()?;
+        let reader = self.reader()?.on_floor(scene.floor);
         let progress = Progress::begin("comparing FILE with the exact forces");
-        let read = compare(&reader, packing, path, format);
+        let read = compare(
+            &reader,
+            packing,
+            (path, self.floor_table.as_deref()),
+            format,
+        );
         let (read, source) = read.map_err(|refusal| self.refused(refusal, path, scene))?;
         let source = source.map(|source| Source {
             scene: scene.to_toml(),
@@ -290,21 +321,33 @@ impl Verify {
     }
 
     fn refused(&self, refusal: Refusal, path: &Path, scene: &Scene) -> Failure {
+        let (option, path, refusal) = match (refusal, &self.floor_table) {
+            (Refusal::FloorTable(refusal), Some(floor)) => {
+                ("--floor-table", floor.as_path(), *refusal)
+            }
+            (refusal, _) => ("FILE", path, refusal),
+        };
         let name = name(path);
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
             Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
             Refusal::Io(error) if error.kind() == io::ErrorKind::InvalidData => {
-                format!("FILE: {name}, {error}: compress it again, or give it as it is")
+                format!("{option}: {name}, {error}: compress it again, or give it as it is")
             }
-            Refusal::Io(error) => return unreadable(name, &error, READABLE_FILE_OR_STDIN),
+            Refusal::Io(error) if option == "FILE" => {
+                return unreadable(name, &error, READABLE_FILE_OR_STDIN);
+            }
+            Refusal::Io(error) => {
+                let reason = reason(&error);
+                format!("{option}: {name} cannot be read: {reason}; {READABLE_FILE_OR_STDIN}")
+            }
             refusal @ Refusal::Line {
                 fault: Fault::NoColumn { .. } | Fault::NoNamedColumn { .. },
                 ..
-            } => {
+            } if option == "FILE" => {
                 format!("FILE: {name}, {refusal}; --columns can name them")
             }
-            refusal => format!("FILE: {name}, {refusal}"),
+            refusal => format!("{option}: {name}, {refusal}"),
         })
     }
 }
@@ -313,28 +356,48 @@ impl Verify {
 fn compare(
     reader: &Reader,
     packing: &Packing<'_>,
-    path: &Path,
+    (path, floor): (&Path, Option<&Path>),
     format: Format,
 ) -> Result<(Compared, Option<Source>), Refusal> {
-    let input: Box<dyn BufRead> = if path == Path::new("-") {
+    let reader = &reader_in_folder(reader, path);
+    let in_floor = |error: io::Error| Refusal::FloorTable(Box::new(error.into()));
+    let input = open(path)?;
+    let floor_input = floor.map(open).transpose().map_err(in_floor)?;
+    if format != Format::Json {
+        let read = match floor_input {
+            None => reader.compare(packing, input),
+            Some(floor) => reader.compare_with_floor(packing, input, floor),
+        };
+        return Ok((read?, None));
+    }
+    let (mut input, mut floor_input) = (Hashed::new(input), floor_input.map(Hashed::new));
+    let read = match &mut floor_input {
+        None => reader.compare(packing, &mut input)?,
+        Some(floor) => reader.compare_with_floor(packing, &mut input, floor)?,
+    };
+    let floor = floor.zip(floor_input);
+    let floor = floor.map(|(path, input)| Box::new(source(path, input, None)));
+    Ok((read, Some(source(path, input, floor))))
+}
+
+fn open(path: &Path) -> io::Result<Box<dyn BufRead>> {
+    Ok(if path == Path::new("-") {
         Box::new(io::stdin().lock())
     } else {
         Box::new(BufReader::with_capacity(1 << 16, File::open(path)?))
-    };
-    let reader = &reader_in_folder(reader, path);
-    if format != Format::Json {
-        return Ok((reader.compare(packing, input)?, None));
-    }
-    let mut input = Hashed::new(input);
-    let read = reader.compare(packing, &mut input)?;
+    })
+}
+
+/// Returns the origin of data, without the scene.
+fn source(path: &Path, input: Hashed<Box<dyn BufRead>>, floor: Option<Box<Source>>) -> Source {
     let (bytes, sha256) = input.finish();
-    let source = Source {
+    Source {
         scene: String::new(),
         file: name(path),
         bytes,
         sha256,
-    };
-    Ok((read, Some(source)))
+        floor,
+    }
 }
 
 /// Returns the reader, which knows the folder of a file.

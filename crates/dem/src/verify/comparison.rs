@@ -4,8 +4,9 @@ use core::fmt;
 
 use super::difference::{Difference, Extra};
 use super::finding::Finding;
+use super::friction::WithFriction;
 use super::ledger::Ledger;
-use super::measured::Measured;
+use super::measured::{Measured, over};
 use super::refusal::Refusal;
 use super::tally::Judged;
 use cannonpile::{Interrupt, Packing};
@@ -70,7 +71,13 @@ impl Comparison {
         packing: &Packing<'_>,
         measured: impl IntoIterator<Item = Measured>,
     ) -> Result<Self, Refusal> {
-        let mut ledger = Ledger::new(packing)?;
+        Self::fill(Ledger::new(packing)?, measured)
+    }
+
+    fn fill(
+        mut ledger: Ledger<'_>,
+        measured: impl IntoIterator<Item = Measured>,
+    ) -> Result<Self, Refusal> {
         for (entry, measured) in (1..).zip(measured) {
             Interrupt::check()?;
             let admitted = ledger.admit(&measured, entry);
@@ -78,6 +85,34 @@ impl Comparison {
         }
         let (judged, _) = ledger.judge(false).map_err(of_entry)?;
         Ok(Self(judged))
+    }
+
+    /// Compares measured forces with those of a pile on a rough floor: normal and tangential forces, and the whole forces of the
+    /// floor. A vector without [`tangential`](Measured::tangential) is the whole force on the first sphere.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new) and [`Packing::on_rough_floor`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Comparison, Measured};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// // The force on the upper disc has a vertical part of 1/2 mg, and a horizontal one of 1/2 mg·tan(θ/2), here 1/6.
+    /// let measured = [([1, 2], 1.0), ([1, 3], -1.0)];
+    /// let measured = measured.map(|(ids, x)| Measured::of_vector(ids, [x / 6.0, 0.0, 0.5]));
+    /// let comparison = Comparison::on_rough_floor(&packing, measured)?;
+    /// assert_eq!((comparison.matched(), comparison.tangential()), (2, 2));
+    /// assert!(comparison.accepted(1e-12));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    pub fn on_rough_floor(
+        packing: &Packing<'_>,
+        measured: impl IntoIterator<Item = Measured>,
+    ) -> Result<Self, Refusal> {
+        Self::fill(Ledger::on_rough_floor(packing)?, measured)
     }
 
     /// Returns the comparison that a ledger has computed.
@@ -162,7 +197,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn contradictory(&self, tolerance: f64) -> u64 {
-        Judged::over(&self.0.contradictions, tolerance)
+        over(&self.0.contradictions, tolerance)
     }
 
     /// Returns the number of contacts with the floor whose normal forces were judged.
@@ -211,6 +246,77 @@ impl Comparison {
     #[must_use]
     pub fn floor_error(&self) -> Option<f64> {
         self.0.floor_errors.first().copied()
+    }
+
+    /// Returns whether the floor is rough, so that tangential forces are judged.
+    pub(super) const fn has_friction(&self) -> bool {
+        self.0.friction.is_some()
+    }
+
+    /// Returns the number of contacts whose tangential forces were measured. It is 0 on a floor with glue.
+    ///
+    /// # Examples
+    /// See [`on_rough_floor`](Self::on_rough_floor).
+    #[must_use]
+    pub fn tangential(&self) -> u64 {
+        let friction = self.0.friction.as_ref();
+        friction.map_or(0, |friction| friction.contacts.errors.len() as u64)
+    }
+
+    /// Returns the largest error of a tangential force, as a vector, relative to the exact one. Where that is 0, the error is
+    /// relative to the largest exact tangential force. `None` if no such force was measured.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile_dem::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// // Only the normal force is right.
+    /// let normal = Measured::of_vector([1, 2], [0.3, 0.0, 0.4]).with_tangential([0.0; 3]);
+    /// let comparison = Comparison::on_rough_floor(&packing, [normal])?;
+    /// assert_eq!((comparison.largest_error(), comparison.tangential_error()), (Some(0.0), Some(1.0)));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn tangential_error(&self) -> Option<f64> {
+        let friction = self.0.friction.as_ref()?;
+        friction.contacts.errors.first().copied()
+    }
+
+    /// Returns the largest error of the friction of a rough floor, as for [`tangential_error`](Self::tangential_error). `None` if
+    /// no vector of a floor force was measured.
+    ///
+    /// # Examples
+    /// See [`Reader::compare_with_floor`](super::Reader::compare_with_floor).
+    #[must_use]
+    pub fn floor_friction_error(&self) -> Option<f64> {
+        let friction = self.0.friction.as_ref()?;
+        friction.floor.errors.first().copied()
+    }
+
+    /// Returns the sphere with the greatest net moment, and this moment over R times the largest exact tangential force. Only
+    /// spheres count whose forces were all measured. `None` if there is none, or the floor has glue.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile_dem::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// // The tangential forces turn the upper disc: both have the same sign along x.
+    /// let measured = [([1, 2], 0.3), ([1, 3], -0.3)].map(|(ids, x)| {
+    ///     Measured::of_vector(ids, [x, 0.0, 0.4]).with_tangential([-2.0 / 15.0, 0.0, x / 3.0])
+    /// });
+    /// let comparison = Comparison::on_rough_floor(&packing, measured)?;
+    /// let (sphere, moment) = comparison.net_moment().unwrap();
+    /// assert!(sphere == 1 && (moment - 2.0).abs() < 1e-12);
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn net_moment(&self) -> Option<(u64, f64)> {
+        let net = self.0.friction.as_ref()?.moment()?;
+        Some((net.sphere, net.moment))
     }
 
     /// Returns the number of contacts with a force that were not measured.
@@ -272,7 +378,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn extra(&self, tolerance: f64) -> u64 {
-        Judged::over(&self.0.strays, tolerance)
+        over(&self.0.strays, tolerance)
     }
 
     /// Returns the number of pairs without a contact whose force is not 0, but at most `tolerance` times the
@@ -398,7 +504,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn beyond(&self, tolerance: f64) -> u64 {
-        Judged::over(&self.0.errors, tolerance)
+        over(&self.0.errors, tolerance)
     }
 
     /// Returns the common factor between measured and exact forces, if it differs from 1. Each measured force equals
@@ -454,8 +560,30 @@ impl Comparison {
         // A common factor explains the forces of the floor too.
         let error = self.floor_error().filter(|error| *error > tolerance);
         findings.extend(error.filter(|_| !has_factor).map(|error| Finding::Floor {
-            spheres: Judged::over(&self.0.floor_errors, tolerance),
+            spheres: over(&self.0.floor_errors, tolerance),
             error,
+        }));
+        let factor = self.common_factor(tolerance);
+        let is_unexplained = |friction: &&WithFriction| {
+            !factor.is_some_and(|factor| friction.has_factor(factor, tolerance))
+        };
+        // A factor that explains all forces needs no other finding.
+        if let Some(friction) = self.0.friction.as_ref().filter(is_unexplained) {
+            let normal = self.largest_error();
+            let is_right = normal.is_none_or(|error| error <= tolerance);
+            let others = friction.findings(tolerance, is_right);
+            if others.first().is_some_and(Finding::is_of_contacts) {
+                findings.retain(|finding| !is_factor(finding));
+            }
+            findings.extend(others);
+        }
+        let off_floor = self.0.off_floor;
+        findings.extend(off_floor.map(|(spheres, first)| Finding::OffFloor { spheres, first }));
+        let mut fallen = self.0.fallen(tolerance);
+        let first = fallen.next();
+        findings.extend(first.map(|first| {
+            let spheres = 1 + fallen.count() as u64;
+            Finding::Fallen { spheres, first }
         }));
         findings
     }
@@ -508,6 +636,10 @@ impl Comparison {
     /// Returns whether no contact is missing, no pair is extra or contradictory, and every relative error is at most
     /// `tolerance`, also that of the floor.
     ///
+    /// On a rough floor, the tangential force of every measured contact must be known, and the whole force of every row of the
+    /// floor. If there is a table of the floor, it must have a row for every bottom sphere, and no sphere above may touch the
+    /// floor. The net moment is not part of the verdict: it follows from the forces.
+    ///
     /// # Examples
     /// ```
     /// # use cannonpile::geometry::Spacing;
@@ -523,8 +655,16 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn accepted(&self, tolerance: f64) -> bool {
-        let errors = [self.largest_error(), self.floor_error()];
+        let errors = [
+            self.largest_error(),
+            self.floor_error(),
+            self.tangential_error(),
+            self.floor_friction_error(),
+        ];
         self.missing() == 0
+            && self.0.fallen(tolerance).next().is_none()
+            && self.0.off_floor.is_none()
+            && self.0.friction.as_ref().is_none_or(WithFriction::is_known)
             && self.extra(tolerance) == 0
             && self.contradictory(tolerance) == 0
             && errors.into_iter().flatten().all(|error| error <= tolerance)
@@ -555,6 +695,12 @@ impl fmt::Display for Comparison {
         }
         if let Some(error) = self.floor_error().filter(|error| *error > 0.0) {
             write!(f, "; of the floor {error:e}")?;
+        }
+        if let Some(error) = self.tangential_error() {
+            write!(f, "; of tangential forces {error:e}")?;
+        }
+        if let Some(error) = self.floor_friction_error() {
+            write!(f, "; of the friction of the floor {error:e}")?;
         }
         if let Some(worst) = self.worst() {
             write!(f, "; worst: {worst}")?;

@@ -6,12 +6,15 @@ use super::measured::Measured;
 use super::refusal::{Fault, Refusal};
 use crate::Error;
 use crate::error::bug;
+use crate::vector::plus;
 
 /// A row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) spheres: Spheres,
     pub(super) force: Force,
+    /// The tangential force on the first sphere, if the table lists it besides the normal force.
+    pub(super) tangential: Option<[f64; 3]>,
 }
 
 /// The identification of the two spheres of a row.
@@ -67,7 +70,7 @@ impl Entry {
             error: Box::new(error),
         })?;
         match ids.map(u64::try_from) {
-            [Ok(one), Ok(other)] => Ok(self.force.between([one, other])),
+            [Ok(one), Ok(other)] => Ok(self.between([one, other])),
             [first, _] => {
                 let (column, id) = match (first, ids) {
                     (Err(_), [id, _]) => ("id1", id),
@@ -79,6 +82,14 @@ impl Entry {
                     error: Box::new(error),
                 })
             }
+        }
+    }
+
+    /// Returns the force as a measurement between two numbered spheres.
+    pub(super) fn between(&self, ids: [u64; 2]) -> Measured {
+        Measured {
+            tangential: self.tangential,
+            ..self.force.between(ids)
         }
     }
 
@@ -134,6 +145,17 @@ impl Force {
             Self::Along(force) => Measured::new(ids, force),
             Self::Vector(vector) => Measured::of_vector(ids, vector),
             Self::Both(force, vector) => Measured::new(ids, force).with_vector(vector),
+        }
+    }
+
+    /// Returns the whole force of a contact with a floor or a wall: the sum of the normal and the tangential vector.
+    pub(super) fn with_tangential(self, tangential: Option<[f64; 3]>) -> Self {
+        match (self, tangential) {
+            (Self::Vector(normal), Some(tangential)) => Self::Vector(plus(normal, tangential)),
+            (Self::Both(force, normal), Some(tangential)) => {
+                Self::Both(force, plus(normal, tangential))
+            }
+            (force, _) => force,
         }
     }
 

@@ -55,6 +55,82 @@ pub enum Finding {
     },
     /// Forces have a tangential part, of up to this fraction of the exact force.
     Tangential(f64),
+    /// Tangential forces on a rough floor are wrong.
+    Friction {
+        /// The contacts.
+        of: FrictionOf,
+        /// The kind of the fault.
+        fault: FrictionFault,
+        /// The number of wrong forces.
+        count: u64,
+        /// The largest relative error.
+        error: f64,
+        /// True if all measured normal forces are right.
+        normals_are_right: bool,
+    },
+    /// The horizontal forces on a sphere balance, but the moments about its centre do not.
+    Moment {
+        /// The number of the sphere.
+        sphere: u64,
+        /// The net moment over R times the largest exact tangential force.
+        moment: f64,
+    },
+    /// Rows lack the tangential force, so they are not judged.
+    Unknown {
+        /// The number of contacts between spheres.
+        contacts: u64,
+        /// The number of spheres on the floor.
+        spheres: u64,
+    },
+    /// Bottom spheres have no row in the table of the floor.
+    OffFloor {
+        /// The number of these spheres.
+        spheres: u64,
+        /// The number of the first of them.
+        first: u64,
+    },
+    /// Spheres above the bottom layer touch the floor.
+    Fallen {
+        /// The number of these spheres.
+        spheres: u64,
+        /// The number of the first of them.
+        first: u64,
+    },
+}
+
+/// The contacts whose tangential forces are wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionOf {
+    /// Contacts between spheres. The two spheres with the largest error.
+    Spheres([u64; 2]),
+    /// Contacts with the floor. The sphere with the largest error.
+    Floor(u64),
+}
+
+/// What is wrong with tangential forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrictionFault {
+    /// All of them are 0.
+    Absent,
+    /// All of them have the opposite sign.
+    Reversed,
+    /// All of them are the exact ones times one factor.
+    Factor(f64),
+    /// Some of them differ in another way.
+    Other,
+}
+
+impl Finding {
+    /// Returns whether the tangential forces of contacts between spheres are wrong.
+    pub(super) const fn is_of_contacts(&self) -> bool {
+        matches!(
+            self,
+            Self::Friction {
+                of: FrictionOf::Spheres(_),
+                ..
+            }
+        )
+    }
 }
 
 impl fmt::Display for Finding {
@@ -116,6 +192,39 @@ impl fmt::Display for Finding {
                 }
                 Ok(())
             }
+            Self::Friction {
+                of,
+                fault,
+                count,
+                error,
+                normals_are_right,
+            } => match of {
+                FrictionOf::Spheres(ids) => {
+                    f.write_str(if *normals_are_right {
+                        "normal forces are right, but "
+                    } else {
+                        "normal forces are wrong, and "
+                    })?;
+                    fault.fmt_of_spheres(*ids, *count, *error, f)
+                }
+                FrictionOf::Floor(sphere) => fault.fmt_of_floor(*sphere, *count, *error, f),
+            },
+            Self::Moment { sphere, moment } => write!(
+                f,
+                "the horizontal forces on sphere {sphere} balance, but the moments do not: their sum is {moment:.1e} R times the \
+                 largest tangential force; do spheres turn?"
+            ),
+            Self::Unknown { contacts, spheres } => write!(
+                f,
+                "the tangential force is not known at {contacts} contacts between spheres and {spheres} with the floor: add \
+                 columns tx, ty, tz, or the whole force as fx, fy, fz"
+            ),
+            Self::OffFloor { spheres, first } => write!(
+                f,
+                "the table of the floor lacks {}, first sphere {first}: do they touch the floor?",
+                counted(*spheres, "bottom sphere")
+            ),
+            Self::Fallen { spheres, first } => f.write_str(&fallen(*spheres, *first)),
             Self::Tangential(share) => write!(
                 f,
                 "forces have a tangential part, of up to {share:.1e} of the exact force: is there friction, or is \
@@ -123,6 +232,81 @@ impl fmt::Display for Finding {
             ),
         }
     }
+}
+
+impl FrictionFault {
+    fn fmt_of_spheres(
+        self,
+        [one, other]: [u64; 2],
+        count: u64,
+        error: f64,
+        f: &mut fmt::Formatter<'_>,
+    ) -> fmt::Result {
+        let contacts = counted(count, "contact");
+        match self {
+            Self::Absent => write!(
+                f,
+                "all tangential forces are 0, at {contacts}: does the table hold normal forces only?"
+            ),
+            Self::Reversed => write!(
+                f,
+                "all tangential forces have the wrong sign, at {contacts}: are they the forces on the second sphere?"
+            ),
+            Self::Factor(factor) => write!(
+                f,
+                "all tangential forces are {factor:?} times the exact ones, at {contacts}"
+            ),
+            Self::Other => write!(
+                f,
+                "tangential forces are wrong at {contacts}, most between spheres {one} and {other}, with an error of {error:.1e}"
+            ),
+        }
+    }
+
+    fn fmt_of_floor(
+        self,
+        sphere: u64,
+        count: u64,
+        error: f64,
+        f: &mut fmt::Formatter<'_>,
+    ) -> fmt::Result {
+        let spheres = counted(count, "sphere");
+        match self {
+            Self::Absent => write!(
+                f,
+                "the floor has no friction, below {spheres}: does the plane have a coefficient of friction?"
+            ),
+            Self::Reversed => write!(
+                f,
+                "the friction of the floor has the wrong sign, below {spheres}: is it the force of the spheres on the floor?"
+            ),
+            Self::Factor(factor) => write!(
+                f,
+                "the friction of the floor is {factor:?} times the exact one, below {spheres}"
+            ),
+            Self::Other => write!(
+                f,
+                "the friction of the floor is wrong below {spheres}, most below sphere {sphere}, with an error of {error:.1e}"
+            ),
+        }
+    }
+}
+
+fn fallen(spheres: u64, first: u64) -> String {
+    let (others, are) = match spheres {
+        1 => ("touches".to_owned(), "is"),
+        2 => ("and another touch".to_owned(), "are"),
+        more => (format!("and {} others touch", more - 1), "are"),
+    };
+    format!(
+        "sphere {first} {others} the floor, but {are} above the bottom layer: has the pile fallen?"
+    )
+}
+
+/// Returns a count with its noun.
+fn counted(count: u64, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
 }
 
 /// Returns the likely cause of a factor.

@@ -3,23 +3,27 @@
 use std::collections::BTreeMap;
 
 use super::entry::Force;
-use super::measured::relative;
+use super::measured::{distance, relative};
 use super::refusal::Refusal;
 use crate::NumberedPile;
+use crate::vector::plus;
 
 /// The measured contacts of the bottom spheres with the floor and with walls.
-#[derive(Default)]
 pub(super) struct Floor {
     /// The contacts by sphere and wall. A wall has a number, unless it was found by position.
     contacts: BTreeMap<(u64, Option<i128>), Contact>,
+    /// True if horizontal forces are compared too.
+    is_rough: bool,
+    /// True if every bottom sphere with a force on the floor needs a row.
+    is_whole: bool,
 }
 
 /// The contact of a sphere with the floor or with a wall.
 struct Contact {
-    /// The sum of the normal forces of the rows that name the sphere first, and of those that name it second.
-    sums: [Option<f64>; 2],
-    /// The last normal force of either order.
-    last: [Option<f64>; 2],
+    /// The sum of the forces of the rows that name the sphere first, and of those that name it second.
+    sums: [Option<[f64; 3]>; 2],
+    /// The last force of either order. On a floor with glue, only the normal force.
+    last: [Option<[f64; 3]>; 2],
     /// The number of rows that are part of a sum, and of these with a force.
     rows: u64,
     loaded: u64,
@@ -27,11 +31,11 @@ struct Contact {
     line: u64,
 }
 
-/// The component of a force that the floor can be compared with.
+/// The force of the floor on a sphere, with z upwards.
 #[derive(Clone, Copy)]
-pub(super) struct Normal {
-    /// The upward force on the sphere.
-    force: f64,
+pub(super) struct Upward {
+    /// Without a vector, x and y are 0.
+    force: [f64; 3],
     has_vector: bool,
 }
 
@@ -44,20 +48,43 @@ pub(super) struct OnFloor {
     pub(super) errors: Vec<f64>,
     /// The relative differences between two rows of one contact.
     pub(super) contradictions: Vec<f64>,
+    /// The whole force of the floor on each judged sphere, if it is known: the sums over the rows of either order.
+    pub(super) forces: Vec<(u64, Option<[[f64; 3]; 2]>)>,
+    /// The number of bottom spheres that lack a row, and the first of them.
+    pub(super) missing: Option<(u64, u64)>,
 }
 
-impl Normal {
-    /// Returns the normal component of the force on a sphere. A magnitude is the normal force.
+impl Upward {
+    /// Returns the force on a sphere. A magnitude is the normal force.
     pub(super) fn of(on_sphere: Force) -> Self {
         let (force, has_vector) = match on_sphere {
-            Force::Along(force) => (force, false),
-            Force::Vector([_, _, z]) | Force::Both(_, [_, _, z]) => (z, true),
+            Force::Along(force) => ([0.0, 0.0, force], false),
+            Force::Vector(vector) | Force::Both(_, vector) => (vector, true),
         };
         Self { force, has_vector }
+    }
+
+    /// Returns the normal force.
+    const fn normal(self) -> f64 {
+        let [_, _, z] = self.force;
+        z
     }
 }
 
 impl Floor {
+    pub(super) fn new(is_rough: bool) -> Self {
+        Self {
+            contacts: BTreeMap::new(),
+            is_rough,
+            is_whole: false,
+        }
+    }
+
+    /// Expects a row for every bottom sphere with a force on the floor.
+    pub(super) fn expect_all(&mut self) {
+        self.is_whole = true;
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.contacts.is_empty()
     }
@@ -73,35 +100,42 @@ impl Floor {
         &mut self,
         (sphere, wall): (u64, i128),
         is_second: bool,
-        normal: Normal,
+        upward: Upward,
         line: u64,
     ) -> bool {
         let contact = self.contacts.entry((sphere, Some(wall)));
         let contact = contact.or_insert_with(|| Contact::new(line));
-        let is_repeated = contact.add(is_second, normal.force);
-        contact.count(normal, is_repeated);
+        let is_repeated = contact.add(is_second, upward, self.is_rough);
+        contact.count(upward, is_repeated);
         is_repeated
     }
 
     /// Adds a row that was found below a sphere. Returns whether the row repeats another one. The position is that of
     /// one contact, so the two most different forces are kept instead of a sum.
-    pub(super) fn add_below(&mut self, sphere: u64, normal: Normal, line: u64) -> bool {
+    pub(super) fn add_below(&mut self, sphere: u64, upward: Upward, line: u64) -> bool {
         let contact = self.contacts.entry((sphere, None));
         let contact = contact.or_insert_with(|| Contact::new(line));
         let is_repeated = match &mut contact.sums {
             [Some(first), second] => {
-                let apart = |force: f64| (force - *first).abs();
-                if second.map_or(0.0, apart) < apart(normal.force) {
-                    *second = Some(normal.force);
+                let is_rough = self.is_rough;
+                let apart = |force: [f64; 3]| {
+                    if is_rough {
+                        distance(force, *first)
+                    } else {
+                        (force[2] - first[2]).abs()
+                    }
+                };
+                if second.map_or(0.0, apart) < apart(upward.force) {
+                    *second = Some(upward.force);
                 }
                 true
             }
             [first, _] => {
-                *first = Some(normal.force);
+                *first = Some(upward.force);
                 false
             }
         };
-        contact.count(normal, is_repeated);
+        contact.count(upward, is_repeated);
         is_repeated
     }
 
@@ -146,6 +180,10 @@ impl Floor {
         for exact in numbered.on_floor().map_err(Refusal::of_forces)? {
             let (id, exact) = exact.map_err(Refusal::of_forces)?;
             let Some((_, contacts)) = measured.next_if(|(sphere, _)| *sphere == id) else {
+                if self.is_whole && exact.normal != 0.0 {
+                    let (count, first) = on_floor.missing.unwrap_or((0, id));
+                    on_floor.missing = Some((count + 1, first));
+                }
                 continue;
             };
             if !is_judged(&contacts) {
@@ -157,12 +195,17 @@ impl Floor {
                     let of = |order: usize| contact.sums.get(order).copied().flatten();
                     of(one).or(of(other))
                 });
-                sums.flatten().sum::<f64>()
+                sums.flatten().fold([0.0; 3], plus)
             };
             if !exact.normal.is_finite() {
                 return Err(Refusal::OutOfRange);
             }
-            let (one, other) = (sum([0, 1]), sum([1, 0]));
+            let sums = [sum([0, 1]), sum([1, 0])];
+            if self.is_rough {
+                let has_vectors = contacts.iter().all(|contact| contact.has_vector);
+                on_floor.forces.push((id, has_vectors.then_some(sums)));
+            }
+            let [one, other] = sums.map(|[.., normal]| normal);
             let unit = if exact.normal == 0.0 {
                 largest_force
             } else {
@@ -170,7 +213,12 @@ impl Floor {
             };
             let apart = (one - exact.normal).abs().max((other - exact.normal).abs());
             on_floor.errors.push(relative(apart, unit));
-            let apart = relative((one - other).abs(), unit);
+            let apart = if self.is_rough {
+                distance(sums[0], sums[1])
+            } else {
+                (one - other).abs()
+            };
+            let apart = relative(apart, unit);
             on_floor
                 .contradictions
                 .extend(Some(apart).filter(|apart| *apart > 0.0));
@@ -208,25 +256,30 @@ impl Contact {
 
     /// Adds a force to the sum of its order. Returns whether the row repeats another one: in the same order if it
     /// agrees, or in the other order.
-    fn add(&mut self, is_second: bool, force: f64) -> bool {
+    fn add(&mut self, is_second: bool, upward: Upward, is_rough: bool) -> bool {
         let ([first, second], [last, other]) = (&mut self.sums, &mut self.last);
         let (sum, last, reverse) = if is_second {
             (second, other, first)
         } else {
             (first, last, second)
         };
-        if last.replace(force) == Some(force) {
+        let compared = if is_rough {
+            upward.force
+        } else {
+            [0.0, 0.0, upward.normal()]
+        };
+        if last.replace(compared) == Some(compared) {
             return true;
         }
-        *sum = Some(sum.map_or(force, |sum| sum + force));
+        *sum = Some(sum.map_or(upward.force, |sum| plus(sum, upward.force)));
         reverse.is_some()
     }
 
-    fn count(&mut self, normal: Normal, is_repeated: bool) {
-        self.has_vector &= normal.has_vector;
+    fn count(&mut self, upward: Upward, is_repeated: bool) {
+        self.has_vector &= upward.has_vector;
         if !is_repeated {
             self.rows += 1;
-            self.loaded += u64::from(normal.force != 0.0);
+            self.loaded += u64::from(upward.normal() != 0.0);
         }
     }
 }

@@ -29,7 +29,7 @@ pub use dialect::{Dialect, DialectOptions, Mark, Separator, TextEncoding};
 pub use preset::Preset;
 
 pub(super) use counts::Counted;
-pub(super) use header::{Header, Identity, shortened};
+pub(super) use header::{Header, Identity, Needs, shortened};
 pub(super) use source::Source;
 pub(super) use steps::{Steps, is_same_step};
 
@@ -37,6 +37,6 @@ pub(super) use steps::{Steps, is_same_step};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Format {
     pub(super) columns: Columns,
-    pub(super) identity: Identity,
+    pub(super) needs: Needs,
     pub(super) dialect: DialectOptions,
 }

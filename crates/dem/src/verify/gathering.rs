@@ -6,6 +6,7 @@ use super::entry::{Entry, Force, Place, Sink};
 use super::frame::Frame;
 use super::ledger::Ledger;
 use super::loaded::LoadedContacts;
+use super::measured::opposite;
 use super::places::{Found, Places};
 use super::refusal::Refusal;
 use super::registration;
@@ -75,10 +76,12 @@ impl<'p> Gathering<'p> {
             Err(fault) => return Err(fault.at(row.line)),
         };
         let force = row.force.map(|vector| frame.turned(vector));
+        let tangential = row.tangential.map(|vector| frame.turned(vector));
         let admitted = match found {
             Found::Floor { sphere, is_second } => {
+                let force = force.with_tangential(tangential);
                 let on_sphere = match place {
-                    Place::Centres(_) if is_second => force.map(|vector| vector.map(|x| 0.0 - x)),
+                    Place::Centres(_) if is_second => force.map(opposite),
                     Place::Centres(_) => force,
                     Place::Point(_) => upwards(force),
                 };
@@ -87,12 +90,15 @@ impl<'p> Gathering<'p> {
             Found::Spheres([one, other]) if one == other && row.force.magnitude() == 0.0 => Ok(()),
             Found::Spheres(ids) => match place {
                 Place::Centres(_) => {
-                    let measured = self.places.on_first(force, ids)?;
+                    let mut measured = self.places.on_first(force, ids)?;
+                    measured.tangential = tangential;
                     self.ledger.admit(&measured, row.line)
                 }
                 // A contact point does not tell which sphere is the first.
                 Place::Point(_) => {
-                    let measured = self.places.on_either(force, ids)?;
+                    let mut measured = self.places.on_either(force, ids)?;
+                    // Both vectors act on one sphere. Without the normal one, it is not known which.
+                    measured.tangential = tangential.filter(|_| measured.vector.is_some());
                     self.ledger.admit_unordered(&measured, row.line)
                 }
             },
@@ -114,7 +120,11 @@ fn upwards(force: Force) -> Force {
     force.map(|vector| {
         let [_, _, z] = vector;
         let is_reversed = (z < 0.0) != is_tensile;
-        vector.map(|x| if is_reversed { 0.0 - x } else { x })
+        if is_reversed {
+            opposite(vector)
+        } else {
+            vector
+        }
     })
 }
 
@@ -129,6 +139,7 @@ impl Sink for Gathering<'_> {
         let row = Row {
             place: entry.place()?,
             force: entry.force,
+            tangential: entry.tangential,
             line,
         };
         if self.is_own {

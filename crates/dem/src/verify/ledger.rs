@@ -1,16 +1,17 @@
 //! The measured forces of a pile, stored by contact.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::entry::{Entry, Force, Sink};
-use super::floor::{Floor, Normal};
+use super::floor::{Floor, Upward};
+use super::friction::{Directions, FrictionTally};
 use super::listed::{Forces, Listed, Order};
-use super::measured::{MAX_ENTRIES, Measured};
+use super::measured::{MAX_ENTRIES, Measured, opposite, relative};
 use super::refusal::{Fault, Refusal};
 use super::slots::Slots;
 use super::tally::{Judged, Tally};
 use super::unbalanced::{Balance, Unbalanced};
-use crate::NumberedPile;
+use crate::{NumberedContact, NumberedPile};
 use cannonpile::Packing;
 use cannonpile::engine::refuse_beyond_memory;
 
@@ -42,7 +43,14 @@ pub(super) struct Ledger<'p> {
     repeated: u64,
     lines: Lines,
     walls: u64,
+    /// On a rough floor, the directions of the contacts.
+    rough: Option<Directions>,
+    /// The spheres above the bottom layer that touch the floor, with their forces.
+    fallen: Vec<(u64, f64)>,
 }
+
+/// The comparison of tangential forces, and the exact one on the upper sphere of a contact.
+type Rubbing<'t, 'n, 'p> = (&'t mut FrictionTally<'n, 'p>, [f64; 3]);
 
 /// A pair without a contact. Of two rows with different forces, the greater force counts.
 struct Stray {
@@ -70,12 +78,27 @@ impl<'p> Ledger<'p> {
             forces: Forces::default(),
             seconds: Forces::default(),
             strays: BTreeMap::new(),
-            floor: Floor::default(),
+            floor: Floor::new(false),
             repeated: 0,
             lines: Lines::default(),
             walls: 0,
+            rough: None,
+            fallen: Vec::new(),
             numbered,
             slots,
+        })
+    }
+
+    /// Returns the ledger of a pile on a rough floor.
+    pub(super) fn on_rough_floor(packing: &Packing<'p>) -> Result<Self, Refusal> {
+        packing.on_rough_floor()?;
+        let ledger = Self::new(packing)?;
+        let rough = Some(Directions::of(&ledger.numbered)?);
+        let floor = Floor::new(true);
+        Ok(Self {
+            floor,
+            rough,
+            ..ledger
         })
     }
 
@@ -123,7 +146,7 @@ impl<'p> Ledger<'p> {
             return Err(Fault::of_bug("the floor touches bottom spheres only"));
         }
         on_sphere.refuse_infinite()?;
-        let is_repeated = self.floor.add_below(sphere, Normal::of(on_sphere), line);
+        let is_repeated = self.floor.add_below(sphere, Upward::of(on_sphere), line);
         self.repeated += u64::from(is_repeated);
         Ok(())
     }
@@ -136,12 +159,18 @@ impl<'p> Ledger<'p> {
         let [first, second] = measured.ids;
         let spheres = 1..=self.spheres;
         if !spheres.contains(&first) || !spheres.contains(&second) {
-            return self.admit_wall([first.into(), second.into()], Force::of(measured), line);
+            let force = Force::of(measured).with_tangential(measured.tangential);
+            return self.admit_wall([first.into(), second.into()], force, line);
         }
         if first == second {
             return Err(Fault::OneSphere { id: first });
         }
         Force::of(measured).refuse_infinite()?;
+        let tangential = measured.tangential.into_iter().flatten();
+        if let Some(value) = tangential.into_iter().find(|x| !x.is_finite()) {
+            let column = "a tangential force";
+            return Err(Fault::NotFinite { column, value });
+        }
         let measured = if first < second {
             *measured
         } else {
@@ -177,12 +206,12 @@ impl<'p> Ledger<'p> {
             return Err(Fault::TooMany { limit });
         }
         let on_sphere = if is_second {
-            on_first.map(|vector| vector.map(|x| 0.0 - x))
+            on_first.map(opposite)
         } else {
             on_first
         };
-        let normal = Normal::of(on_sphere);
-        let is_repeated = self.floor.add((sphere, wall), is_second, normal, line);
+        let upward = Upward::of(on_sphere);
+        let is_repeated = self.floor.add((sphere, wall), is_second, upward, line);
         self.repeated += u64::from(is_repeated);
         Ok(())
     }
@@ -194,6 +223,14 @@ impl<'p> Ledger<'p> {
         measured: &Measured,
         line: u64,
     ) -> Result<(), Fault> {
+        let split = self
+            .rough
+            .as_ref()
+            .map(|rough| rough.split(slot, *measured));
+        let measured = &Measured {
+            is_length: false,
+            ..split.unwrap_or(*measured)
+        };
         let (ids, contacts) = (measured.ids, self.slots.len());
         let listed = self.listed.get_mut(slot);
         let listed = listed.ok_or_else(|| Fault::of_bug("every contact has a slot"))?;
@@ -246,6 +283,16 @@ impl<'p> Ledger<'p> {
         self.spheres.saturating_mul(PAIRS_A_SPHERE).min(MAX_ENTRIES)
     }
 
+    fn forget_floor(&mut self) {
+        self.floor = Floor::new(self.rough.is_some());
+        self.fallen.clear();
+    }
+
+    /// Returns whether a row was the contact of a bottom sphere with the floor or with a wall.
+    pub(super) fn has_floor(&self) -> bool {
+        !self.floor.is_empty()
+    }
+
     /// Compares all measured forces with the exact ones.
     ///
     /// With `with_balance`, also adds up the forces on each sphere.
@@ -261,27 +308,46 @@ impl<'p> Ledger<'p> {
         let mut strays = self.strays.values().map(|stray| &stray.measured);
         let with_vectors =
             !self.forces.vectors.is_empty() || strays.any(|stray| stray.vector.is_some());
-        let mut tally = Tally::new(&self.numbered, with_vectors);
+        let is_rough = self.rough.is_some();
+        let mut tally = Tally::new(&self.numbered, with_vectors, is_rough);
         let balance = with_balance.then(|| Balance::new(&self.numbered));
         let mut balance = balance.transpose()?;
-        let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
         // Each error overwrites a force that has already been read.
         let mut errors = 0;
-        for (slot, contact) in contacts.enumerate() {
-            let contact = contact.map_err(Refusal::of_forces)?.in_order();
+        let mut see = |slot, exact: NumberedContact, friction: Option<Rubbing<'_, '_, '_>>| {
             let listed = self.listed.get(slot).copied();
             let listed = listed.filter(|listed| *listed != Listed::Never);
-            let measured = listed.and_then(|_| self.forces.get(slot, contact.ids));
+            let measured = listed.and_then(|_| self.forces.get(slot, exact.ids));
             let second = listed.filter(|listed| *listed == Listed::Differently);
-            let second = second.and_then(|_| self.seconds.get(slot, contact.ids));
-            if let (Some(balance), Some(measured)) = (&mut balance, &measured) {
-                balance.add(&contact, measured)?;
+            let second = second.and_then(|_| self.seconds.get(slot, exact.ids));
+            if let Some((rubbing, tangential)) = friction {
+                rubbing.add(&exact, tangential, [measured, second]);
             }
-            if let Some(error) = tally.add(&contact, measured, second)
+            if let (Some(balance), Some(measured)) = (&mut balance, &measured) {
+                balance.add(&exact, measured)?;
+            }
+            if let Some(error) = tally.add(&exact, measured, second)
                 && let Some(place) = self.forces.along.get_mut(errors)
             {
                 *place = error;
                 errors += 1;
+            }
+            Ok::<(), Refusal>(())
+        };
+        let mut friction = None;
+        if let Some(rough) = &self.rough {
+            let mut rubbing = FrictionTally::new(&self.numbered, rough)?;
+            let contacts = self.numbered.rough_contacts().map_err(Refusal::of_forces)?;
+            for (slot, contact) in contacts.enumerate() {
+                let (exact, tangential) = contact.map_err(Refusal::of_forces)?;
+                see(slot, exact, Some((&mut rubbing, tangential)))?;
+            }
+            friction = Some(rubbing);
+        } else {
+            let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
+            for (slot, contact) in contacts.enumerate() {
+                let exact = contact.map_err(Refusal::of_forces)?.in_order();
+                see(slot, exact, None)?;
             }
         }
         let mut relative_errors = self.forces.along;
@@ -292,11 +358,20 @@ impl<'p> Ledger<'p> {
             }
         }
         let floor = self.floor.judge(&self.numbered, tally.largest_force())?;
+        let friction = friction.map(|friction| friction.close(&floor));
+        let friction = friction.transpose()?;
         let strays = self.strays.values();
         let strays = strays.map(|stray| (&stray.measured, stray.contradiction));
         let mut judged = tally.close(relative_errors, strays, self.numbered.numbering());
+        judged.friction = friction;
+        judged.off_floor = floor.missing;
         judged.add_floor(floor);
         judged.repeated = self.repeated;
+        let largest = judged.largest_force;
+        let fallen = self.fallen.into_iter();
+        judged.fallen = fallen
+            .map(|(id, force)| (id, relative(force, largest)))
+            .collect();
         Ok((judged, balance.map(Balance::close)))
     }
 }
@@ -304,10 +379,10 @@ impl<'p> Ledger<'p> {
 impl Sink for Ledger<'_> {
     fn begin_step(&mut self) {
         self.listed.fill(Listed::Never);
-        self.forces.vectors.clear();
+        self.forces.clear_vectors();
         self.seconds = Forces::default();
         self.strays.clear();
-        self.floor = Floor::default();
+        self.forget_floor();
         self.repeated = 0;
         self.lines = Lines::default();
         self.walls = 0;
@@ -315,15 +390,65 @@ impl Sink for Ledger<'_> {
 
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
         let ids = entry.numbers()?;
-        let admitted = match ids.map(u64::try_from) {
-            [Ok(one), Ok(other)] => self.admit(&entry.force.between([one, other]), line),
-            _ => self.admit_wall(ids.map(Into::into), entry.force, line),
+        let admitted = if let [Ok(one), Ok(other)] = ids.map(u64::try_from) {
+            self.admit(&entry.between([one, other]), line)
+        } else {
+            let force = entry.force.with_tangential(entry.tangential);
+            self.admit_wall(ids.map(Into::into), force, line)
         };
         admitted.map_err(|fault| fault.at(line))
     }
 
     fn pass_over(&mut self) {
         self.walls += 1;
+    }
+}
+
+/// The rows of a table with the force of the floor on each sphere.
+pub(super) struct FloorRows<'l, 'p> {
+    ledger: &'l mut Ledger<'p>,
+    seen: BTreeSet<i64>,
+}
+
+impl<'l, 'p> FloorRows<'l, 'p> {
+    pub(super) fn new(ledger: &'l mut Ledger<'p>) -> Self {
+        ledger.floor.expect_all();
+        Self {
+            ledger,
+            seen: BTreeSet::new(),
+        }
+    }
+}
+
+impl Sink for FloorRows<'_, '_> {
+    fn begin_step(&mut self) {
+        self.ledger.forget_floor();
+        self.ledger.floor.expect_all();
+        self.seen.clear();
+    }
+
+    fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
+        let (ids, ledger) = (entry.numbers()?, &mut *self.ledger);
+        if !self.seen.insert(ids[0]) {
+            let id = ids[0].unsigned_abs();
+            return Err(Fault::SphereTwice { id }.at(line));
+        }
+        let sphere = u64::try_from(ids[0]).ok();
+        let above = sphere.filter(|sphere| (1..ledger.first_on_floor).contains(sphere));
+        let force = entry.force.with_tangential(entry.tangential);
+        let Some(sphere) = above else {
+            let admitted = ledger.admit_wall(ids.map(Into::into), force, line);
+            return admitted.map_err(|fault| fault.at(line));
+        };
+        // Codes list all spheres, also those that do not touch the floor.
+        if force.magnitude() > 0.0 {
+            ledger.fallen.push((sphere, force.magnitude()));
+        }
+        Ok(())
+    }
+
+    fn pass_over(&mut self) {
+        self.ledger.pass_over();
     }
 }
 

@@ -46,6 +46,8 @@ pub(super) struct Forces {
     pub(super) along: Vec<f64>,
     /// The vector on the sphere with the smaller number; NaN if none was measured.
     pub(super) vectors: Vec<[f64; 3]>,
+    /// The tangential force on this sphere; NaN if none was measured.
+    tangentials: Vec<[f64; 3]>,
 }
 
 impl Forces {
@@ -61,22 +63,37 @@ impl Forces {
             self.along = vec![0.0; contacts];
         }
         *self.along.get_mut(slot).ok_or_else(beyond)? = measured.force;
-        if let Some(vector) = measured.vector {
-            if self.vectors.is_empty() {
-                self.vectors = vec![[f64::NAN; 3]; contacts];
+        for (vectors, vector) in [
+            (&mut self.vectors, measured.vector),
+            (&mut self.tangentials, measured.tangential),
+        ] {
+            let Some(vector) = vector else { continue };
+            if vectors.is_empty() {
+                *vectors = vec![[f64::NAN; 3]; contacts];
             }
-            *self.vectors.get_mut(slot).ok_or_else(beyond)? = vector;
+            *vectors.get_mut(slot).ok_or_else(beyond)? = vector;
         }
         Ok(())
     }
 
+    /// Forgets all vectors.
+    pub(super) fn clear_vectors(&mut self) {
+        self.vectors.clear();
+        self.tangentials.clear();
+    }
+
     /// Returns the stored force of a contact between two spheres.
     pub(super) fn get(&self, slot: usize, ids: [u64; 2]) -> Option<Measured> {
-        let vector = self.vectors.get(slot).copied();
+        let at = |vectors: &[[f64; 3]]| {
+            let vector = vectors.get(slot).copied();
+            vector.filter(|[x, ..]| !x.is_nan())
+        };
         Some(Measured {
             ids,
             force: *self.along.get(slot)?,
-            vector: vector.filter(|[x, ..]| !x.is_nan()),
+            vector: at(&self.vectors),
+            tangential: at(&self.tangentials),
+            is_length: false,
         })
     }
 }

@@ -20,6 +20,10 @@ pub struct Measured {
     pub force: f64,
     /// The force on the first sphere, with z upwards, if it was measured.
     pub vector: Option<[f64; 3]>,
+    /// The tangential force on the first sphere, if the table lists it besides the normal force `vector`.
+    pub tangential: Option<[f64; 3]>,
+    /// True if `force` is the length of the vector, and was not measured itself.
+    pub is_length: bool,
 }
 
 impl Measured {
@@ -38,6 +42,8 @@ impl Measured {
             ids,
             force,
             vector: None,
+            tangential: None,
+            is_length: false,
         }
     }
 
@@ -60,7 +66,11 @@ impl Measured {
         } else {
             norm(vector)
         };
-        Self::new(ids, force).with_vector(vector)
+        let measured = Self::new(ids, force).with_vector(vector);
+        Self {
+            is_length: true,
+            ..measured
+        }
     }
 
     /// Adds the vector of the force on the first sphere.
@@ -76,6 +86,22 @@ impl Measured {
     #[must_use]
     pub const fn with_vector(mut self, vector: [f64; 3]) -> Self {
         self.vector = Some(vector);
+        self
+    }
+
+    /// Adds the tangential force on the first sphere. The vector is then the normal force only.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Measured;
+    ///
+    /// let normal = Measured::of_vector([1, 4], [-1.2, 0.0, 1.6]);
+    /// let rubbing = normal.with_tangential([0.4, 0.0, 0.3]);
+    /// assert_eq!(rubbing.reversed().tangential, Some([-0.4, 0.0, -0.3]));
+    /// ```
+    #[must_use]
+    pub const fn with_tangential(mut self, vector: [f64; 3]) -> Self {
+        self.tangential = Some(vector);
         self
     }
 
@@ -96,17 +122,21 @@ impl Measured {
         let [first, second] = self.ids;
         Self {
             ids: [second, first],
-            // The subtraction keeps 0 from becoming −0.
-            vector: self.vector.map(|vector| vector.map(|x| 0.0 - x)),
+            vector: self.vector.map(opposite),
+            tangential: self.tangential.map(opposite),
             ..self
         }
     }
 
     /// Returns the greater of |f − g| and |**F** − **G**|, for another measurement of the same pair.
     pub(super) fn difference(&self, other: &Self) -> f64 {
-        let vectors = self.vector.zip(other.vector);
-        let apart = vectors.map_or(0.0, |(one, other)| distance(one, other));
-        apart.max((self.force - other.force).abs())
+        let vectors = [
+            self.vector.zip(other.vector),
+            self.tangential.zip(other.tangential),
+        ];
+        let apart = vectors.into_iter().flatten();
+        let apart = apart.map(|(one, other)| distance(one, other));
+        apart.fold((self.force - other.force).abs(), f64::max)
     }
 
     /// Returns whether the force and the vector are 0.
@@ -114,11 +144,21 @@ impl Measured {
         self.magnitude() == 0.0
     }
 
-    /// Returns the greater of the magnitude and the length of the vector.
+    /// Returns the greatest of the magnitude and the lengths of the vectors.
     pub(super) fn magnitude(&self) -> f64 {
-        let vector = self.vector.map_or(0.0, norm);
-        self.force.abs().max(vector)
+        let vectors = [self.vector, self.tangential].into_iter().flatten();
+        vectors.map(norm).fold(self.force.abs(), f64::max)
     }
+}
+
+/// Returns how many numbers exceed a limit, in a list in decreasing order.
+pub(super) fn over(sorted: &[f64], limit: f64) -> u64 {
+    sorted.partition_point(|number| *number > limit) as u64
+}
+
+/// Returns −v, with 0 instead of −0.
+pub(super) fn opposite(vector: [f64; 3]) -> [f64; 3] {
+    vector.map(|x| 0.0 - x)
 }
 
 /// Returns a difference relative to a force. Only a difference of 0 gives 0.

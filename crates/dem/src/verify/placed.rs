@@ -77,6 +77,7 @@ impl Placed {
         Ok(Entry {
             spheres: Spheres::Places(self.place),
             force: self.force,
+            tangential: None,
         })
     }
 }

@@ -138,7 +138,10 @@ impl Places {
         Ok(match force {
             Force::Vector(vector) => {
                 let along = self.along(vector, ids)?;
-                Measured::new(ids, norm(vector).copysign(along)).with_vector(vector)
+                Measured {
+                    force: norm(vector).copysign(along),
+                    ..Measured::of_vector(ids, vector)
+                }
             }
             Force::Along(_) | Force::Both(..) => force.between(ids),
         })
@@ -148,15 +151,19 @@ impl Places {
     /// sphere that it pushes away from the contact. A tensile vector acts on the sphere that it pulls towards the
     /// contact.
     pub(super) fn on_either(&self, force: Force, ids: [u64; 2]) -> Result<Measured, Error> {
-        let (force, vector) = match force {
+        let (force, vector, is_length) = match force {
             Force::Along(_) => return Ok(force.between(ids)),
-            Force::Vector(vector) => (norm(vector), vector),
-            Force::Both(force, vector) => (force, vector),
+            Force::Vector(vector) => (norm(vector), vector, true),
+            Force::Both(force, vector) => (force, vector, false),
         };
         let [first, second] = ids;
         let is_turned = (self.along(vector, ids)? < 0.0) != (force < 0.0);
         let ids = if is_turned { [second, first] } else { ids };
-        Ok(Measured::new(ids, force).with_vector(vector))
+        let measured = Measured::new(ids, force).with_vector(vector);
+        Ok(Measured {
+            is_length,
+            ..measured
+        })
     }
 
     /// Returns the component of a vector from the second of two spheres towards the first, times their distance.

@@ -7,17 +7,18 @@ use std::path::PathBuf;
 use super::comparison::Comparison;
 use super::entry::Sink;
 use super::format::{
-    Columns, Counted, Dialect, DialectOptions, Format, Identity, Preset, RowCounts, Source, Steps,
-    TextEncoding, dump, text,
+    Columns, Counted, Dialect, DialectOptions, Format, Identity, Needs, Preset, RowCounts, Source,
+    Steps, TextEncoding, dump, is_same_step, text,
 };
 use super::frame::Frame;
 use super::gathering::Gathering;
 use super::kind::FileKind;
-use super::ledger::Ledger;
+use super::ledger::{FloorRows, Ledger};
 use super::reading::Reading;
 use super::refusal::Refusal;
 use super::unbalanced::Unbalanced;
 use super::vtk;
+use crate::scene::Floor;
 use cannonpile::Packing;
 
 /// Reads measured forces from a file of any kind, without a pile to compare them with.
@@ -69,6 +70,7 @@ pub struct Reader {
     /// The largest distance of a sphere from its exact position, in radii, if contacts are matched by position.
     within: Option<f64>,
     with_balance: bool,
+    floor: Floor,
 }
 
 /// The result of reading and comparing a file.
@@ -151,6 +153,7 @@ impl Reader {
             folder: None,
             within: None,
             with_balance: false,
+            floor: Floor::Glued,
         };
         if preset.is_by_place() {
             reader.matched_within(Self::WITHIN)
@@ -249,7 +252,7 @@ impl Reader {
 
     fn matched_within(mut self, within: f64) -> Self {
         self.within = Some(within);
-        self.format.identity = Identity::Places;
+        self.format.needs.identity = Identity::Places;
         self
     }
 
@@ -265,7 +268,7 @@ impl Reader {
     #[must_use]
     pub fn by_numbers(mut self) -> Self {
         self.within = None;
-        self.format.identity = Identity::Numbers;
+        self.format.needs.identity = Identity::Numbers;
         self
     }
 
@@ -291,6 +294,29 @@ impl Reader {
             with_balance: true,
             ..self
         }
+    }
+
+    /// Returns this reader for piles on a floor. A rough floor adds tangential forces, friction and moments to the comparison.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::scene::Floor;
+    /// use cannonpile_dem::verify::Reader;
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// // N = 1/2 mg, and T = N·tan(θ/2) with tanθ = 3/4. The vectors are the forces on the upper disc.
+    /// let table = "id1,id2,fx,fy,fz,tx,ty,tz\n1,2,0.3,0,0.4,-0.13333333333,0,0.1\n1,3,-0.3,0,0.4,0.13333333333,0,0.1\n";
+    /// let read = Reader::new().on_floor(Floor::Rough).compare(&packing, table.as_bytes())?;
+    /// assert_eq!(read.comparison.tangential(), 2);
+    /// assert!(read.comparison.accepted(1e-9));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn on_floor(mut self, floor: Floor) -> Self {
+        self.format.needs.tangential = floor == Floor::Rough;
+        Self { floor, ..self }
     }
 
     /// Returns this reader for a file in this folder. Files of ParaView such as `.pvtp` and `.pvd` name others beside
@@ -324,7 +350,8 @@ impl Reader {
     /// above and below it, a row of units, and decimal commas: its [`Dialect`]. Columns that are not needed may hold
     /// anything.
     ///
-    /// Memory is nine bytes for each contact of the pile, and 24 more if there are vectors. It is twice as much if pairs
+    /// Memory is nine bytes for each contact of the pile, and 24 more if there are vectors. On a rough floor, it is 24 more for
+    /// tangential forces, and 48 for each sphere. It is twice as much if pairs
     /// are in two rows with different forces. Matching by position takes about 60 more bytes for each sphere. If the
     /// frame differs from that of the scene, it also takes eight bytes for each contact and for each number of a row. A
     /// table is read line by line, whatever its length, but a VTK file is kept in memory as a whole.
@@ -353,7 +380,40 @@ impl Reader {
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     pub fn compare(&self, packing: &Packing<'_>, input: impl Read) -> Result<Compared, Refusal> {
-        let compared = self.compare_from_one(packing, input);
+        let compared = self.compare_from_one(packing, input, None::<&[u8]>);
+        compared.map_err(|refusal| refusal.renumbered(self.format.columns.first_id()))
+    }
+
+    /// Compares a file, and a second one with the force of the floor on each sphere: columns `id`, `fx`, `fy` and `fz`, and
+    /// possibly `tx`, `ty` and `tz` as for contacts. Every bottom sphere needs a row. Spheres above them may be listed with a
+    /// force of 0. The columns have these names, whatever the columns and the dialect of this reader.
+    ///
+    /// # Errors
+    /// As for [`compare`](Self::compare), and [`Refusal::FloorTable`] for the second file. Contacts must be matched by numbers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::scene::Floor;
+    /// use cannonpile_dem::verify::Reader;
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// let contacts = "id1,id2,fx,fy,fz\n1,2,0.16666666667,0,0.5\n1,3,-0.16666666667,0,0.5\n";
+    /// let floor = "id,fx,fy,fz\n1,0,0,0\n2,0.16666666667,0,1.5\n3,-0.16666666667,0,1.5\n";
+    /// let reader = Reader::new().on_floor(Floor::Rough);
+    /// let read = reader.compare_with_floor(&packing, contacts.as_bytes(), floor.as_bytes())?;
+    /// assert!(read.comparison.floor_friction_error().unwrap() < 1e-9);
+    /// assert!(read.comparison.accepted(1e-9));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    pub fn compare_with_floor(
+        &self,
+        packing: &Packing<'_>,
+        input: impl Read,
+        floor: impl Read,
+    ) -> Result<Compared, Refusal> {
+        let compared = self.compare_from_one(packing, input, Some(floor));
         compared.map_err(|refusal| refusal.renumbered(self.format.columns.first_id()))
     }
 
@@ -362,8 +422,12 @@ impl Reader {
         &self,
         packing: &Packing<'_>,
         input: impl Read,
+        floor: Option<impl Read>,
     ) -> Result<Compared, Refusal> {
-        let mut ledger = Ledger::new(packing)?;
+        let mut ledger = match self.floor {
+            Floor::Glued => Ledger::new(packing)?,
+            Floor::Rough => Ledger::on_rough_floor(packing)?,
+        };
         let mut frame = None;
         let found;
         if let Some(within) = self.within {
@@ -375,10 +439,15 @@ impl Reader {
         } else {
             found = self.read(input, &mut ledger)?;
         }
+        if let Some(floor) = floor {
+            let read = self.read_floor(floor, found.step.as_deref(), &mut ledger);
+            read.map_err(|refusal| Refusal::FloorTable(Box::new(refusal)))?;
+        }
         let walls = ledger.walls();
         let (judged, unbalanced) = ledger.judge(self.with_balance)?;
         let comparison = Comparison::of(judged);
-        if comparison.contacts() > 0 && comparison.matched() == 0 {
+        let judged = comparison.matched() + comparison.floor();
+        if comparison.contacts() > 0 && judged == 0 {
             let reason = found.rows.reason(self.within.is_some());
             return Err(Refusal::NoRows { reason });
         }
@@ -393,6 +462,46 @@ impl Reader {
             walls,
             frame,
         })
+    }
+
+    /// Reads a table with the force of the floor on each sphere. The columns have their usual names.
+    fn read_floor(
+        &self,
+        input: impl Read,
+        step: Option<&str>,
+        ledger: &mut Ledger<'_>,
+    ) -> Result<(), Refusal> {
+        if self.within.is_some() {
+            return Err(Refusal::FloorByPlace);
+        }
+        if ledger.has_floor() {
+            return Err(Refusal::FloorTwice);
+        }
+        let columns = Columns::default().with_first_id(self.format.columns.first_id());
+        let needs = Needs {
+            identity: Identity::OnFloor,
+            tangential: self.floor == Floor::Rough,
+        };
+        let reader = Self {
+            format: Format {
+                columns,
+                needs,
+                dialect: DialectOptions::default(),
+            },
+            ..self.clone()
+        };
+        let found = reader.read(input, &mut FloorRows::new(ledger))?;
+        if let (Some(wanted), Some(found)) = (step, &found.step)
+            && !is_same_step(wanted, found)
+        {
+            let (wanted, found) = (wanted.to_owned(), found.clone());
+            return Err(Refusal::NoStep { wanted, found });
+        }
+        if found.rows.used == 0 {
+            let reason = found.rows.reason(false);
+            return Err(Refusal::NoRows { reason });
+        }
+        Ok(())
     }
 
     /// Passes the rows of a file to a sink.

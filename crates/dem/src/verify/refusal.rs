@@ -60,6 +60,12 @@ pub enum Refusal {
         /// The steps that were found.
         found: String,
     },
+    /// The table with the forces of the floor was refused.
+    FloorTable(Box<Refusal>),
+    /// Both tables list contacts with the floor.
+    FloorTwice,
+    /// There is a table of the floor, but contacts are matched by position.
+    FloorByPlace,
     /// A VTK file whose contacts cannot be read, or XML of another kind.
     Vtk(String),
     /// The file could not be read.
@@ -152,6 +158,11 @@ pub enum Fault {
     },
     /// A sphere is paired with itself.
     OneSphere {
+        /// The number of the sphere.
+        id: u64,
+    },
+    /// A sphere is in two rows of a table of the floor.
+    SphereTwice {
         /// The number of the sphere.
         id: u64,
     },
@@ -254,6 +265,13 @@ impl fmt::Display for Refusal {
                 }
             ),
             Self::NoRows { reason } | Self::Vtk(reason) => f.write_str(reason),
+            Self::FloorTable(refusal) => write!(f, "table of the floor: {refusal}"),
+            Self::FloorByPlace => f.write_str(
+                "its rows have the numbers of spheres: match contacts by numbers, or leave out this table",
+            ),
+            Self::FloorTwice => f.write_str(
+                "both tables list contacts with the floor: leave out this one, or remove the contacts from the other",
+            ),
             Self::Io(error) => error.fmt(f),
         }
     }
@@ -304,6 +322,10 @@ impl fmt::Display for Fault {
             Self::OneSphere { id } => {
                 write!(f, "sphere {id} is paired with itself: name two different spheres")
             }
+            Self::SphereTwice { id } => write!(
+                f,
+                "sphere {id} is in an earlier row too: list each sphere once, with a column step if there are several steps"
+            ),
             Self::Twice {
                 ids: [a, b],
                 first: Some(first),
@@ -348,6 +370,10 @@ impl Fault {
     /// Writes a fault in the columns of a table.
     fn fmt_columns(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NoColumn { column, found } if *column == "id" => write!(
+                f,
+                "no column id, only {found}: name the columns id, fx, fy and fz (in LAMMPS with dump_modify colname)"
+            ),
             Self::NoColumn { column, found } => write!(
                 f,
                 "no column {column}, only {found}: name the columns id1, id2, force, and fx, fy, fz if there are vectors \
@@ -469,6 +495,7 @@ impl Refusal {
                 entry,
                 fault: fault.renumbered(first_id),
             },
+            Self::FloorTable(refusal) => Self::FloorTable(Box::new(refusal.renumbered(first_id))),
             other => other,
         }
     }
@@ -510,6 +537,7 @@ impl Fault {
                 spheres,
             },
             Self::OneSphere { id } => Self::OneSphere { id: shifted(id) },
+            Self::SphereTwice { id } => Self::SphereTwice { id: shifted(id) },
             Self::Twice { ids, first } => Self::Twice {
                 ids: ids.map(shifted),
                 first,

@@ -18,12 +18,13 @@ const SHOWN: usize = 5;
 ///
 /// Text and csv have one row: `accepted, accept, contacts, matched, repeated, missing, extra, noise, fixed,
 /// largest_error, rms_error, worst, beyond, factor, walls, floor, floor_error, frame, unbalanced, findings,
-/// rows, left_out, table, step`. An error of nothing is missing, in json `null`. The text adds the meaning of each
+/// rows, left_out, table, step`. On a rough floor, `tangential, tangential_error, floor_friction_error, net_moment` come after
+/// `floor_error`. An error of nothing is missing, in json `null`. The text adds the meaning of each
 /// count. It also lists the first missing contacts, and the extra pairs with the greatest forces.
 ///
 /// The json is an array of one object with the same keys and `largest_force`. Its entry `worst` is an object, and the
 /// arrays `missing_contacts` and `extra_pairs` have at most a thousand entries. An infinite error is `inf`, in json
-/// `null`.
+/// `null`. On a rough floor, an object `friction` has those of tangential forces, and `net_moment_sphere`.
 ///
 /// # Examples
 /// ```
@@ -62,6 +63,8 @@ pub struct Source {
     pub bytes: u64,
     /// The SHA-256 digest of the file, in hexadecimal digits.
     pub sha256: String,
+    /// The table of the floor, if there was one. Its scene is not used.
+    pub floor: Option<Box<Self>>,
 }
 
 impl<'c> Report<'c> {
@@ -142,6 +145,7 @@ impl<'c> Report<'c> {
     ///     file: "forces.csv".into(),
     ///     bytes: 20,
     ///     sha256: "23ae".into(),
+    ///     floor: None,
     /// };
     /// let mut json = Vec::new();
     /// Report::of_file(&read, 0.01).with_source(&source).write(FileFormat::Json, &mut json)?;
@@ -226,7 +230,7 @@ impl<'c> Report<'c> {
         let findings = findings.iter().map(ToString::to_string).collect::<Vec<_>>();
         let findings = Some(findings.join("; ")).filter(|findings| !findings.is_empty());
         let walls = self.file.map_or(0, |file| file.walls);
-        Table::record(vec![
+        let mut entries = vec![
             (
                 Column::plain("accepted"),
                 if accepted { "yes" } else { "no" }.into(),
@@ -250,6 +254,31 @@ impl<'c> Report<'c> {
             count("walls", walls, "contacts with walls, which are not judged"),
             count("floor", comparison.floor(), floor),
             error("floor_error", comparison.floor_error(), of_floor),
+        ];
+        if comparison.has_friction() {
+            let tangential = "contacts whose tangential forces are judged";
+            let of_tangential = "of the exact tangential force, of the largest one where that is 0";
+            let moment = comparison.net_moment().map(|(_, moment)| moment);
+            entries.extend([
+                count("tangential", comparison.tangential(), tangential),
+                error(
+                    "tangential_error",
+                    comparison.tangential_error(),
+                    of_tangential,
+                ),
+                error(
+                    "floor_friction_error",
+                    comparison.floor_friction_error(),
+                    of_tangential,
+                ),
+                error(
+                    "net_moment",
+                    moment,
+                    "R times the largest tangential force, on one sphere",
+                ),
+            ]);
+        }
+        entries.extend([
             (Column::plain("frame"), words(self.frame())),
             (Column::plain("unbalanced"), words(self.unbalanced())),
             (Column::plain("findings"), words(findings)),
@@ -257,7 +286,8 @@ impl<'c> Report<'c> {
             (Column::plain("left_out"), words(self.left_out())),
             (Column::plain("table"), words(self.kind())),
             (Column::plain("step"), words(self.step())),
-        ])
+        ]);
+        Table::record(entries)
     }
 
     /// Returns the number of rows that were compared.
@@ -332,15 +362,35 @@ impl<'c> Report<'c> {
             "missing_contacts": missing.iter().map(contact).collect::<Vec<_>>(),
             "extra_pairs": self.extra_pairs().iter().map(pair).collect::<Vec<_>>(),
         });
-        if let (Some(source), Value::Object(entries)) = (self.source, &mut record) {
-            let source = json!({
-                "version": env!("CARGO_PKG_VERSION"),
-                "file": source.file,
-                "bytes": source.bytes,
-                "sha256": source.sha256,
-                "scene": source.scene,
+        let Value::Object(entries) = &mut record else {
+            return Value::Array(vec![record]);
+        };
+        if comparison.has_friction() {
+            let moment = comparison.net_moment();
+            let friction = json!({
+                "tangential": comparison.tangential(),
+                "tangential_error": comparison.tangential_error(),
+                "floor_friction_error": comparison.floor_friction_error(),
+                "net_moment": moment.map(|(_, moment)| moment),
+                "net_moment_sphere": moment.map(|(sphere, _)| sphere),
             });
-            entries.insert("source".into(), source);
+            entries.insert("friction".into(), friction);
+        }
+        if let Some(source) = self.source {
+            let of = |source: &Source| {
+                json!({
+                    "file": source.file,
+                    "bytes": source.bytes,
+                    "sha256": source.sha256,
+                })
+            };
+            let mut origin = of(source);
+            origin["version"] = env!("CARGO_PKG_VERSION").into();
+            origin["scene"] = source.scene.clone().into();
+            if let Some(floor) = &source.floor {
+                origin["floor"] = of(floor);
+            }
+            entries.insert("source".into(), origin);
         }
         Value::Array(vec![record])
     }

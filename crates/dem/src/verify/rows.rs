@@ -9,6 +9,7 @@ use super::entry::{Force, Place};
 pub(super) struct Row {
     pub(super) place: Place,
     pub(super) force: Force,
+    pub(super) tangential: Option<[f64; 3]>,
     pub(super) line: u64,
 }
 
@@ -70,7 +71,14 @@ impl Rows {
 
 impl Run {
     fn is_continued_by(&self, row: &Row) -> bool {
-        let form = |row: &Row| (discriminant(&row.place), discriminant(&row.force));
+        let form = |row: &Row| {
+            let tangential = row.tangential.is_some();
+            (
+                discriminant(&row.place),
+                discriminant(&row.force),
+                tangential,
+            )
+        };
         self.first.line + self.count as u64 == row.line && form(&self.first) == form(row)
     }
 }
@@ -84,12 +92,13 @@ impl Row {
         }
         match &mut self.force {
             Force::Along(force) => call(force),
-            Force::Vector(vector) => vector.iter_mut().for_each(call),
+            Force::Vector(vector) => vector.iter_mut().for_each(&mut call),
             Force::Both(force, vector) => {
                 call(force);
-                vector.iter_mut().for_each(call);
+                vector.iter_mut().for_each(&mut call);
             }
         }
+        self.tangential.iter_mut().flatten().for_each(call);
     }
 }
 
@@ -115,6 +124,7 @@ mod tests {
             all.push(Row {
                 place,
                 force: forces[form % 3],
+                tangential: (form == 3).then_some([0.4, 0.5, 0.6]),
                 line: u64::from(line),
             });
         }

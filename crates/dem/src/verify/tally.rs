@@ -2,6 +2,7 @@
 
 use super::difference::{Difference, Extra};
 use super::floor::OnFloor;
+use super::friction::WithFriction;
 use super::measured::{Measured, distance, relative};
 use super::symptoms::Symptoms;
 use crate::{NumberedContact, NumberedPile};
@@ -15,6 +16,7 @@ const KEPT: usize = 1000;
 pub(super) struct Tally {
     dimension: Dimension,
     with_vectors: bool,
+    is_rough: bool,
     judged: Judged,
     /// The errors of contacts without a force. They are relative to the largest force, which is known only at the end.
     idle: Vec<f64>,
@@ -44,13 +46,21 @@ pub(super) struct Judged {
     /// The number of contacts with the floor that are judged, and the relative errors of the bottom spheres.
     pub(super) floor: u64,
     pub(super) floor_errors: Vec<f64>,
+    /// The spheres above the bottom layer that touch the floor, with their forces relative to the largest one.
+    pub(super) fallen: Vec<(u64, f64)>,
+    /// The bottom spheres without a row in a table of the floor, and the first of them.
+    pub(super) off_floor: Option<(u64, u64)>,
     /// The patterns in the contacts with a force.
     pub(super) symptoms: Symptoms,
+    /// The result for tangential forces, if the floor is rough.
+    pub(super) friction: Option<WithFriction>,
 }
 
 impl Tally {
-    pub(super) fn new(pile: &NumberedPile<'_>, with_vectors: bool) -> Self {
+    /// Begins a comparison. Bottom spheres on a rough floor are not fixed.
+    pub(super) fn new(pile: &NumberedPile<'_>, with_vectors: bool, is_rough: bool) -> Self {
         Self {
+            is_rough,
             dimension: pile.packing().pile().dimension(),
             with_vectors,
             judged: Judged::default(),
@@ -147,7 +157,8 @@ impl Tally {
             (a, b) => a.or(b),
         };
         let first_fixed = numbering.first_on_floor();
-        let is_fixed = |stray: &Measured| stray.ids.iter().all(|id| *id >= first_fixed);
+        let is_fixed =
+            |stray: &Measured| !self.is_rough && stray.ids.iter().all(|id| *id >= first_fixed);
         let mut strays = Vec::new();
         let mut contradictions = self.idle_contradictions;
         for (stray, contradiction) in pairs {
@@ -192,9 +203,13 @@ impl Judged {
         self.contradictions.sort_unstable_by(|a, b| b.total_cmp(a));
     }
 
-    /// Returns how many numbers exceed a limit, in a list in decreasing order.
-    pub(super) fn over(sorted: &[f64], limit: f64) -> u64 {
-        sorted.partition_point(|error| *error > limit) as u64
+    /// Returns the spheres above the bottom layer whose force on the floor is not noise.
+    pub(super) fn fallen(&self, tolerance: f64) -> impl Iterator<Item = u64> {
+        let over = self
+            .fallen
+            .iter()
+            .filter(move |(_, force)| *force > tolerance);
+        over.map(|(id, _)| *id)
     }
 
     pub(super) fn matched(&self) -> u64 {

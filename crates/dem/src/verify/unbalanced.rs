@@ -11,10 +11,11 @@ use crate::Error;
 use crate::error::bug;
 use crate::numbered::rounded;
 use crate::table::{Cell, Column, Table, indices, places};
-use crate::vector::minus;
+use crate::vector::{minus, plus};
 use crate::weights::{ordinary_weight, rounded_newtons};
 use crate::{NumberedContact, NumberedPile};
 use cannonpile::lattice::Site;
+use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 use cannonpile::{Load, Packing};
 
@@ -179,7 +180,7 @@ impl<'p> Balance<'p> {
             let direction = self.direction(contact)?;
             direction.map(|component| component * measured.force)
         };
-        self.act(contact.ids, vector);
+        self.act(contact.ids, whole(vector, measured));
         Ok(())
     }
 
@@ -195,7 +196,7 @@ impl<'p> Balance<'p> {
             let direction = between(self.pile.packing(), one, other)?;
             direction.map(|component| component * stray.force)
         };
-        self.act(stray.ids, vector);
+        self.act(stray.ids, whole(vector, stray));
         Ok(())
     }
 
@@ -243,11 +244,24 @@ impl<'p> Balance<'p> {
     }
 }
 
+/// Returns the force with its tangential part, if that is listed apart.
+fn whole(vector: [f64; 3], measured: &Measured) -> [f64; 3] {
+    measured
+        .tangential
+        .map_or(vector, |part| plus(vector, part))
+}
+
 /// Returns the unit vector from one site to another.
-fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f64; 3], Error> {
-    let centre = |site| rounded(&packing.position(site)?, "a position");
-    let (to, from) = (centre(to)?, centre(from)?);
-    let apart = minus(to, from);
+pub(super) fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f64; 3], Error> {
+    let (to, from) = (packing.position(to)?, packing.position(from)?);
+    let apart: Vec<Surd> = {
+        let parts = to.iter().zip(&from);
+        let parts = parts.map(|(to, from)| to.checked_add(&-from.clone()));
+        let apart: Option<_> = parts.collect();
+        apart.ok_or_else(|| bug("coordinates along one axis have one root"))?
+    };
+    let apart = <[Surd; 3]>::try_from(apart).map_err(|_| bug("a vector has three components"))?;
+    let apart = rounded(&apart, "a distance")?;
     let length = norm(apart);
     Ok(apart.map(|component| component / length))
 }

@@ -5,6 +5,7 @@
 mod contacts;
 mod files;
 mod findings;
+mod friction;
 mod lammps;
 mod places;
 mod refinement;

@@ -28,7 +28,7 @@ impl Verify {
         let progress = Progress::begin("reading the files of --refinement");
         let (mut levels, mut sources, mut with_vectors) = (Vec::new(), Vec::new(), false);
         for file in files {
-            let read = compare(&reader, packing, &file.path, format);
+            let read = compare(&reader, packing, (&file.path, None), format);
             let (read, source) =
                 read.map_err(|refusal| self.refused(refusal, &file.path, scene))?;
             let worst = read.comparison.worst();

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::str::FromStr;
 
-use super::header::Identity;
+use super::header::{Identity, Needs};
 use crate::Error;
 
 /// A quantity that columns of a table can contain.
@@ -24,12 +24,17 @@ pub(in crate::verify) enum Quantity {
     X2,
     Y2,
     Z2,
+    Tx,
+    Ty,
+    Tz,
+    /// The sphere of a row with the force of the floor on it.
+    Id,
     Kind,
     Step,
 }
 
 impl Quantity {
-    pub(super) const COUNT: usize = 17;
+    pub(super) const COUNT: usize = 21;
 
     pub(super) const ALL: [Self; Self::COUNT] = [
         Self::Id1,
@@ -47,6 +52,10 @@ impl Quantity {
         Self::X2,
         Self::Y2,
         Self::Z2,
+        Self::Tx,
+        Self::Ty,
+        Self::Tz,
+        Self::Id,
         Self::Kind,
         Self::Step,
     ];
@@ -69,6 +78,10 @@ impl Quantity {
             Self::X2 => &["x2"],
             Self::Y2 => &["y2"],
             Self::Z2 => &["z2"],
+            Self::Tx => &["tx"],
+            Self::Ty => &["ty"],
+            Self::Tz => &["tz"],
+            Self::Id => &["id"],
             // Only the user knows which kinds are read.
             Self::Kind => &[],
             Self::Step => &["step", "timestep", "time_step"],
@@ -83,7 +96,7 @@ impl Quantity {
 
     /// Returns whether the quantity is one column, never a sum: the number of a sphere, or a step.
     const fn is_one_column(self) -> bool {
-        matches!(self, Self::Id1 | Self::Id2 | Self::Step)
+        matches!(self, Self::Id1 | Self::Id2 | Self::Id | Self::Step)
     }
 
     pub(super) const fn name(self) -> &'static str {
@@ -103,6 +116,7 @@ impl Quantity {
 /// | `id1`, `id2` | the numbers of the two spheres |
 /// | `force` | the force along the line between their centres; compressive forces are positive |
 /// | `fx`, `fy`, `fz` | the force on the first of the two |
+/// | `tx`, `ty`, `tz` | on a rough floor, the tangential force on the first; `fx`, `fy` and `fz` are then the normal force |
 /// | `x1`, `y1`, `z1`, `x2`, `y2`, `z2` | the centres of the two |
 /// | `x`, `y`, `z` | the contact point |
 /// | `kind` | the kind of contact: `kind=contact_type:SS` reads the rows with `SS` in this column, and `SS\|SP` allows two kinds; all other rows count as contacts with walls |
@@ -247,21 +261,32 @@ impl Columns {
     }
 
     /// Returns whether all necessary columns are given by number, so that no header is necessary.
-    pub(super) fn are_numbered(&self, identity: Identity) -> bool {
-        use Quantity::{Force, Fx, Fy, Fz, Id1, Id2, X, X1, X2, Z, Z1, Z2};
+    pub(super) fn are_numbered(&self, needs: Needs) -> bool {
+        use Quantity::{Force, Fx, Fy, Fz, Id, Id1, Id2, Tx, Ty, Tz, X, X1, X2, Z, Z1, Z2};
         let is_numbered = |quantity: &Quantity| {
             let is_numbered = |term: &Term| matches!(term.column, Column::Numbered(_));
             let terms = self.terms(*quantity);
             terms.is_some_and(|terms| terms.iter().all(is_numbered))
         };
         let are_numbered = |quantities: &[Quantity]| quantities.iter().all(is_numbered);
-        let spheres = match identity {
+        let spheres = match needs.identity {
             Identity::Numbers => are_numbered(&[Id1, Id2]),
+            Identity::OnFloor => are_numbered(&[Id]),
             Identity::Places => are_numbered(&[X1, Z1, X2, Z2]) || are_numbered(&[X, Z]),
         };
         let is_named =
             |quantity: &Quantity| self.terms(*quantity).is_some() && !is_numbered(quantity);
-        let others = [Force, Fx, Fy, Fz, Quantity::Kind, Quantity::Step];
+        let others = [
+            Force,
+            Fx,
+            Fy,
+            Fz,
+            Tx,
+            Ty,
+            Tz,
+            Quantity::Kind,
+            Quantity::Step,
+        ];
         spheres
             && !others.iter().any(is_named)
             && (are_numbered(&[Force]) || are_numbered(&[Fx, Fy, Fz]))
@@ -273,7 +298,7 @@ impl Columns {
             .ok_or_else(|| Error::syntax(assignment, ASSIGNMENT))?;
         let mut all = Quantity::ALL.into_iter();
         let quantity = all
-            .find(|quantity| quantity.name() == key.trim())
+            .find(|quantity| quantity.name() == key.trim() && *quantity != Quantity::Id)
             .ok_or_else(|| Error::syntax(key, QUANTITY))?;
         if self.terms(quantity).is_some() {
             return Err(Error::syntax(
@@ -307,7 +332,7 @@ impl Columns {
 const ASSIGNMENT: &str =
     "a column such as id1=A or fx=-#10 (QUANTITY=COLUMN, several separated by commas)";
 const QUANTITY: &str =
-    "one of id1, id2, force, fx, fy, fz, x, y, z, x1, y1, z1, x2, y2, z2, kind, step";
+    "one of id1, id2, force, fx, fy, fz, tx, ty, tz, x, y, z, x1, y1, z1, x2, y2, z2, kind, step";
 const ONE: &str = "id1=COLUMN or step=COLUMN: one column, without a sign or a factor";
 const COLUMN: &str = "a column: its name, in quotes if it contains a comma, or #1 for the first";
 

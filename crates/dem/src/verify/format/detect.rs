@@ -8,7 +8,7 @@ use core::cmp::Reverse;
 use super::columns::Columns;
 use super::cut::cut;
 use super::dialect::{Dialect, DialectOptions, Separator, bare, behind_row, comment, uncommented};
-use super::header::{Header, Identity, shortened};
+use super::header::{Header, Needs, shortened};
 use super::lines::Lines;
 use super::number::{is_number, may_have_thousands, number};
 use crate::verify::refusal::{Fault, Refusal};
@@ -240,7 +240,7 @@ pub(super) fn find(
     is_whole: bool,
     options: &DialectOptions,
     columns: &Columns,
-    identity: Identity,
+    needs: Needs,
 ) -> Result<(Dialect, Header), Refusal> {
     let sample = Sample::new(sample, is_whole, options)?;
     let candidates = candidates(&sample, options);
@@ -260,7 +260,7 @@ pub(super) fn find(
         sample: &sample,
         candidates: &candidates,
         columns,
-        identity,
+        needs,
     };
     let (cutting, header) = match best {
         Some(cutting) => table.header(cutting)?,
@@ -311,7 +311,7 @@ struct Table<'t> {
     sample: &'t Sample,
     candidates: &'t [(Separator, Option<char>)],
     columns: &'t Columns,
-    identity: Identity,
+    needs: Needs,
 }
 
 impl Table<'_> {
@@ -320,8 +320,8 @@ impl Table<'_> {
         let Cutting {
             width, first_row, ..
         } = cutting;
-        if self.columns.are_numbered(self.identity) {
-            let header = Header::find(None, width, self.columns, self.identity);
+        if self.columns.are_numbered(self.needs) {
+            let header = Header::find(None, width, self.columns, self.needs);
             return Ok((
                 cutting,
                 (None, header.map_err(|fault| fault.at(first_row))?),
@@ -387,7 +387,7 @@ impl Table<'_> {
             quoted: 0,
             is_open: false,
         };
-        let is_numbered = self.columns.are_numbered(self.identity);
+        let is_numbered = self.columns.are_numbered(self.needs);
         for (line, text, _) in lines().filter(|_| !is_numbered) {
             for candidate in self.candidates {
                 if let Ok(header) = self.names(text, candidate.0, candidate.1) {
@@ -404,7 +404,7 @@ impl Table<'_> {
             return Err(Fault::Empty.at(line));
         };
         let header = if is_numbered {
-            Header::find(None, widest.width, self.columns, self.identity)
+            Header::find(None, widest.width, self.columns, self.needs)
         } else {
             self.names(text, widest.separator, widest.quote)
         };
@@ -425,6 +425,6 @@ impl Table<'_> {
             .map(|name| name.replace("\"\"", "\""))
             .collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        Header::find(Some(&names), names.len(), self.columns, self.identity)
+        Header::find(Some(&names), names.len(), self.columns, self.needs)
     }
 }

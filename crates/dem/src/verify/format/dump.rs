@@ -57,7 +57,7 @@ pub(in crate::verify) fn read(
                 (_, Some(names)) => {
                     let names: Vec<&str> = names.split_whitespace().collect();
                     let columns =
-                        Header::find(Some(&names), names.len(), &format.columns, format.identity);
+                        Header::find(Some(&names), names.len(), &format.columns, format.needs);
                     let columns = columns.map_err(|fault| fault.at(number))?;
                     let step = header.timestep.as_deref().unwrap_or("without a number");
                     let is_read = steps.reads(step, sink);

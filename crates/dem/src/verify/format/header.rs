@@ -14,6 +14,16 @@ pub(in crate::verify) enum Identity {
     #[default]
     Numbers,
     Places,
+    /// One sphere, which touches the floor.
+    OnFloor,
+}
+
+/// What a table must contain, and what is read if it is there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::verify) struct Needs {
+    pub(in crate::verify) identity: Identity,
+    /// Whether tangential forces are read.
+    pub(in crate::verify) tangential: bool,
 }
 
 /// The columns that are read. All others may hold anything.
@@ -27,7 +37,7 @@ pub(in crate::verify) struct Header {
     sums: [Vec<(usize, f64)>; Quantity::COUNT],
     kinds: Vec<String>,
     first_id: u64,
-    identity: Identity,
+    needs: Needs,
     decimal_comma: bool,
 }
 
@@ -47,7 +57,7 @@ impl Header {
         names: Option<&[&str]>,
         width: usize,
         columns: &Columns,
-        identity: Identity,
+        needs: Needs,
     ) -> Result<Self, Fault> {
         let mut header = Self {
             width,
@@ -56,7 +66,7 @@ impl Header {
             sums: Quantity::ALL.map(|_| Vec::new()),
             kinds: columns.kinds().to_vec(),
             first_id: columns.first_id(),
-            identity,
+            needs,
             decimal_comma: false,
         };
         let names = names.unwrap_or(&[]);
@@ -109,30 +119,45 @@ impl Header {
         is_there: impl Fn(&Quantity) -> bool,
         is_mapped: impl Fn(&Quantity) -> bool,
     ) -> Vec<Quantity> {
-        use Quantity::{Force, Fx, Fy, Fz, Id1, Id2, Kind, Step, X, X1, X2, Y, Y1, Y2, Z, Z1, Z2};
+        use Quantity::{Force, Fx, Fy, Fz, Id, Id1, Id2, Kind, Step};
+        use Quantity::{Tx, Ty, Tz, X, X1, X2, Y, Y1, Y2, Z, Z1, Z2};
         const NUMBERS: &[Quantity] = &[Id1, Id2];
         const CENTRES: &[Quantity] = &[X1, Y1, Z1, X2, Y2, Z2];
         const POINT: &[Quantity] = &[X, Y, Z];
         const VECTOR: &[Quantity] = &[Fx, Fy, Fz];
+        const TANGENTIAL: &[Quantity] = &[Tx, Ty, Tz];
         let are_there = |quantities: &[Quantity]| quantities.iter().all(&is_there);
         let is_any_mapped = |quantities: &[Quantity]| quantities.iter().any(&is_mapped);
         let has_point = are_there(&[X, Z]) && !are_there(&[X1, Z1, X2, Z2]);
         let has_centres = CENTRES.iter().any(&is_there);
-        let identity = match self.identity {
+        let identity = match self.needs.identity {
             Identity::Numbers => NUMBERS,
+            Identity::OnFloor => &[Id],
             Identity::Places if has_centres && (!has_point || is_any_mapped(CENTRES)) => CENTRES,
             Identity::Places => POINT,
         };
         let is_incomplete = is_there(&Force) && !are_there(VECTOR) && !is_any_mapped(VECTOR);
         let vector = if is_incomplete { &[] } else { VECTOR };
-        [identity, &[Force], vector, &[Kind, Step]].concat()
+        // A vector that the user maps is a sum that may contain the tangential force.
+        let has_tangential = if is_any_mapped(VECTOR) {
+            is_any_mapped(TANGENTIAL)
+        } else {
+            TANGENTIAL.iter().any(&is_there)
+        };
+        let tangential = if self.needs.tangential && has_tangential {
+            TANGENTIAL
+        } else {
+            &[]
+        };
+        [identity, &[Force], vector, tangential, &[Kind, Step]].concat()
     }
 
     /// Returns the first necessary quantity without a column.
     fn missing(&self) -> Option<Quantity> {
-        use Quantity::{Force, Fx, Fy, Fz, Id1, Id2, X, X1, X2, Z, Z1, Z2};
-        let identity: &[Quantity] = match self.identity {
+        use Quantity::{Force, Fx, Fy, Fz, Id, Id1, Id2, Tx, Ty, Tz, X, X1, X2, Z, Z1, Z2};
+        let identity: &[Quantity] = match self.needs.identity {
             Identity::Numbers => &[Id1, Id2],
+            Identity::OnFloor => &[Id],
             Identity::Places if self.has_centres() => &[X1, Z1, X2, Z2],
             Identity::Places => &[X, Z],
         };
@@ -142,8 +167,14 @@ impl Header {
         } else {
             &[Force]
         };
+        let tangential: &[Quantity] = if self.has_tangential() {
+            &[Tx, Ty, Tz]
+        } else {
+            &[]
+        };
         let lacks = |quantity: &Quantity| !self.has(*quantity);
-        identity.iter().chain(force).copied().find(lacks)
+        let needed = identity.iter().chain(force).chain(tangential);
+        needed.copied().find(lacks)
     }
 
     fn sum_of(&self, quantity: Quantity) -> &[(usize, f64)] {
@@ -164,6 +195,13 @@ impl Header {
     fn has_vector(&self) -> bool {
         use Quantity::{Fx, Fy, Fz};
         [Fx, Fy, Fz]
+            .into_iter()
+            .any(|component| self.has(component))
+    }
+
+    fn has_tangential(&self) -> bool {
+        use Quantity::{Tx, Ty, Tz};
+        [Tx, Ty, Tz]
             .into_iter()
             .any(|component| self.has(component))
     }
@@ -252,11 +290,13 @@ impl Header {
     fn entry(&self, cells: &[&str]) -> Result<Entry, Fault> {
         let number = |quantity| self.number(quantity, cells);
         let vector = |[x, y, z]: [Quantity; 3]| Ok([number(x)?, number(y)?, number(z)?]);
-        let spheres = match self.identity {
+        let spheres = match self.needs.identity {
             Identity::Numbers => Spheres::Numbers([
                 self.id(Quantity::Id1, cells)?,
                 self.id(Quantity::Id2, cells)?,
             ]),
+            // No sphere has the number 0.
+            Identity::OnFloor => Spheres::Numbers([self.id(Quantity::Id, cells)?, 0]),
             Identity::Places if self.has_centres() => Spheres::Places(Place::Centres([
                 vector([Quantity::X1, Quantity::Y1, Quantity::Z1])?,
                 vector([Quantity::X2, Quantity::Y2, Quantity::Z2])?,
@@ -273,7 +313,13 @@ impl Header {
             // A header without a force and without a vector was rejected before.
             (_, false) => Force::Along(number(Quantity::Force)?),
         };
-        Ok(Entry { spheres, force })
+        let tangential = [Quantity::Tx, Quantity::Ty, Quantity::Tz];
+        let tangential = self.has_tangential().then(|| vector(tangential));
+        Ok(Entry {
+            spheres,
+            force,
+            tangential: tangential.transpose()?,
+        })
     }
 
     /// Returns the cell of a quantity that is one column.

@@ -23,7 +23,7 @@ pub(in crate::verify) fn read(
         source.is_whole,
         &format.dialect,
         &format.columns,
-        format.identity,
+        format.needs,
     )?;
     let options = &format.dialect;
     let skipped = options.skip.unwrap_or(0);

@@ -42,7 +42,7 @@ pub(super) fn read(
 ) -> Result<(), Refusal> {
     let columns = columns(piece, rows)?;
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-    let header = Header::find(Some(&names), names.len(), &format.columns, format.identity);
+    let header = Header::find(Some(&names), names.len(), &format.columns, format.needs);
     let header = header.map_err(|fault| fault.at(1))?;
     let mut decoded = BTreeMap::new();
     // A line may begin at a ghost without being one.

@@ -38,9 +38,10 @@ fn columns_are_found_by_name() {
     }
     let alone = "id1,id2,fx,fy,fz\n1,2,2,1,2\n4,1,0,3,4\n";
     let want = [
-        Measured::new([1, 2], 3.0).with_vector([2.0, 1.0, 2.0]),
-        Measured::new([4, 1], -5.0).with_vector([0.0, 3.0, 4.0]),
+        Measured::of_vector([1, 2], [2.0, 1.0, 2.0]),
+        Measured::of_vector([4, 1], [0.0, 3.0, 4.0]),
     ];
+    assert_eq!(want.map(|measured| measured.force), [3.0, -5.0]);
     assert_eq!(read(alone), want);
     let vectors = "fz,force,id1,id2,fx,fy\n3,0.5,1,2,1,-2\n";
     let want = Measured::new([1, 2], 0.5).with_vector([1.0, -2.0, 3.0]);
