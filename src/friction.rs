@@ -367,6 +367,55 @@ impl<'p> RoughPacking<'p> {
         Ok(self.contact_friction() * &self.on_rough_floor.floor_friction()?)
     }
 
+    /// Returns whether contacts hold at a coefficient of friction μ ≥ 0: tan(θ/2) ≤ μ, unless no contact has a force. The
+    /// comparison is exact.
+    ///
+    /// # Errors
+    /// As for [`Pile::base_extremes`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile, ratio};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// // tanθ = 3/4, so tan(θ/2) is 1/3.
+    /// let rough = Packing::new(&pile, &"6/5".parse()?)?.on_rough_floor()?;
+    /// assert!(rough.contacts_hold_at(&ratio!(1/3))? && !rough.contacts_hold_at(&ratio!(333/1000))?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contacts_hold_at(&self, friction: &BigRational) -> Result<bool, Error> {
+        // The forces on an outermost lower sphere come from one side, so they do not cancel.
+        let needed = self.on_rough_floor.floor_friction()?.square();
+        Ok(needed.is_zero() || self.half_angle_is_within(&(friction * friction)))
+    }
+
+    /// Returns whether no bottom sphere slides at a coefficient of friction μ ≥ 0 of the floor. The comparison is exact.
+    ///
+    /// # Errors
+    /// As for [`Pile::base_extremes`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile, ratio};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// // A disc bears 3/2 mg, and the friction is 1/2 mg·tan(θ/2).
+    /// let rough = Packing::new(&pile, &"6/5".parse()?)?.on_rough_floor()?;
+    /// assert!(rough.floor_holds_at(&ratio!(1/9))? && !rough.floor_holds_at(&ratio!(11/100))?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn floor_holds_at(&self, friction: &BigRational) -> Result<bool, Error> {
+        let needed = self.on_rough_floor.floor_friction()?.square();
+        Ok(needed.is_zero() || self.half_angle_is_within(&(friction * friction / needed)))
+    }
+
+    /// Returns whether tan²(θ/2) is at most this number t, from cosθ ≥ (1 − t)/(1 + t).
+    fn half_angle_is_within(&self, square: &BigRational) -> bool {
+        let one = BigRational::one();
+        let least = (&one - square) / (&one + square);
+        self.packing.inclination().cos() >= Surd::from(least)
+    }
+
     /// Returns tan(θ/2)/tanθ = (cosθ − cos²θ)/sin²θ, which converts horizontal forces.
     fn ratio(&self) -> SurdSum {
         let inclination = self.packing.inclination();

@@ -4,14 +4,17 @@ mod extremes;
 mod lists;
 mod page;
 mod record;
+mod rough;
 
 use std::io::Write;
 
 use num_rational::BigRational;
+use serde_json::Value as Json;
 
 use super::numbered::NumberedPile;
 use crate::scene::State;
 use crate::table::WriteError;
+use crate::{Error, Friction};
 use cannonpile::Pile;
 use cannonpile::lattice::Dimension;
 
@@ -80,15 +83,20 @@ fn layers(pile: &Pile) -> String {
     }
 }
 
-/// Writes the card in Markdown.
+/// Writes the card in Markdown. With friction, the pile is on a rough floor.
 pub(super) fn write_markdown(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
+    friction: Option<&Friction>,
     scene: Option<&str>,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let card = record::record(pile, title, scene, FOR_PEOPLE)?;
-    let page = page::page(pile, title, card)?;
+    let card = card(pile, title, friction, scene, FOR_PEOPLE)?;
+    let layout = match friction {
+        None => page::Layout::GLUED,
+        Some(_) => rough::LAYOUT,
+    };
+    let page = page::page(pile, title, card, &layout)?;
     Ok(out.write_all(page.as_bytes())?)
 }
 
@@ -96,10 +104,24 @@ pub(super) fn write_markdown(
 pub(super) fn write_json(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
+    friction: Option<&Friction>,
     scene: Option<&str>,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let (card, _) = record::record(pile, title, scene, FOR_MACHINES)?;
+    let (card, _) = card(pile, title, friction, scene, FOR_MACHINES)?;
     serde_json::to_writer_pretty(&mut *out, &card)?;
     Ok(writeln!(out)?)
+}
+
+fn card(
+    pile: &NumberedPile<'_>,
+    title: &CardTitle,
+    friction: Option<&Friction>,
+    scene: Option<&str>,
+    most: u32,
+) -> Result<(Json, record::Names), Error> {
+    match friction {
+        None => record::record(pile, title, scene, most),
+        Some(friction) => rough::record(pile, title, friction, scene, most),
+    }
 }

@@ -115,6 +115,13 @@ impl fmt::Display for Whole<'_> {
             } => f.write_str(
                 "the elastic state needs a floor with glue, not a rough one: leave out state or floor",
             ),
+            Error::Excluded {
+                given,
+                beside: Key::Floor,
+            } => write!(
+                f,
+                "only a rough floor has friction: use floor rough, or leave {given} out"
+            ),
             Error::Excluded { given, beside } => {
                 // Only the dimension 2 excludes other options.
                 let two = if *beside == Key::Dimension { " 2" } else { "" };
@@ -150,7 +157,7 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::GluedOnly { file } => write!(
                 f,
-                "{file} is only written for a floor with glue: use the formats of LAMMPS and YADE, or a floor with glue"
+                "{file} is only written for a floor with glue: use the formats lammps, yade and card, or a floor with glue"
             ),
             Error::MustPull { remedy } => write!(
                 f,

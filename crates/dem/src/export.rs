@@ -144,7 +144,8 @@ impl<'p> PileExport<'p> {
         Self { title, ..self }
     }
 
-    /// Returns the export of the pile on a rough floor. Only [`PileFormat::Lammps`] and [`PileFormat::Yade`] support it.
+    /// Returns the export of the pile on a rough floor. Only [`PileFormat::Lammps`], [`PileFormat::Yade`] and [`PileFormat::Card`]
+    /// support it.
     ///
     /// # Errors
     /// [`Error::RoughFloor`](cannonpile::Error::RoughFloor).
@@ -160,7 +161,7 @@ impl<'p> PileExport<'p> {
     /// let mut script = Vec::new();
     /// export.write_file(PileFile::LammpsInput, &mut script, &mut |_| {})?;
     /// assert!(String::from_utf8(script)?.contains("wall/gran granular"));
-    /// assert!(export.write_file(PileFile::CardJson, &mut Vec::new(), &mut |_| {}).is_err());
+    /// assert!(export.write_file(PileFile::ContactsCsv, &mut Vec::new(), &mut |_| {}).is_err());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn on_rough_floor(self, friction: Friction) -> Result<Self, Error> {
@@ -282,32 +283,35 @@ impl<'p> PileExport<'p> {
         let (pile, mut row) = (&self.pile, Progress::new(progress));
         let row = &mut || row.row();
         self.check_floor(file)?;
+        let scene = self.scene.as_deref();
         match file {
             PileFile::SpheresCsv => csv::write_spheres(pile, out, row),
             PileFile::ContactsCsv => csv::write_contacts(pile, out, row),
             PileFile::BaseCsv => csv::write_base(pile, out, row),
             PileFile::ColumnsCsv => csv::write_columns(pile, out),
             PileFile::LammpsData => lammps::write_data(pile, out, row),
-            PileFile::LammpsInput => match self.friction {
+            PileFile::LammpsInput => match &self.friction {
                 None => lammps::write_input(pile, out),
                 Some(friction) => rough::write_lammps(pile, friction, out),
             },
             PileFile::SpheresVtp => vtp::write_spheres(pile, out, row),
             PileFile::ContactsVtp => vtp::write_contacts(pile, out, row),
             PileFile::YadeSpheres => yade::write_spheres(pile, out, row),
-            PileFile::YadeScript => match self.friction {
+            PileFile::YadeScript => match &self.friction {
                 None => yade::write_script(pile, out),
                 Some(friction) => rough::write_yade(pile, friction, out),
             },
             PileFile::CardMarkdown => {
-                card::write_markdown(pile, &self.title, self.scene.as_deref(), out)
+                card::write_markdown(pile, &self.title, self.friction.as_ref(), scene, out)
             }
-            PileFile::CardJson => card::write_json(pile, &self.title, self.scene.as_deref(), out),
+            PileFile::CardJson => {
+                card::write_json(pile, &self.title, self.friction.as_ref(), scene, out)
+            }
             PileFile::LammpsTest => {
                 lammps_test::write(pile, &card::heading(pile, &self.title), out)
             }
             PileFile::YadeCheck => yade_check::write(pile, &card::heading(pile, &self.title), out),
-            PileFile::Scene => Ok(out.write_all(self.scene.as_deref().unwrap_or("").as_bytes())?),
+            PileFile::Scene => Ok(out.write_all(scene.unwrap_or("").as_bytes())?),
         }
     }
 
@@ -318,6 +322,8 @@ impl<'p> PileExport<'p> {
             | PileFile::LammpsData
             | PileFile::YadeScript
             | PileFile::YadeSpheres
+            | PileFile::CardMarkdown
+            | PileFile::CardJson
             | PileFile::Scene => Ok(()),
             _ if self.friction.is_none() => Ok(()),
             _ => Err(Error::GluedOnly { file: file.name() }),

@@ -49,11 +49,15 @@ pub enum Key {
     StiffnessRatio,
     /// A floor with glue, or a rough one.
     Floor,
+    /// The coefficient of friction between spheres.
+    Friction,
+    /// The coefficient of friction of the floor.
+    FloorFriction,
 }
 
 impl Key {
     /// All keys, in the order of a written scene file.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Layers,
         Self::Stacking,
         Self::Top,
@@ -70,6 +74,8 @@ impl Key {
         Self::State,
         Self::StiffnessRatio,
         Self::Floor,
+        Self::Friction,
+        Self::FloorFriction,
     ];
 
     /// Returns the key as written in a file: `layers`, `sin-phi`.
@@ -99,6 +105,8 @@ impl Key {
             Self::State => "state",
             Self::StiffnessRatio => "stiffness-ratio",
             Self::Floor => "floor",
+            Self::Friction => "friction",
+            Self::FloorFriction => "floor-friction",
         }
     }
 }

@@ -13,6 +13,7 @@ use super::yade::{by_id, texts, with_vector};
 use crate::Error;
 use crate::table::WriteError;
 use cannonpile::Packing;
+use cannonpile::friction::RoughPacking;
 use cannonpile::lattice::Dimension;
 
 /// The coefficients of friction of a simulated pile on a rough floor.
@@ -28,10 +29,18 @@ use cannonpile::lattice::Dimension;
 /// assert!(friction.spheres() > 0.8 && friction.floor() > 0.2);
 /// # Ok::<(), cannonpile_dem::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
-    spheres: f64,
-    floor: f64,
+    spheres: Coefficient,
+    floor: Coefficient,
+}
+
+/// A coefficient of friction.
+#[derive(Clone, Debug, PartialEq)]
+struct Coefficient {
+    rounded: f64,
+    /// The exact value. `None` for twice the needed one.
+    exact: Option<BigRational>,
 }
 
 impl Friction {
@@ -46,8 +55,12 @@ impl Friction {
     pub fn sufficient(packing: &Packing<'_>) -> Result<Self, Error> {
         let rough = packing.on_rough_floor()?;
         let twice = |needed: Option<f64>| {
-            let needed = needed.map(|needed| 2.0 * needed);
-            needed.ok_or_else(|| Error::overflow("friction", "f64"))
+            let rounded = needed.map(|needed| 2.0 * needed);
+            let rounded = rounded.ok_or_else(|| Error::overflow("friction", "f64"))?;
+            Ok::<_, Error>(Coefficient {
+                rounded,
+                exact: None,
+            })
         };
         Ok(Self {
             spheres: twice(rough.contact_friction().nearest())?,
@@ -63,7 +76,7 @@ impl Friction {
     /// # Examples
     /// See [`with_floor`](Self::with_floor).
     pub fn with_spheres(self, coefficient: &BigRational) -> Result<Self, Error> {
-        let spheres = rounded(coefficient)?;
+        let spheres = Coefficient::of(coefficient)?;
         Ok(Self { spheres, ..self })
     }
 
@@ -85,7 +98,7 @@ impl Friction {
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     pub fn with_floor(self, coefficient: &BigRational) -> Result<Self, Error> {
-        let floor = rounded(coefficient)?;
+        let floor = Coefficient::of(coefficient)?;
         Ok(Self { floor, ..self })
     }
 
@@ -95,7 +108,7 @@ impl Friction {
     /// See [`Friction`].
     #[must_use]
     pub const fn spheres(&self) -> f64 {
-        self.spheres
+        self.spheres.rounded
     }
 
     /// Returns the coefficient between spheres and floor.
@@ -104,30 +117,44 @@ impl Friction {
     /// See [`Friction`].
     #[must_use]
     pub const fn floor(&self) -> f64 {
-        self.floor
+        self.floor.rounded
+    }
+
+    /// Returns whether the contacts between spheres hold, and whether no sphere slides on the floor. The comparison is exact.
+    pub(super) fn holds(&self, rough: &RoughPacking<'_>) -> Result<[bool; 2], Error> {
+        let Self { spheres, floor } = self;
+        let contacts = spheres.exact.as_ref();
+        let contacts = contacts.map_or(Ok(true), |friction| rough.contacts_hold_at(friction))?;
+        let floor = floor.exact.as_ref();
+        let floor = floor.map_or(Ok(true), |friction| rough.floor_holds_at(friction))?;
+        Ok([contacts, floor])
     }
 }
 
-/// Returns a coefficient of friction, correctly rounded.
-fn rounded(coefficient: &BigRational) -> Result<f64, Error> {
-    if !coefficient.is_positive() {
-        return Err(cannonpile::Error::not_positive("friction", coefficient.clone()).into());
+impl Coefficient {
+    fn of(exact: &BigRational) -> Result<Self, Error> {
+        if !exact.is_positive() {
+            return Err(cannonpile::Error::not_positive("friction", exact.clone()).into());
+        }
+        Ok(Self {
+            rounded: normal(exact, "friction")?,
+            exact: Some(exact.clone()),
+        })
     }
-    normal(coefficient, "friction")
 }
 
 /// Writes a script for LAMMPS that raises gravity slowly, and writes the forces of the final state.
 pub(super) fn write_lammps(
     pile: &NumberedPile<'_>,
-    friction: Friction,
+    friction: &Friction,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
     let number = |x: f64| format!("{x:?}");
     let radius = normal(pile.packing().radius(), "radius")?;
     let mut texts = script_texts(pile)?;
     texts.extend([
-        ("friction", number(friction.spheres)),
-        ("floor_friction", number(friction.floor)),
+        ("friction", number(friction.spheres())),
+        ("floor_friction", number(friction.floor())),
         ("table", number(-radius)),
         ("loads", loads(pile)?),
     ]);
@@ -137,7 +164,7 @@ pub(super) fn write_lammps(
 /// Writes a script for YADE that raises gravity slowly, and writes the forces of the final state.
 pub(super) fn write_yade(
     pile: &NumberedPile<'_>,
-    friction: Friction,
+    friction: &Friction,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
     let mut texts = texts(pile)?;
@@ -151,8 +178,8 @@ pub(super) fn write_yade(
     texts.extend([
         ("blocked", blocked.to_owned()),
         ("loads", by_id(loads)),
-        ("friction", format!("{:?}", friction.spheres)),
-        ("floor_friction", format!("{:?}", friction.floor)),
+        ("friction", format!("{:?}", friction.spheres())),
+        ("floor_friction", format!("{:?}", friction.floor())),
     ]);
     Ok(out.write_all(fill(include_str!("rough.py"), &texts).as_bytes())?)
 }

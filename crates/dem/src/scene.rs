@@ -11,7 +11,7 @@ use core::str::FromStr;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use crate::{Error, Key};
+use crate::{Error, Friction, Key};
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::shape::Shape;
@@ -156,6 +156,12 @@ pub struct Scene {
     pub stiffness_ratio: BigRational,
     /// The floor (default: glued).
     pub floor: Floor,
+    /// The coefficient of friction between spheres on a rough floor (default: twice the needed one).
+    #[serde(with = "cannonpile::data::number")]
+    pub friction: Option<BigRational>,
+    /// The coefficient of friction of a rough floor (default: twice the needed one).
+    #[serde(with = "cannonpile::data::number")]
+    pub floor_friction: Option<BigRational>,
 }
 
 /// Returns the key of the layer that the pile grows from: the top or the base.
@@ -184,6 +190,8 @@ impl Default for Scene {
             state: State::Isostatic,
             stiffness_ratio: BigRational::one(),
             floor: Floor::Glued,
+            friction: None,
+            floor_friction: None,
         }
     }
 }
@@ -224,10 +232,23 @@ impl Scene {
         if let Some(spacing) = &self.spacing {
             pile.clearance().check(spacing)?;
         }
-        if self.floor == Floor::Rough {
-            self.check_rough(&pile)?;
+        match (self.floor, self.coefficients().next()) {
+            (Floor::Rough, _) => self.check_rough(&pile)?,
+            (Floor::Glued, None) => {}
+            (Floor::Glued, Some((given, _))) => {
+                let beside = Key::Floor;
+                return Err(Error::Excluded { given, beside });
+            }
         }
         Ok(pile)
+    }
+
+    /// Returns the coefficients of friction that are given.
+    fn coefficients(&self) -> impl Iterator<Item = (Key, &BigRational)> {
+        let spheres = (Key::Friction, &self.friction);
+        let floor = (Key::FloorFriction, &self.floor_friction);
+        let given = [spheres, floor].into_iter();
+        given.filter_map(|(key, given)| Some((key, given.as_ref()?)))
     }
 
     /// Checks that the forces on a rough floor are unique.
@@ -287,7 +308,7 @@ impl Scene {
         }
     }
 
-    /// Checks that radius, mass, gravity and stiffness ratio are positive, even if they are not used.
+    /// Checks that radius, mass, gravity, stiffness ratio and coefficients of friction are positive, even if they are not used.
     ///
     /// # Errors
     /// [`Error::NotPositive`](cannonpile::Error::NotPositive).
@@ -302,12 +323,13 @@ impl Scene {
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     pub fn check_sizes(&self) -> Result<(), Error> {
-        for (quantity, value) in [
+        let sizes = [
             (Key::Radius, &self.radius),
             (Key::Mass, &self.mass),
             (Key::Gravity, &self.gravity),
             (Key::StiffnessRatio, &self.stiffness_ratio),
-        ] {
+        ];
+        for (quantity, value) in sizes.into_iter().chain(self.coefficients()) {
             if !value.is_positive() {
                 let (name, value) = (quantity.name(), value.clone());
                 return Err(cannonpile::Error::not_positive(name, value).into());
@@ -427,6 +449,69 @@ impl Scene {
             .with_radius(self.radius.clone())?
             .with_mass(self.mass.clone())?;
         Ok(packing.with_gravity(self.gravity.clone())?)
+    }
+
+    /// Returns the coefficients of friction of a packing of this scene, rounded. `None` for a floor with glue.
+    ///
+    /// # Errors
+    /// As for [`Friction::sufficient`] and [`Friction::with_spheres`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::Scene;
+    ///
+    /// let scene = Scene::from_toml("layers = 2\nfloor = 'rough'\nfriction = 0.41")?;
+    /// let pile = scene.pile()?;
+    /// let friction = scene.friction(&scene.packing(&pile)?)?.unwrap();
+    /// assert_eq!((friction.spheres(), friction.floor()), (0.41, 0.201271336620499));
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn friction(&self, packing: &Packing<'_>) -> Result<Option<Friction>, Error> {
+        if self.floor == Floor::Glued {
+            return Ok(None);
+        }
+        let mut friction = Friction::sufficient(packing)?;
+        if let Some(spheres) = &self.friction {
+            friction = friction.with_spheres(spheres)?;
+        }
+        if let Some(floor) = &self.floor_friction {
+            friction = friction.with_floor(floor)?;
+        }
+        Ok(Some(friction))
+    }
+
+    /// Returns whether a packing of this scene stands with its coefficients of friction. `None` if none is given.
+    ///
+    /// The comparison is exact. A coefficient that is not given is large enough.
+    ///
+    /// # Errors
+    /// As for [`Packing::on_rough_floor`] and [`RoughPacking::floor_holds_at`](cannonpile::friction::RoughPacking::floor_holds_at).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::Scene;
+    ///
+    /// // tan(θ/2) = 0.4025…
+    /// for (friction, stands) in [(0.402, false), (0.403, true)] {
+    ///     let scene = Scene::from_toml(&format!("layers = 2\nfloor = 'rough'\nfriction = {friction}"))?;
+    ///     let pile = scene.pile()?;
+    ///     assert_eq!(scene.stands_with_friction(&scene.packing(&pile)?)?, Some(stands));
+    /// }
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn stands_with_friction(&self, packing: &Packing<'_>) -> Result<Option<bool>, Error> {
+        if self.coefficients().next().is_none() {
+            return Ok(None);
+        }
+        let rough = packing.on_rough_floor()?;
+        let holds = |given: &Option<BigRational>, holds: &dyn Fn(&BigRational) -> _| {
+            given.as_ref().map_or(Ok(true), holds)
+        };
+        let contacts = holds(&self.friction, &|friction| rough.contacts_hold_at(friction))?;
+        let floor = holds(&self.floor_friction, &|friction| {
+            rough.floor_holds_at(friction)
+        })?;
+        Ok(Some(contacts && floor))
     }
 }
 

@@ -35,7 +35,7 @@ pub(crate) struct SceneOptions {
         value_parser = NamedFile::of_case,
         conflicts_with_all = [
             "scene_file", "layers", "stacking", "top", "base", "dimension", "sin_phi", "load", "tilt", "weightless", "spacing", "radius",
-            "mass", "gravity", "stiffness_ratio", "floor",
+            "mass", "gravity", "stiffness_ratio", "floor", "friction", "floor_friction",
         ]
     )]
     case: Option<NamedFile>,
@@ -89,6 +89,12 @@ pub(crate) struct SceneOptions {
     /// Floor: glued, or rough for two layers with friction everywhere [default: glued]
     #[arg(long, value_name = "FLOOR", value_parser = str::parse::<Floor>)]
     floor: Option<Floor>,
+    /// Coefficient of friction between spheres, with --floor rough [default: twice the needed one]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = parse::rational)]
+    friction: Option<BigRational>,
+    /// Coefficient of friction of the floor, with --floor rough [default: twice the needed one]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = parse::rational)]
+    floor_friction: Option<BigRational>,
 }
 
 impl SceneOptions {
@@ -126,6 +132,17 @@ impl SceneOptions {
         Ok(check_scene(scene)?)
     }
 
+    /// Returns the scene on a rough floor and its pile, with two layers by default.
+    pub(crate) fn read_rough(&self) -> Result<(Scene, Pile), Failure> {
+        let mut scene = self.scene()?;
+        self.check_ratio(&scene)?;
+        scene.floor = Floor::Rough;
+        if scene.stacking.is_none() {
+            scene.layers = scene.layers.or(Some(2));
+        }
+        Ok(check_scene(scene)?)
+    }
+
     fn on_glue(&self) -> Result<Scene, Failure> {
         let scene = self.scene()?;
         if scene.floor == Floor::Glued {
@@ -133,7 +150,7 @@ impl SceneOptions {
         }
         let place = self.place(Key::Floor);
         Err(Failure::Message(format!(
-            "{place}: only base, contacts, summary, export and scene support a rough floor: use --floor glued"
+            "{place}: only base, contacts, summary, export, verify, plot friction and scene support a rough floor: use --floor glued"
         )))
     }
 
@@ -311,6 +328,8 @@ impl SceneOptions {
             state: self.state.unwrap_or(file.state),
             stiffness_ratio: self.stiffness_ratio.clone().unwrap_or(file.stiffness_ratio),
             floor: self.floor.unwrap_or(file.floor),
+            friction: self.friction.clone().or(file.friction),
+            floor_friction: self.floor_friction.clone().or(file.floor_friction),
         })
     }
 
@@ -396,6 +415,8 @@ impl SceneOptions {
             "state" => self.state.is_some(),
             "stiffness-ratio" => self.stiffness_ratio.is_some(),
             "floor" => self.floor.is_some(),
+            "friction" => self.friction.is_some(),
+            "floor-friction" => self.floor_friction.is_some(),
             _ => false,
         }
     }

@@ -79,6 +79,10 @@ struct UnsupportedOptions {
     #[arg(long, hide = true, allow_hyphen_values = true)]
     floor: Option<String>,
     #[arg(long, hide = true, allow_hyphen_values = true)]
+    friction: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    floor_friction: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
     radius: Option<String>,
     #[arg(long, hide = true, allow_hyphen_values = true)]
     mass: Option<String>,
@@ -97,6 +101,8 @@ impl UnsupportedOptions {
             (Key::State, &self.state),
             (Key::StiffnessRatio, &self.stiffness_ratio),
             (Key::Floor, &self.floor),
+            (Key::Friction, &self.friction),
+            (Key::FloorFriction, &self.floor_friction),
             (Key::Radius, &self.radius),
             (Key::Mass, &self.mass),
             (Key::Gravity, &self.gravity),
@@ -132,7 +138,9 @@ const fn reason(key: Key) -> &'static str {
     match key {
         Key::Stacking => "the mean is over all stackings: leave it out, or use the command base",
         Key::Tilt => UPRIGHT_GRAVITY,
-        Key::Floor => "random stackings stand on a floor with glue: leave it out",
+        Key::Floor | Key::Friction | Key::FloorFriction => {
+            "random stackings stand on a floor with glue: leave it out"
+        }
         Key::Dimension | Key::SinPhi => {
             "random stackings consist of spheres on an equilateral lattice: leave it out"
         }

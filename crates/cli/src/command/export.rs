@@ -5,14 +5,13 @@ use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
 use cannonpile::Packing;
-use cannonpile_dem::scene::{Floor, Scene, State, parse};
+use cannonpile_dem::scene::{Scene, State};
 use cannonpile_dem::table::{NumberFormat, WriteError, write_aside};
 use cannonpile_dem::{
     CardTitle, Friction, OtherFile, PileExport, PileFile, PileFormat, Written, files,
 };
 use cannonpile_figure::viewer::Page;
 use clap::{Args, ValueEnum};
-use num_rational::BigRational;
 use num_traits::One;
 
 use super::note_instability;
@@ -55,12 +54,6 @@ pub(crate) struct Export {
     to: Vec<Target>,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
-    /// Coefficient of friction between spheres, with --floor rough [default: twice the needed one]
-    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = parse::rational)]
-    friction: Option<BigRational>,
-    /// Coefficient of friction of the floor, with --floor rough [default: twice the needed one]
-    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = parse::rational)]
-    floor_friction: Option<BigRational>,
     /// Add the stress of each sphere times its volume to spheres.csv and spheres.vtp, in N·m
     #[arg(long)]
     stress: bool,
@@ -197,38 +190,23 @@ impl Export {
         packing: &Packing<'_>,
         formats: &[PileFormat],
     ) -> Result<Option<Friction>, Failure> {
-        let given = [
-            ("friction", &self.friction),
-            ("floor-friction", &self.floor_friction),
-        ];
-        if scene.floor == Floor::Glued {
-            let given = given.into_iter().find(|(_, given)| given.is_some());
-            return match given {
-                None => Ok(None),
-                Some((option, _)) => Err(Failure::Message(format!(
-                    "--{option}: only a rough floor has friction: add --floor rough, or leave it out"
-                ))),
-            };
-        }
-        let simulated = [PileFormat::Lammps, PileFormat::Yade];
-        let is_other = |format: &PileFormat| !simulated.contains(format);
+        let friction = scene.friction(packing).map_err(|error| match error {
+            cannonpile_dem::Error::Core(cannonpile::Error::Overflow { .. }) => Failure::Message(
+                "--friction, --floor-friction: outside the range of f64: use a coefficient such as 0.5"
+                    .to_owned(),
+            ),
+            error => error.into(),
+        })?;
+        let Some(friction) = friction else {
+            return Ok(None);
+        };
+        let supported = [PileFormat::Lammps, PileFormat::Yade, PileFormat::Card];
+        let is_other = |format: &PileFormat| !supported.contains(format);
         if self.to.contains(&Target::Html) || formats.iter().any(is_other) {
             return Err(Failure::Message(
-                "--to: a rough floor supports lammps and yade: use --to lammps,yade".to_owned(),
+                "--to: a rough floor supports lammps, yade and card: use --to lammps,yade,card"
+                    .to_owned(),
             ));
-        }
-        let mut friction = Friction::sufficient(packing)?;
-        for ((option, given), with) in given
-            .into_iter()
-            .zip([Friction::with_spheres, Friction::with_floor])
-        {
-            if let Some(given) = given {
-                friction = with(friction, given).map_err(|_| {
-                    Failure::Message(format!(
-                        "--{option}: {given} is not a positive number in the range of f64: use a coefficient such as 0.5"
-                    ))
-                })?;
-            }
         }
         Ok(Some(friction))
     }

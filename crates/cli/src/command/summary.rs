@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use cannonpile::Verdict;
 use cannonpile::geometry::LayerGap;
-use cannonpile_dem::scene::Floor;
+use cannonpile::{Pile, Verdict};
+use cannonpile_dem::scene::{Floor, Scene};
 use cannonpile_dem::table;
-use cannonpile_dem::table::Units;
 use cannonpile_horizontal::certificate::write_certificate;
 use cannonpile_horizontal::equilibrium;
 use clap::Args;
@@ -37,10 +36,11 @@ the pile is stable. The table shows - for a value that takes too long to compute
 With --floor rough the columns are layers, spheres, contacts, weight, base_spheres, normal_min, normal_max, and
   friction_needed            least coefficient of friction of a contact with a force, in tan(θ/2); a number with --units si
   floor_friction_needed      least coefficient of friction of the floor, in the same unit
+  stands                     no if --friction or --floor-friction is less, yes if not; empty if neither is given
 
 Examples:
   cannonpile summary --stacking hcp --layers 7
-  cannonpile summary --layers 2 --floor rough --units si --number f64
+  cannonpile summary --layers 2 --floor rough --friction 0.41 --units si --number f64
   cannonpile summary --stacking=++--+ --spacing 1 --certificate c.json
   cannonpile summary --top hexagon:3 --stacking=++-+ --units si --gravity 9.81";
 
@@ -59,24 +59,25 @@ pub(crate) struct Summary {
 }
 
 impl Summary {
-    fn write_rough(&self, units: &Units<'_>) -> Result<bool, Failure> {
+    fn write_rough(&self, scene: &Scene, pile: &Pile) -> Result<bool, Failure> {
         if self.certificate.is_some() {
             return Err(Failure::Message(CERTIFICATE_ON_ROUGH_FLOOR.to_owned()));
         }
         let progress = Progress::begin("computing the extreme forces");
-        let table = table::rough_summary(units)?;
+        let stands = scene.stands_with_friction(&scene.packing(pile)?)?;
+        let table = table::rough_summary(&self.numbers.units.of(scene, pile)?, stands)?;
         self.output
             .write_table(table, self.numbers.number, &progress)?;
-        Ok(true)
+        Ok(stands != Some(false))
     }
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read_any()?;
         self.output.format()?;
-        let units = self.numbers.units.of(&scene, &pile)?;
         if scene.floor == Floor::Rough {
-            return self.write_rough(&units);
+            return self.write_rough(&scene, &pile);
         }
+        let units = self.numbers.units.of(&scene, &pile)?;
         self.scene.refuse_elastic(&scene)?;
         // The default spacing may be invalid for this pile.
         let touching = pile.clearance().check(&scene.spacing()?);

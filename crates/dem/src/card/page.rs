@@ -17,14 +17,15 @@ pub(super) fn page(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
     (card, mut names): (Json, Names),
+    layout: &Layout,
 ) -> Result<String, Error> {
     name("", &card, &mut names);
     names.extend(of_pile(pile, title));
     let flat = pile.pile().dimension() == Dimension::Two;
     for (list, row) in [
         ("spheres", SPHERE),
-        ("contacts", CONTACT),
-        ("base", ON_FLOOR),
+        ("contacts", layout.contact),
+        ("base", layout.on_floor),
     ] {
         let records = match list {
             "spheres" => &card["pile"]["list_of_spheres"],
@@ -69,7 +70,23 @@ pub(super) fn page(
         ("loads", Some(shortened(&loads))),
     ];
     names.extend(given(texts));
-    Ok(fill_lines(include_str!("page.md"), &names))
+    Ok(fill_lines(layout.page, &names))
+}
+
+/// The templates of a page and of its rows.
+pub(super) struct Layout {
+    pub(super) page: &'static str,
+    pub(super) contact: &'static str,
+    pub(super) on_floor: &'static str,
+}
+
+impl Layout {
+    /// The page of a pile on a floor with glue.
+    pub(super) const GLUED: Self = Self {
+        page: include_str!("page.md"),
+        contact: "| {id1} | {id2} | {direction} | `{multiple}` | `{force.exact}` | `{force.float}` |",
+        on_floor: "| {id} | {site} | `{normal.exact}` | `{normal.float}` | `{shear_x.exact}` | `{shear_y.exact}` |",
+    };
 }
 
 /// Returns the facts about a pile that only the page shows.
@@ -145,10 +162,6 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
 }
 
 const SPHERE: &str = "| {id} | {site} | `{x.exact}` | `{y.exact}` | `{z.exact}` |";
-const CONTACT: &str =
-    "| {id1} | {id2} | {direction} | `{multiple}` | `{force.exact}` | `{force.float}` |";
-const ON_FLOOR: &str = "| {id} | {site} | `{normal.exact}` | `{normal.float}` | `{shear_x.exact}` | `{shear_y.exact}` |";
-
 /// Returns one table row for each record of a list.
 fn rows(list: &Json, row: &str, flat: bool) -> Vec<String> {
     let records = list.as_array().into_iter().flatten();

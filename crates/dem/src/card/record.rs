@@ -25,8 +25,8 @@ use cannonpile::{BaseExtremes, Load, Packing, Pile, Verdict};
 pub(super) type Names = BTreeMap<String, String>;
 
 /// The name of the layout. The version increases when a key is removed or changes its meaning.
-const SCHEMA: &str = "cannonpile-card";
-const SCHEMA_VERSION: u32 = 1;
+pub(super) const SCHEMA: &str = "cannonpile-card";
+pub(super) const SCHEMA_VERSION: u32 = 1;
 
 /// Returns the card, with lists of at most `most` entries, and the texts for its templates.
 pub(super) fn record(
@@ -82,15 +82,7 @@ pub(super) fn record(
         ("export", Some(export)),
     ]));
     let outcome = fill_lines(include_str!("outcome.txt"), &names);
-    let criteria = fill_lines(include_str!("criteria.txt"), &names);
-    let criteria = criteria.lines().map(|criterion| {
-        let parts: Vec<&str> = criterion.splitn(3, '|').collect();
-        match parts[..] {
-            [name, must, check] => Ok(json!({"name": name, "must": must, "check": check})),
-            _ => Err(bug(CRITERION)),
-        }
-    });
-    let criteria = criteria.collect::<Result<Json, Error>>()?;
+    let criteria = criteria(include_str!("criteria.txt"), &names)?;
     let version = env!("CARGO_PKG_VERSION");
     let unless_empty = |text: &str| (!text.is_empty()).then(|| text.to_owned());
     let accept: Json =
@@ -123,8 +115,25 @@ pub(super) fn record(
     Ok((card, names))
 }
 
+/// Returns the criteria of a template: each line has a name, a demand and a check.
+pub(super) fn criteria(template: &str, names: &Names) -> Result<Json, Error> {
+    let filled = fill_lines(template, names);
+    let criteria = filled.lines().map(|criterion| {
+        let parts: Vec<&str> = criterion.splitn(3, '|').collect();
+        match parts[..] {
+            [name, must, check] => Ok(json!({"name": name, "must": must, "check": check})),
+            _ => Err(bug(CRITERION)),
+        }
+    });
+    criteria.collect()
+}
+
 /// Returns the facts about the pile.
-fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle, most: u32) -> Result<Json, Error> {
+pub(super) fn of_pile(
+    numbered: &NumberedPile<'_>,
+    title: &CardTitle,
+    most: u32,
+) -> Result<Json, Error> {
     let (pile, packing) = (numbered.pile(), numbered.packing());
     let inclination = packing.inclination();
     let (sphere_count, base_count) = (pile.sphere_count(), pile.base_sphere_count());

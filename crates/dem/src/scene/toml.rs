@@ -64,6 +64,7 @@ const LONGEST: usize = 16 << 20;
 /// | `state` | `"isostatic"` or `"elastic"` | `"isostatic"` |
 /// | `stiffness-ratio` | a number | 1 |
 /// | `floor` | `"glued"` or `"rough"` | `"glued"` |
+/// | `friction`, `floor-friction` | a number | twice the one that a rough floor needs |
 ///
 /// A number is a TOML number or a string, and is read exactly: `6`, `1.2`, `1e-3`, `"6/5"`. Keys outside the table are
 /// rejected. A load may also be written as
@@ -237,6 +238,8 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
             "state" => scene.state = value.read(str::parse)?,
             "stiffness-ratio" => scene.stiffness_ratio = value.read(parse::rational)?,
             "floor" => scene.floor = value.read(str::parse)?,
+            "friction" => scene.friction = Some(value.read(parse::rational)?),
+            "floor-friction" => scene.floor_friction = Some(value.read(parse::rational)?),
             // The dimension has been read already.
             _ => {}
         }

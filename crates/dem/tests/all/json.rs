@@ -36,7 +36,7 @@ fn scenes() {
             r#"{{"layers":"{MAX_LAYERS}","dimension":3,"sin-phi":null,"stacking":"hcp","anchor":{{"base":"hexagon:3,2"}},"#
         ) + r#""loads":[{"at":{"layer":null,"i":1,"j":-2},"weight":"5/2","x":"-1/3","y":"0"}],"#
             + r#""tilt":{"x":"1/8","y":"0"},"weightless":false,"#
-            + r#""spacing":"6/5","radius":"1","mass":"1","gravity":"1","state":"isostatic","stiffness-ratio":"1","floor":"glued"}"#
+            + r#""spacing":"6/5","radius":"1","mass":"1","gravity":"1","state":"isostatic","stiffness-ratio":"1","floor":"glued","friction":null,"floor-friction":null}"#
     );
     back(&Scene::default());
     assert_eq!(

@@ -34,6 +34,15 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
     } else {
         Default::default()
     };
+    let floor = if rarely(u, 4)? {
+        Floor::Rough
+    } else {
+        Floor::Glued
+    };
+    let coefficient = |u: &mut Unstructured<'_>| {
+        let is_given = floor == Floor::Rough && u.arbitrary()?;
+        is_given.then(|| number::quantity(u)).transpose()
+    };
     Ok(Scene {
         layers,
         dimension,
@@ -49,11 +58,9 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
         gravity: number::quantity(u)?,
         state: *u.choose(&[State::Isostatic, State::Elastic])?,
         stiffness_ratio: number::quantity(u)?,
-        floor: if rarely(u, 4)? {
-            Floor::Rough
-        } else {
-            Floor::Glued
-        },
+        friction: coefficient(u)?,
+        floor_friction: coefficient(u)?,
+        floor,
     })
 }
 

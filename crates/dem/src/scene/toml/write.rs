@@ -107,6 +107,14 @@ impl Scene {
             let comment = "The bottom spheres lie on a plane, and all contacts have friction.";
             file.key(comment, "floor", &quoted(self.floor));
         }
+        if let Some(friction) = &self.friction {
+            let comment = "Coefficient of friction between spheres.";
+            file.key(comment, "friction", &number(friction));
+        }
+        if let Some(friction) = &self.floor_friction {
+            let comment = "Coefficient of friction between spheres and floor.";
+            file.key(comment, "floor-friction", &number(friction));
+        }
         file.0
     }
 

@@ -13,6 +13,7 @@ use cannonpile::lattice::Dimension;
 use cannonpile::shape::Selection;
 use num_bigint::BigUint;
 use num_rational::BigRational;
+use num_traits::Zero;
 
 /// Returns the table of the contacts between spheres with friction on a rough floor: `k, i, j, direction, normal,
 /// tangential`. In SI units the normal force on the upper sphere `nx, ny, nz`, the tangential one `tx, ty, tz` and the
@@ -128,9 +129,10 @@ pub fn rough_base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'
 }
 
 /// Returns the table of one pile on a rough floor, in one row: `layers, spheres, contacts, weight, base_spheres,
-/// normal_min, normal_max, friction_needed, floor_friction_needed`.
+/// normal_min, normal_max, friction_needed, floor_friction_needed, stands`.
 ///
-/// The last two are the least coefficients of friction for equilibrium, of a contact with a force between spheres and of
+/// `stands` is the verdict for given coefficients of friction, as of
+/// [`Scene::stands_with_friction`](crate::scene::Scene::stands_with_friction). The two before it are the least coefficients of friction for equilibrium, of a contact with a force between spheres and of
 /// the floor. In pile units they are multiples of tan(θ/2).
 ///
 /// # Errors
@@ -145,12 +147,12 @@ pub fn rough_base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'
 /// let pile = Pile::triangular(2)?;
 /// let units = Units::of_packing(Packing::new(&pile, &"6/5".parse()?)?);
 /// let mut text = Vec::new();
-/// table::rough_summary(&units)?.write(FileFormat::Text, NumberFormat::F64, &mut text)?;
+/// table::rough_summary(&units, None)?.write(FileFormat::Text, NumberFormat::F64, &mut text)?;
 /// let text = String::from_utf8(text)?;
 /// assert!(text.contains("floor_friction_needed  0.1006356683102495"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn rough_summary(units: &Units<'_>) -> Result<Table<'static>, Error> {
+pub fn rough_summary(units: &Units<'_>, stands: Option<bool>) -> Result<Table<'static>, Error> {
     let pile = units.pile();
     let [contacts, floor]: [Cell; 2] = match Rough::of(units)? {
         Rough::Pile(forces) => [
@@ -163,6 +165,12 @@ pub fn rough_summary(units: &Units<'_>) -> Result<Table<'static>, Error> {
         ],
     };
     let base = pile.base_extremes()?;
+    // Without friction on the floor, no contact has a force.
+    let contacts = if base.max_shear_ratio.square().is_zero() {
+        BigRational::zero().into()
+    } else {
+        contacts
+    };
     let in_units = |force: BigRational| -> Cell {
         match units {
             Units::Pile(_) => force.into(),
@@ -172,6 +180,7 @@ pub fn rough_summary(units: &Units<'_>) -> Result<Table<'static>, Error> {
     let force = |name, force| (Column::measured(name, units.normal()), in_units(force));
     let count = |name, count: BigUint| (Column::plain(name), Cell::Integer(count.into()));
     let coefficient = |name, cell| (Column::measured(name, units.half_angle()), cell);
+    let verdict = stands.map(|stands| if stands { "yes" } else { "no" });
     Ok(Table::record(vec![
         (Column::plain("layers"), pile.layers().into()),
         count("spheres", pile.sphere_count()),
@@ -182,6 +191,10 @@ pub fn rough_summary(units: &Units<'_>) -> Result<Table<'static>, Error> {
         force("normal_max", base.normal_max),
         coefficient("friction_needed", contacts),
         coefficient("floor_friction_needed", floor),
+        (
+            Column::plain("stands"),
+            verdict.map_or(Cell::Missing, Cell::from),
+        ),
     ]))
 }
 

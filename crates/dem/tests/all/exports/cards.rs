@@ -609,3 +609,39 @@ fn a_title_cannot_break_a_file() {
         );
     }
 }
+
+#[test]
+fn cards_with_friction_state_the_exact_verdict() {
+    use cannonpile::{Packing, Pile, ratio};
+    use cannonpile_dem::{Friction, PileExport, PileFile};
+
+    // tan(θ/2) = 1/3, and the floor needs 1/9. No float has these values.
+    let pile = Pile::discs(2).expect("a pile");
+    let packing = Packing::new(&pile, &"6/5".parse().expect("a spacing")).expect("a packing");
+    let card = |spheres, floor| {
+        let friction =
+            Friction::sufficient(&packing).and_then(|friction| friction.with_spheres(&spheres));
+        let friction = friction
+            .and_then(|friction| friction.with_floor(&floor))
+            .expect("coefficients");
+        let export = PileExport::new(&packing).and_then(|export| export.on_rough_floor(friction));
+        let mut card = Vec::new();
+        let written =
+            export
+                .expect("an export")
+                .write_file(PileFile::CardMarkdown, &mut card, &mut |_| {});
+        written.expect("a card");
+        String::from_utf8(card).expect("a text")
+    };
+    let stands = card(ratio!(1 / 3), ratio!(1 / 9));
+    assert!(stands.contains("| stands | yes |") && stands.contains("The pile stands"));
+    assert!(stands.contains("reports `accepted yes`, exit status 0."));
+    for (spheres, floor) in [
+        (ratio!(333 / 1000), ratio!(1 / 9)),
+        (ratio!(1 / 3), ratio!(111 / 1000)),
+    ] {
+        let falls = card(spheres, floor);
+        assert!(falls.contains("| stands | no |") && falls.contains("The pile falls"));
+        assert!(!falls.contains("accepted yes"));
+    }
+}

@@ -32,6 +32,8 @@ fn every_key() {
         state = "elastic"
         stiffness-ratio = "2/7"
         floor = "rough"
+        friction = 0.45
+        floor-friction = "1/8"
     "#;
     let at = |text| parse::at(text, Dimension::Three).unwrap();
     let load = |parts: [(i64, i64); 3]| {
@@ -59,6 +61,8 @@ fn every_key() {
         state: State::Elastic,
         stiffness_ratio: ratio(2, 7),
         floor: Floor::Rough,
+        friction: Some(ratio(9, 20)),
+        floor_friction: Some(ratio(1, 8)),
     };
     assert_eq!(Scene::from_toml(text).unwrap(), scene);
     assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
