@@ -1,7 +1,7 @@
 //! The table of the benchmark cases.
 
 use cannonpile_dem::Error;
-use cannonpile_dem::scene::{Case, cases as all_cases};
+use cannonpile_dem::scene::{Case, Floor, cases as all_cases};
 use cannonpile_dem::table::{Cell, Column, Row, Table};
 
 /// Returns the benchmark cases, a row each: `name, title, dimension, layers, spheres, contacts, stands, command`.
@@ -25,10 +25,15 @@ pub(crate) fn cases() -> Table<'static> {
 }
 
 fn row(case: &Case) -> Row {
-    let pile = case.scene()?.pile()?;
+    let scene = case.scene()?;
+    let pile = scene.pile()?;
     let name = case.name();
     let stands = case.stands().map(|verdict| Cell::from(verdict.name()));
-    let command = format!("cannonpile export {name} --case {name} --to csv,card");
+    let files = match scene.floor {
+        Floor::Rough => "lammps,yade,card",
+        _ => "csv,card",
+    };
+    let command = format!("cannonpile export {name} --case {name} --to {files}");
     Ok::<_, Error>(vec![
         name.into(),
         case.title().into(),

@@ -35,7 +35,7 @@ pub struct Case {
 const CASES: &str = include_str!("cases/cases.txt");
 
 /// The scenes, in the same order.
-const SCENES: [&str; 16] = [
+const SCENES: [&str; 20] = [
     include_str!("cases/c1.toml"),
     include_str!("cases/c2.toml"),
     include_str!("cases/c3.toml"),
@@ -52,6 +52,10 @@ const SCENES: [&str; 16] = [
     include_str!("cases/c14.toml"),
     include_str!("cases/c15.toml"),
     include_str!("cases/c16.toml"),
+    include_str!("cases/c17.toml"),
+    include_str!("cases/c18.toml"),
+    include_str!("cases/c19.toml"),
+    include_str!("cases/c20.toml"),
 ];
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {

@@ -3,9 +3,9 @@
 use cannonpile::Verdict;
 use cannonpile::shape::Selection;
 use cannonpile_dem::Error;
-use cannonpile_dem::scene::{Case, Scene, SceneFile, State, cases};
+use cannonpile_dem::scene::{Case, Floor, Scene, SceneFile, State, cases};
 use num_rational::BigRational;
-use num_traits::Signed;
+use num_traits::{Signed, ToPrimitive};
 
 /// Returns the 64-bit hash of Fowler, Noll and Vo (FNV-1a).
 fn hash(text: &str) -> u64 {
@@ -34,6 +34,10 @@ const PUBLISHED: &[(&str, u64, &str)] = &[
     ("C14", 0x340a_b3ba_88cf_2c6b, "yes"),
     ("C15", 0x9f41_54c2_072e_280f, "yes"),
     ("C16", 0x0b09_104d_5fc7_7257, "no"),
+    ("C17", 0x8644_cf90_7344_35d9, "yes"),
+    ("C18", 0x1e7d_0bdc_3574_cd4a, "yes"),
+    ("C19", 0x20ad_45b7_63da_7303, "no"),
+    ("C20", 0xb7f9_6889_061d_012a, "no"),
 ];
 
 #[test]
@@ -88,6 +92,32 @@ fn every_case_has_its_stated_stability() {
         let pile = scene
             .in_state(scene.pile().expect("a pile"))
             .expect("a state");
+        if scene.floor == Floor::Rough {
+            // This test compares the friction at each contact with floats. The verdict is exact.
+            let packing = scene.packing(&pile).expect("room");
+            let rough = packing.on_rough_floor().expect("two layers");
+            let slides = |friction: &Option<BigRational>, needed: f64| {
+                let friction = friction.as_ref().and_then(ToPrimitive::to_f64);
+                needed > friction.expect("a coefficient")
+            };
+            let mut falls = false;
+            for contact in rough.contacts(Selection::All).expect("contacts") {
+                let contact = contact.expect("a contact");
+                let tangential: f64 = contact.tangential.nearest().expect("a float");
+                let normal = contact.normal.to_f64().expect("a float");
+                falls |= slides(&scene.friction, tangential / normal);
+            }
+            for force in rough.base(Selection::Base).expect("a base") {
+                let force = force.expect("a force");
+                let [x, y, normal] = [force.shear_x, force.shear_y, force.normal]
+                    .map(|part| part.nearest::<f64>().expect("a float"));
+                falls |= slides(&scene.floor_friction, x.hypot(y) / normal);
+            }
+            let verdict = if falls { Verdict::No } else { Verdict::Yes };
+            assert_eq!(Some(verdict), case.stands(), "{}", case.name());
+            assert_eq!(scene.stands_with_friction(&packing), Ok(Some(!falls)));
+            continue;
+        }
         // This test examines every force. The verdict examines few.
         let sloping = pile.forces::<BigRational>().contacts(Selection::All);
         let mut pulls = sloping
