@@ -25,6 +25,7 @@
 //! | [`indexing()`] | the indices of a layer (paper, fig. 2) |
 //! | [`sphere()`] | the forces on one sphere (paper, fig. 3) |
 //! | [`shear()`] | the base shear forces as arrows (paper, fig. 4) |
+//! | [`friction()`] | the forces on a lower sphere of two layers on a rough floor |
 //! | [`base()`] | the base normal forces as a map |
 //! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
 //! | [`bounds()`] | the smallest and largest normal force of each bottom sphere at a = R |
@@ -51,6 +52,7 @@ mod chart;
 mod colour;
 mod distribution;
 mod error;
+mod friction;
 mod glyph;
 mod indexing;
 mod layer;
@@ -74,6 +76,7 @@ pub use base::base;
 pub use bounds::bounds;
 pub use distribution::distribution;
 pub use error::Error;
+pub use friction::friction;
 pub use indexing::indexing;
 pub use mean::{mean_profile, mean_response};
 pub use network::{layer, section};

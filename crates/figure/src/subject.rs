@@ -117,6 +117,10 @@ impl<'p> Subject<'p> {
         }
     }
 
+    pub(super) const fn packing(&self) -> &Packing<'p> {
+        &self.packing
+    }
+
     /// Returns the part of the caption about horizontal contacts, if the pile or the figure has them.
     pub(super) fn horizontal_state(&self) -> Option<String> {
         match self.pile().horizontal_forces().len() {

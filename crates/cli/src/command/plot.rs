@@ -63,6 +63,8 @@ pub(crate) enum Plot {
         )]
         at: Option<String>,
     },
+    /// Draw the forces on a lower sphere on a rough floor, with two layers by default
+    Friction(PileFigure),
     /// Draw the base shear forces as arrows
     Shear(ForceFigure),
     /// Map the base normal forces
@@ -256,7 +258,10 @@ impl Plot {
             Self::Distribution { output, .. } | Self::Refinement { output, .. } => {
                 return (None, output);
             }
-            Self::Pile(of) | Self::Indexing { of, .. } | Self::Stability(of) => of,
+            Self::Pile(of)
+            | Self::Indexing { of, .. }
+            | Self::Stability(of)
+            | Self::Friction(of) => of,
             Self::Shear(measured)
             | Self::Base(measured)
             | Self::Bounds(measured)
@@ -281,6 +286,11 @@ impl Plot {
                 Ok(figure::indexing(&subject, layer).map_err(of_layer)?)
             }
             Self::Stability(of) => of.draw_stability(),
+            Self::Friction(of) => {
+                let (scene, pile) = of.scene.read_rough()?;
+                let subject = Subject::of_packing(scene.packing(&pile)?);
+                Ok(figure::friction(&subject)?)
+            }
             Self::Sphere { of, at } => of.draw(|subject, pile| {
                 let site = match parse_site(at.as_deref(), pile)? {
                     Some(site) => site,
