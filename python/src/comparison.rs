@@ -16,6 +16,10 @@ pub(crate) struct Measurement {
     places: Places,
     forces: Option<Vec<f64>>,
     vectors: Option<Vec<[f64; 3]>>,
+    /// On a rough floor, the tangential forces on the first spheres.
+    tangential: Option<Vec<[f64; 3]>>,
+    /// On a rough floor, the forces of the floor on the bottom spheres.
+    on_base: Option<Vec<[f64; 3]>>,
 }
 
 /// The identification of contacts.
@@ -73,6 +77,21 @@ impl Measurement {
                 .map(|forces| forces.as_slice().map(<[f64]>::to_vec))
                 .transpose()?,
             vectors: vectors.map(rows).transpose()?,
+            tangential: None,
+            on_base: None,
+        })
+    }
+
+    /// Adds the tangential forces of the contacts, and the forces of the floor on the bottom spheres.
+    pub(crate) fn with_friction(
+        self,
+        tangential: Option<&PyReadonlyArray1<'_, f64>>,
+        on_base: Option<&PyReadonlyArray1<'_, f64>>,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            tangential: tangential.map(rows).transpose()?,
+            on_base: on_base.map(rows).transpose()?,
+            ..self
         })
     }
 
@@ -82,35 +101,50 @@ impl Measurement {
         packing: &Packing<'_>,
         within: f64,
     ) -> Result<verify::Comparison, Raised> {
+        self.compared(packing, within)
+            .map_err(|refusal| self.named(refusal))
+    }
+
+    /// Compares the measurement, whose contacts are identified by ids, with the exact forces on a rough floor.
+    pub(crate) fn compare_on_rough_floor(
+        &self,
+        packing: &Packing<'_>,
+    ) -> Result<verify::Comparison, Raised> {
+        let Places::Ids(ids) = &self.places else {
+            let bug = cannonpile::engine::bug("contacts on a rough floor are identified by ids");
+            return Err(bug.into());
+        };
+        let first = packing.pile().numbering()?.first_on_floor();
+        let base = (first..).zip(self.on_base.iter().flatten());
+        // Sphere 0 is the floor.
+        let base = base.map(|(id, force)| Measured::of_vector([id, 0], *force));
+        verify::Comparison::on_rough_floor(packing, self.measured(ids).chain(base))
+            .map_err(|refusal| self.named(refusal))
+    }
+
+    /// Adds the name of the argument with the invalid measurement to an error.
+    fn named(&self, refusal: Refusal) -> Raised {
         let places = match self.places {
             Places::Ids(_) => "ids",
             Places::Points(_) => "points",
             Places::Centres(_) => "centres",
         };
-        self.compared(packing, within)
-            .map_err(|refusal| match refusal {
-                Refusal::Entry {
-                    fault: Fault::NotFinite { .. },
-                    ..
-                } => refusal.into(),
-                Refusal::Entry { .. } | Refusal::Elsewhere { .. } => {
-                    Raised::Argument(places, Box::new(refusal))
-                }
-                other => other.into(),
-            })
+        match refusal {
+            Refusal::Entry {
+                fault: Fault::NotFinite { .. },
+                ..
+            } => refusal.into(),
+            Refusal::Entry { .. } | Refusal::Elsewhere { .. } => {
+                Raised::Argument(places, Box::new(refusal))
+            }
+            other => other.into(),
+        }
     }
 
     fn compared(&self, packing: &Packing<'_>, within: f64) -> Result<verify::Comparison, Refusal> {
         let of_places = |(comparison, _)| comparison;
         match &self.places {
-            Places::Ids(ids) => {
-                let measured = (0..).zip(ids).map(|(n, ids)| match self.force(n) {
-                    Force::Along(force) => Measured::new(*ids, force),
-                    Force::Vector(vector) => Measured::of_vector(*ids, vector),
-                    Force::Both(force, vector) => Measured::new(*ids, force).with_vector(vector),
-                });
-                verify::Comparison::new(packing, measured)
-            }
+            Places::Ids(ids) => verify::Comparison::new(packing, self.measured(ids)),
             Places::Points(points) => {
                 let points = (0..).zip(points);
                 let placed = points.map(|(n, point)| Placed::at(*point, self.force(n)));
@@ -122,6 +156,22 @@ impl Measurement {
                 verify::Comparison::of_places(packing, placed, within).map(of_places)
             }
         }
+    }
+
+    /// Returns the forces between pairs of numbered spheres.
+    fn measured(&self, ids: &[[u64; 2]]) -> impl Iterator<Item = Measured> {
+        (0..).zip(ids).map(|(n, ids)| {
+            let measured = match self.force(n) {
+                Force::Along(force) => Measured::new(*ids, force),
+                Force::Vector(vector) => Measured::of_vector(*ids, vector),
+                Force::Both(force, vector) => Measured::new(*ids, force).with_vector(vector),
+            };
+            let tangential = self.tangential.as_ref().and_then(|all| all.get(n));
+            Measured {
+                tangential: tangential.copied(),
+                ..measured
+            }
+        })
     }
 
     fn force(&self, n: usize) -> Force {
@@ -223,6 +273,30 @@ impl Comparison {
     #[getter]
     fn floor_error(&self) -> Option<f64> {
         self.0.floor_error()
+    }
+
+    /// The number of contacts with a measured tangential force.
+    #[getter]
+    fn tangential(&self) -> u64 {
+        self.0.tangential()
+    }
+
+    /// The largest error of a tangential force.
+    #[getter]
+    fn tangential_error(&self) -> Option<f64> {
+        self.0.tangential_error()
+    }
+
+    /// The largest error of the friction of the floor.
+    #[getter]
+    fn floor_friction_error(&self) -> Option<f64> {
+        self.0.floor_friction_error()
+    }
+
+    /// The sphere with the greatest net moment, and this moment.
+    #[getter]
+    fn net_moment(&self) -> Option<(u64, f64)> {
+        self.0.net_moment()
     }
 
     /// The number of pairs with two different forces.

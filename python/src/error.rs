@@ -173,6 +173,9 @@ fn of_key(key: Key) -> Option<&'static str> {
         Key::Gravity => "gravity",
         Key::State => "state",
         Key::StiffnessRatio => "stiffness_ratio",
+        Key::Floor => "floor",
+        Key::Friction => "friction",
+        Key::FloorFriction => "floor_friction",
         _ => return None,
     })
 }

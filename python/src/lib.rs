@@ -40,6 +40,11 @@ mod _cannonpile {
         base, contact_ids, contact_points, forces, multiples, positions, sites, stresses, vectors,
     };
     #[pymodule_export]
+    use crate::pile::rough::{
+        RoughFloor, compare_rough, compare_rough_tables, export_rough, friction_cases, rough_base,
+        rough_contacts,
+    };
+    #[pymodule_export]
     use crate::pile::tools::{compare, export, page, plot};
     #[pymodule_export]
     use crate::pile::{Pile, cases};

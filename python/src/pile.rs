@@ -3,6 +3,7 @@
 pub(crate) mod answers;
 pub(crate) mod arrays;
 mod options;
+pub(crate) mod rough;
 pub(crate) mod tools;
 
 use std::sync::OnceLock;
@@ -16,6 +17,7 @@ use cannonpile_dem::table::{Summary, Units};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -36,25 +38,17 @@ pub(crate) struct Pile {
 impl Pile {
     /// Returns the pile of a scene, after validation.
     fn of(py: Python<'_>, scene: Scene) -> PyResult<Self> {
+        if scene.floor != Floor::Glued {
+            return Err(PyValueError::new_err(
+                "floor: a Pile has a floor with glue, but the floor of this scene is rough: use RoughFloor.from_toml, or \
+                 remove floor and call on_rough_floor",
+            ));
+        }
         let wanted = scene.clone();
         let exact = work_of_long_steps(py, move || {
             let scene = wanted;
             scene.check_sizes()?;
-            if scene.floor != Floor::Glued {
-                let given = cannonpile::Error::syntax(
-                    scene.floor.name(),
-                    "a floor that Python supports: glued",
-                );
-                return Err(Raised::Named("floor", Box::new(given.into())));
-            }
-            // The only sites in a scene are those of loads.
-            let pile = scene.pile().map_err(|error| match error.into() {
-                error @ Error::Core(cannonpile::Error::SiteOutside { .. }) => {
-                    Raised::Named("loads", Box::new(error))
-                }
-                other => other.into(),
-            })?;
-            Ok::<_, Raised>(scene.in_state(pile)?)
+            Ok::<_, Raised>(scene.in_state(checked_pile(&scene)?)?)
         })?;
         Ok(Self {
             scene,
@@ -75,6 +69,17 @@ impl Pile {
         let summary = Summary::new(&Units::of_pile(&self.exact), touching)?;
         Ok(*self.stands.get_or_init(|| summary.verdict()))
     }
+}
+
+/// Returns the pile of a scene, checked.
+fn checked_pile(scene: &Scene) -> Result<cannonpile::Pile, Raised> {
+    // The only sites in a scene are those of loads.
+    scene.pile().map_err(|error| match error.into() {
+        error @ Error::Core(cannonpile::Error::SiteOutside { .. }) => {
+            Raised::Named("loads", Box::new(error))
+        }
+        other => other.into(),
+    })
 }
 
 #[pymethods]
@@ -251,27 +256,31 @@ impl Pile {
 }
 
 /// A benchmark case: name, pile, title, purpose and stability.
-type Case = (&'static str, Pile, &'static str, &'static str, Option<bool>);
+type Case<P> = (&'static str, P, &'static str, &'static str, Option<bool>);
 
-/// Return the benchmark cases.
-#[pyfunction]
-pub(crate) fn cases(py: Python<'_>) -> PyResult<Vec<Case>> {
-    let case = |case: &scene::Case| {
+/// Returns the benchmark cases on a floor, with the pile of each scene.
+fn cases_on<P>(floor: Floor, pile_of: impl Fn(Scene) -> PyResult<P>) -> PyResult<Vec<Case<P>>> {
+    let mut found = Vec::new();
+    for case in scene::cases() {
         let scene = case
             .scene()
             .map_err(|error| Raised::from(error).into_exception())?;
+        if scene.floor != floor {
+            continue;
+        }
         let stands = match case.stands() {
             Some(Verdict::Yes) => Some(true),
             Some(Verdict::No) => Some(false),
             _ => None,
         };
-        Ok((
-            case.name(),
-            Pile::of(py, scene)?,
-            case.title(),
-            case.purpose(),
-            stands,
-        ))
-    };
-    scene::cases().iter().map(case).collect()
+        let pile = pile_of(scene)?;
+        found.push((case.name(), pile, case.title(), case.purpose(), stands));
+    }
+    Ok(found)
+}
+
+/// Return the benchmark cases on a floor with glue.
+#[pyfunction]
+pub(crate) fn cases(py: Python<'_>) -> PyResult<Vec<Case<Pile>>> {
+    cases_on(Floor::Glued, |scene| Pile::of(py, scene))
 }

@@ -120,6 +120,35 @@ def test_census(table):
         assert [entry.stands for entry in entries] == [row["stands"] == "yes" for row in rows]
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"layers": 2},
+        {"layers": 2, "dimension": 2, "spacing": "4/3"},
+        {"layers": 2, "top": "hexagon:2", "loads": {(0, 0, 0): "5/2"}, "mass": "1e-3", "gravity": "9.81"},
+    ],
+    ids=str,
+)
+def test_rough_floor(table, options):
+    rough = Pile(**options).on_rough_floor("1/2")
+    [row] = table("summary", options, "--floor=rough", "--friction=1/2", "--units=si")
+    assert (row["friction_needed"], row["floor_friction_needed"]) == (
+        rough.exact_friction_needed,
+        rough.exact_floor_friction_needed,
+    )
+    assert row["stands"] == ("yes" if rough.stands else "no")
+    rows = table("contacts", options, "--floor=rough", *EXACT)
+    assert [(Fraction(row["normal"]), Fraction(row["tangential"])) for row in rows] == [
+        (contact.normal, contact.tangential) for contact in rough.contacts()
+    ]
+    rows = table("contacts", options, "--floor=rough", *NEAREST)
+    for vectors, names in ((rough.normal_vectors(), "nx ny nz"), (rough.tangential_vectors(), "tx ty tz")):
+        assert vectors.tolist() == [[float(row[name]) for name in names.split()] for row in rows]
+    rows = table("base", options, "--floor=rough", *NEAREST)
+    names = ["normal", "friction_x", "friction_y"][: options.get("dimension", 3)]
+    assert rough.base()[:, : len(names)].tolist() == [[float(row[name]) for name in names] for row in rows]
+
+
 def test_theorems(table):
     rows = table("prove", {})
     theorems = cannonpile.prove()
@@ -128,10 +157,11 @@ def test_theorems(table):
 
 def test_cases(table):
     rows = table("cases", {})
-    cases = cannonpile.cases()
+    cases = cannonpile.cases() + cannonpile.friction_cases()
     assert [case.name for case in cases] == [row["name"] for row in rows]
     assert [case.known.title for case in cases] == [row["title"] for row in rows]
-    assert [str(case.pile.sphere_count) for case in cases] == [row["spheres"] for row in rows]
+    piles = [pile for _, pile, _ in cannonpile.cases()] + [rough.pile for _, rough, _ in cannonpile.friction_cases()]
+    assert [str(pile.sphere_count) for pile in piles] == [row["spheres"] for row in rows]
 
 
 def test_differences_are_detected(table):

@@ -66,7 +66,7 @@ def lacks(name, item):
 
 
 # Functions without a result, and classes that users construct.
-NOTHING = {"Pile.assert_close", "Figure.save", "Page.save"}
+NOTHING = {"Pile.assert_close", "RoughFloor.assert_close", "Figure.save", "Page.save"}
 MADE = {"Pile"}
 
 
@@ -117,8 +117,12 @@ def test_missing_documentation_is_detected():
 
 
 def test_arrays_document_shape_and_type():
-    for name in ("positions", "stresses", "sites", "contact_ids", "contact_points", "forces", "vectors", "base"):
-        returned = sections(getattr(cannonpile.Pile, name).__doc__)["Returns"]
+    of_pile = ("positions", "stresses", "sites", "contact_ids", "contact_points", "forces", "vectors", "base")
+    of_rough_floor = ("normal_vectors", "tangential_vectors", "base", "floor_vectors")
+    methods = [getattr(cannonpile.Pile, name) for name in of_pile]
+    methods += [getattr(cannonpile.RoughFloor, name) for name in of_rough_floor]
+    for method in methods:
+        name, returned = method.__qualname__, sections(method.__doc__)["Returns"]
         assert re.search(r"\([NMB],( \d)?\)", returned), name
         assert re.search(r"float64|int64", returned), name
 

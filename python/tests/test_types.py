@@ -32,6 +32,12 @@ weakest = pile.weakest()
 if weakest is not None:
     least: Fraction = weakest.force
 svg: str = pile.plot("base", width=400).svg
+rough = Pile(2).on_rough_floor(friction="1/2")
+holds: bool | None = rough.stands
+tangential: Fraction = rough.contacts()[0].tangential
+rough.assert_close(rough.pile.contact_ids(), vectors=rough.normal_vectors(), floor=rough.floor_vectors())
+for name, rough_floor, known in cannonpile.friction_cases():
+    needed: float = rough_floor.friction_needed
 """
 WRONG = """\
 from cannonpile import Pile
@@ -43,6 +49,8 @@ Pile(4).force(0, 0, 0, "delta")
 number: int = Pile(4).force(0, 0)
 Pile(4).layers = 3
 Pile(4).weakest().force
+Pile(2).on_rough_floor(friction=0.5)
+Pile(2).on_rough_floor().compare()
 """
 
 

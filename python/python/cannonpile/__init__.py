@@ -28,6 +28,10 @@ Units
     SI units are m, kg and N. In pile units all forces are rational: contact forces in f0 = mg/(3 cos theta), base forces in
     mg, mg tan theta and sqrt(3) mg tan theta. (On an isosceles base f0 is mg/(2 (1 + sin phi) cos theta).)
 
+Friction
+    The spheres have no friction, and the bottom layer is fixed. `Pile.on_rough_floor` returns the exact forces of two layers with
+    friction on a floor without glue.
+
 Errors
     ``ValueError``: an argument is invalid; the message states the value and the remedy. ``TypeError``: an argument has the
     wrong type, for instance float. ``OverflowError``: a result exceeds float64. ``MemoryError``: a result exceeds the memory.
@@ -42,7 +46,7 @@ from ._exact import Exact
 from ._figure import Figure
 from ._page import Page
 from ._pile import Pile
-from ._questions import cases, census, mean, prove
+from ._questions import cases, census, friction_cases, mean, prove
 from ._records import (
     Bounds,
     Case,
@@ -50,14 +54,17 @@ from ._records import (
     Contact,
     Difference,
     FloorForce,
+    FrictionCase,
     Known,
     MeanForce,
     Multiples,
     Response,
+    RoughContact,
     Spread,
     Stability,
     Theorem,
 )
+from ._rough import RoughFloor
 
 __all__ = [
     "Bounds",
@@ -69,18 +76,22 @@ __all__ = [
     "Exact",
     "Figure",
     "FloorForce",
+    "FrictionCase",
     "Known",
     "MeanForce",
     "Multiples",
     "Page",
     "Pile",
     "Response",
+    "RoughContact",
+    "RoughFloor",
     "Spread",
     "Stability",
     "Theorem",
     "__version__",
     "cases",
     "census",
+    "friction_cases",
     "mean",
     "prove",
 ]

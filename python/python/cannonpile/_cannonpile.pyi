@@ -9,17 +9,22 @@ __all__ = [
     "Census",
     "Comparison",
     "Pile",
+    "RoughFloor",
     "__version__",
     "base",
     "bounds",
     "cases",
     "census",
     "compare",
+    "compare_rough",
+    "compare_rough_tables",
     "contact_ids",
     "contact_points",
     "export",
+    "export_rough",
     "force",
     "forces",
+    "friction_cases",
     "mean",
     "multiples",
     "on_floor",
@@ -28,6 +33,8 @@ __all__ = [
     "positions",
     "prove",
     "response",
+    "rough_base",
+    "rough_contacts",
     "sensitivity",
     "site",
     "sites",
@@ -45,6 +52,8 @@ _Difference = tuple[tuple[int, int], int, int, int, str, float, float | None, fl
 _Entry = tuple[str, int, bool, Fraction | None, Fraction | None, Fraction | None, Fraction | None]
 _Contact = tuple[int, int, int, str, Fraction]
 _Loads = list[tuple[str, str]]
+_Vector = tuple[float, float, float]
+_RoughContact = tuple[tuple[int, int], int, int, int, str, Fraction, _Vector, _Vector]
 
 @final
 class Pile:
@@ -84,6 +93,22 @@ class Pile:
     def unit_force(self) -> float: ...
 
 @final
+class RoughFloor:
+    def __new__(cls, pile: Pile, friction: str | None, floor_friction: str | None) -> RoughFloor: ...
+    @classmethod
+    def from_toml(cls, text: str) -> RoughFloor: ...
+    def to_toml(self) -> str: ...
+    def pile(self) -> Pile: ...
+    @property
+    def friction(self) -> Fraction | None: ...
+    @property
+    def floor_friction(self) -> Fraction | None: ...
+    @property
+    def needed(self) -> list[tuple[float, str]]: ...
+    @property
+    def stands(self) -> bool | None: ...
+
+@final
 class Comparison:
     @property
     def contacts(self) -> int: ...
@@ -99,6 +124,14 @@ class Comparison:
     def floor(self) -> int: ...
     @property
     def floor_error(self) -> float | None: ...
+    @property
+    def tangential(self) -> int: ...
+    @property
+    def tangential_error(self) -> float | None: ...
+    @property
+    def floor_friction_error(self) -> float | None: ...
+    @property
+    def net_moment(self) -> tuple[int, float] | None: ...
     @property
     def largest_force(self) -> float: ...
     @property
@@ -148,12 +181,27 @@ def compare(
     vectors: NDArray[np.float64] | None,
     within: float,
 ) -> Comparison: ...
+def rough_contacts(floor: RoughFloor) -> list[_RoughContact]: ...
+def rough_base(floor: RoughFloor) -> list[list[float]]: ...
+def compare_rough(
+    floor: RoughFloor,
+    ids: NDArray[np.int64] | None,
+    forces: NDArray[np.float64] | None,
+    vectors: NDArray[np.float64] | None,
+    tangential: NDArray[np.float64] | None,
+    on_base: NDArray[np.float64] | None,
+) -> Comparison: ...
+def compare_rough_tables(
+    floor: RoughFloor, contacts: bytes, floor_table: bytes | None, preset: str, folder: str | Path
+) -> Comparison: ...
+def export_rough(floor: RoughFloor, folder: str | Path, formats: list[str]) -> list[str]: ...
 def export(pile: Pile, folder: str | Path, formats: list[str]) -> list[str]: ...
 def page(pile: Pile) -> str: ...
 def plot(
     pile: Pile, kind: str, layer: int | None, at: str | None, si: bool, width: int, title: bool
 ) -> tuple[str, str | None]: ...
 def cases() -> list[tuple[str, Pile, str, str, bool | None]]: ...
+def friction_cases() -> list[tuple[str, RoughFloor, str, str, bool | None]]: ...
 def prove(name: str | None) -> list[tuple[str, str, str, str, str, bool]]: ...
 def census(layers: str, base: str | None, standing: bool, horizontal: bool) -> Census: ...
 def mean(

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Comparison:
-    """The result of `Pile.compare`: measured contact forces compared with the exact ones.
+    """The result of `Pile.compare` and `RoughFloor.compare`: measured contact forces compared with the exact ones.
 
     Exact forces are correctly rounded to float64. The error of a contact is |f - f0| / |f0|. For vectors it is the larger one
     of this and |F - F0| / |f0|. A contact with exact force 0 may be absent; its error is relative to the largest exact force.
@@ -105,6 +105,62 @@ class Comparison:
         1.0
         """
         return self._native.floor_error
+
+    @property
+    def tangential(self) -> int:
+        """The number of contacts whose tangential forces were measured. It is 0 on a floor with glue.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).on_rough_floor().compare([[1, 2]], vectors=[[0.1, 0.2, 0.3]]).tangential
+        1
+        """
+        return self._native.tangential
+
+    @property
+    def tangential_error(self) -> float | None:
+        """The largest error of a tangential force, as a vector, relative to the exact one. None if none was measured.
+
+        Where the exact force is 0, the error is relative to the largest exact tangential force.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> discs = Pile(2, dimension=2).on_rough_floor()
+        >>> discs.compare([[1, 2]], vectors=[[0.3, 0, 0.4]], tangential=[[0, 0, 0]]).tangential_error
+        1.0
+        """
+        return self._native.tangential_error
+
+    @property
+    def floor_friction_error(self) -> float | None:
+        """The largest error of the friction of a rough floor, like `tangential_error`. None if no such vector was measured.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).on_rough_floor().compare([[2, 0]], vectors=[[0, 0, 4 / 3]]).floor_friction_error
+        1.0
+        """
+        return self._native.floor_friction_error
+
+    @property
+    def net_moment(self) -> tuple[int, float] | None:
+        """The id of the sphere with the greatest net moment, and this moment over R times the largest exact tangential force.
+
+        Only spheres count whose forces were all measured. None if there is none, or the floor has glue.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> discs = Pile(2, dimension=2).on_rough_floor()
+        >>> turning = [[-2 / 15, 0, 0.1], [-2 / 15, 0, -0.1]]
+        >>> sphere, moment = discs.compare([[1, 2], [1, 3]], vectors=discs.normal_vectors(), tangential=turning).net_moment
+        >>> sphere, round(moment, 9)
+        (1, 2.0)
+        """
+        return self._native.net_moment
 
     @property
     def fixed(self) -> int:

@@ -9,6 +9,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from ._pile import Pile
+
 
 def arrays(
     ids: ArrayLike | None,
@@ -31,13 +33,60 @@ def arrays(
     >>> arrays([[1, 2], [1, 3]], [0.5, 0.5], None, None, None)["ids"]
     array([1, 2, 1, 3])
     """
-    given = {
-        "ids": _ids(ids),
-        "points": _floats("points", points, (3,)),
-        "centres": _floats("centres", centres, (2, 3)),
-        "forces": _floats("forces", forces, ()),
-        "vectors": _floats("vectors", vectors, (3,)),
-    }
+    return _flat(
+        {
+            "ids": _ids(ids),
+            "points": _floats("points", points, (3,)),
+            "centres": _floats("centres", centres, (2, 3)),
+            "forces": _floats("forces", forces, ()),
+            "vectors": _floats("vectors", vectors, (3,)),
+        }
+    )
+
+
+def with_friction(
+    ids: ArrayLike,
+    forces: ArrayLike | None,
+    vectors: ArrayLike | None,
+    tangential: ArrayLike | None,
+    floor: ArrayLike | None,
+    pile: Pile,
+) -> dict[str, NDArray[Any] | None]:
+    """Return flat, contiguous arrays of a measurement on a rough floor, after a check of their lengths.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape, the lengths differ, or two arguments give the forces of the floor.
+    TypeError
+        If ids are not integers.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> with_friction([[1, 2]], [0.5], None, [[0.1, 0, 0]], None, Pile(2))["tangential"]
+    array([0.1, 0. , 0. ])
+    """
+    pairs, on_base = _ids(ids), _floats("floor", floor, (3,))
+    given = _flat(
+        {
+            "ids": pairs,
+            "forces": _floats("forces", forces, ()),
+            "vectors": _floats("vectors", vectors, (3,)),
+            "tangential": _floats("tangential", tangential, (3,)),
+        }
+    )
+    if on_base is not None:
+        if len(on_base) != pile.base_count:
+            raise ValueError(f"floor: {len(on_base)} forces: give one for each of the {pile.base_count} bottom spheres")
+        if not np.isfinite(on_base).all():
+            raise ValueError("floor: a force is not a finite number")
+        if pairs is not None and ((pairs == 0) | (pairs > pile.sphere_count)).any():
+            raise ValueError("floor: ids contain contacts with the floor too; remove these or floor")
+    return given | {"on_base": None if on_base is None else on_base.ravel()}
+
+
+def _flat(given: dict[str, NDArray[Any] | None]) -> dict[str, NDArray[Any] | None]:
     lengths = {name: len(array) for name, array in given.items() if array is not None}
     if len(set(lengths.values())) > 1:
         found = ", ".join(f"{length} {name}" for name, length in lengths.items())

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ._exact import Exact
+    from ._rough import RoughFloor
 
 
 class Pile:
@@ -152,7 +153,7 @@ class Pile:
         Raises
         ------
         ValueError
-            If the text is invalid. The message gives the line.
+            If the text is invalid, with the line, or if the floor is rough: see `RoughFloor.from_toml`.
 
         Examples
         --------
@@ -919,6 +920,45 @@ class Pile:
         ([[5, 6], [7, 10], [11, 9]], [0.611, 0.611, 0.611])
         """
         return self._of(self._native.elastic(_exact.number("stiffness_ratio", stiffness_ratio)))
+
+    def on_rough_floor(self, friction: Exact | None = None, floor_friction: Exact | None = None) -> RoughFloor:
+        """Return two layers on a rough floor, without glue, with friction at all contacts.
+
+        Parameters
+        ----------
+        friction : exact number, optional
+            The coefficient of friction between spheres. By default it is large enough.
+        floor_friction : exact number, optional
+            The coefficient of friction between spheres and floor. By default it is large enough.
+
+        Returns
+        -------
+        RoughFloor
+            The pile with its exact normal and tangential forces.
+
+        Raises
+        ------
+        ValueError
+            If the forces are not unique: unless there are two layers, neighbours of a layer do not touch (a > R), and gravity and
+            all loads are vertical. Also if a coefficient is not positive.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> rough = Pile(2, top="hexagon:3").on_rough_floor(friction="1/2", floor_friction="1/4")
+        >>> rough.stands, rough.floor_friction_needed
+        (True, 0.1006356683102495)
+        >>> Pile(3).on_rough_floor()
+        Traceback (most recent call last):
+            ...
+        ValueError: a rough floor needs two layers (with three, the forces are not unique), but this pile has 3 layers: \
+change that, or use a floor with glue
+        """
+        from ._rough import RoughFloor
+
+        given = {"friction": friction, "floor_friction": floor_friction}
+        texts = {name: None if value is None else _exact.number(name, value) for name, value in given.items()}
+        return RoughFloor(native.RoughFloor(self._native, **texts), self)
 
     def compare(
         self,

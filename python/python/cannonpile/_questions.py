@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Literal
 from . import _cannonpile as native
 from . import _exact
 from ._pile import Pile
-from ._records import Case, CensusEntry, Known, MeanForce, Theorem
+from ._records import Case, CensusEntry, FrictionCase, Known, MeanForce, Theorem
+from ._rough import RoughFloor
 
 if TYPE_CHECKING:
     from ._exact import Exact
 
 
 def cases() -> list[Case]:
-    """Return the benchmark cases, with citable names.
+    """Return the benchmark cases without friction, with citable names.
 
     Published cases are frozen: none is altered or removed.
 
@@ -40,6 +41,28 @@ def cases() -> list[Case]:
     return [
         Case(name, Pile._of(pile), Known(title, purpose, stands))
         for name, pile, title, purpose, stands in native.cases()
+    ]
+
+
+def friction_cases() -> list[FrictionCase]:
+    """Return the benchmark cases with friction: two layers on a rough floor.
+
+    Published cases are frozen: none is altered or removed.
+
+    Returns
+    -------
+    list of FrictionCase
+        Tuples ``(name, rough_floor, known)``, suitable for ``pytest.mark.parametrize``.
+
+    Examples
+    --------
+    >>> from cannonpile import friction_cases
+    >>> [(name, known.stands) for name, rough_floor, known in friction_cases()]
+    [('C17', True), ('C18', True), ('C19', False), ('C20', False)]
+    """
+    return [
+        FrictionCase(name, RoughFloor(rough, Pile._of(rough.pile())), Known(title, purpose, stands))
+        for name, rough, title, purpose, stands in native.friction_cases()
     ]
 
 

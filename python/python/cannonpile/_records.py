@@ -48,7 +48,7 @@ class Contact(namedtuple("Contact", "k i j direction force")):
 
 
 class FloorForce(namedtuple("FloorForce", "normal shear_x shear_y")):
-    """The force of a bottom sphere on the floor, exact.
+    """The force of a bottom sphere on the floor, exact. On a rough floor theta/2 replaces theta.
 
     Attributes
     ----------
@@ -64,6 +64,36 @@ class FloorForce(namedtuple("FloorForce", "normal shear_x shear_y")):
     >>> from cannonpile import Pile
     >>> Pile(10).on_floor(0, 0)
     FloorForce(normal=Fraction(4, 1), shear_x=Fraction(-3, 2), shear_y=Fraction(-3, 2))
+    """
+
+    __slots__ = ()
+
+
+class RoughContact(namedtuple("RoughContact", "ids k i j direction normal tangential normal_vector tangential_vector")):
+    """A contact with friction, of the sphere (k, i, j) with a sphere below it. The vectors are forces on the upper sphere.
+
+    Attributes
+    ----------
+    ids : tuple[int, int]
+        The ids of the upper and the lower sphere.
+    k : int
+    i : int
+    j : int
+    direction : str
+    normal : Fraction
+        The normal force in mg. Compression is positive.
+    tangential : Fraction
+        The tangential force in mg tan(theta/2). The number is the same.
+    normal_vector : tuple[float, float, float]
+        The normal force in N, z up, correctly rounded.
+    tangential_vector : tuple[float, float, float]
+        The tangential force in N, z up, correctly rounded.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> Pile(2, dimension=2).on_rough_floor().contacts()[1].normal_vector
+    (-0.3, 0.0, 0.4)
     """
 
     __slots__ = ()
@@ -279,6 +309,26 @@ class Case(namedtuple("Case", "name pile known")):
     >>> name, pile, known = cases()[10]
     >>> name, pile
     ('C11', Pile(stacking='+-+-+', spacing=1, state='elastic'))
+    """
+
+    __slots__ = ()
+
+
+class FrictionCase(namedtuple("FrictionCase", "name rough_floor known")):
+    """A benchmark case on a rough floor: a citable name, its pile on the floor, and known facts about it.
+
+    Attributes
+    ----------
+    name : str
+    rough_floor : RoughFloor
+    known : Known
+
+    Examples
+    --------
+    >>> from cannonpile import friction_cases
+    >>> name, rough_floor, known = friction_cases()[0]
+    >>> name, rough_floor.friction, known.title
+    ('C17', Fraction(1, 2), 'Four balls on a rough table')
     """
 
     __slots__ = ()

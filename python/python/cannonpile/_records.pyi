@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._pile import Pile
+from ._rough import RoughFloor
 
 class Multiples(NamedTuple):
     numerators: NDArray[np.int64] | list[int]
@@ -21,6 +22,17 @@ class FloorForce(NamedTuple):
     normal: Fraction
     shear_x: Fraction
     shear_y: Fraction
+
+class RoughContact(NamedTuple):
+    ids: tuple[int, int]
+    k: int
+    i: int
+    j: int
+    direction: str
+    normal: Fraction
+    tangential: Fraction
+    normal_vector: tuple[float, float, float]
+    tangential_vector: tuple[float, float, float]
 
 class Stability(NamedTuple):
     margin_squared: Fraction | None
@@ -74,6 +86,11 @@ class Known(NamedTuple):
 class Case(NamedTuple):
     name: str
     pile: Pile
+    known: Known
+
+class FrictionCase(NamedTuple):
+    name: str
+    rough_floor: RoughFloor
     known: Known
 
 class Difference(NamedTuple):
