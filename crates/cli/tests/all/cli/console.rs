@@ -58,9 +58,9 @@ console! {
     sensitivity: 15;
     spheres: 22;
     stability: 31;
-    summary: 39;
+    summary: 41;
     tables: 9;
-    verify: 14;
+    verify: 16;
 }
 
 /// A command of a snapshot, with the lines below it.
