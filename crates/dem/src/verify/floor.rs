@@ -9,11 +9,10 @@ use crate::NumberedPile;
 use crate::vector::plus;
 
 /// The measured contacts of the bottom spheres with the floor and with walls.
+#[derive(Default)]
 pub(super) struct Floor {
     /// The contacts by sphere and wall. A wall has a number, unless it was found by position.
     contacts: BTreeMap<(u64, Option<i128>), Contact>,
-    /// True if horizontal forces are compared too.
-    is_rough: bool,
     /// True if every bottom sphere with a force on the floor needs a row.
     is_whole: bool,
 }
@@ -22,7 +21,7 @@ pub(super) struct Floor {
 struct Contact {
     /// The sum of the forces of the rows that name the sphere first, and of those that name it second.
     sums: [Option<[f64; 3]>; 2],
-    /// The last force of either order. On a floor with glue, only the normal force.
+    /// The last force of either order.
     last: [Option<[f64; 3]>; 2],
     /// The number of rows that are part of a sum, and of these with a force.
     rows: u64,
@@ -31,10 +30,10 @@ struct Contact {
     line: u64,
 }
 
-/// The force of the floor on a sphere, with z upwards.
+/// The judged force of the floor on a sphere, with z upwards.
 #[derive(Clone, Copy)]
 pub(super) struct Upward {
-    /// Without a vector, x and y are 0.
+    /// On a floor with glue, or without a vector, x and y are 0.
     force: [f64; 3],
     has_vector: bool,
 }
@@ -55,11 +54,12 @@ pub(super) struct OnFloor {
 }
 
 impl Upward {
-    /// Returns the force on a sphere. A magnitude is the normal force.
-    pub(super) fn of(on_sphere: Force) -> Self {
+    /// Returns the force on a sphere. A magnitude is the normal force. The friction of a floor with glue is not judged.
+    pub(super) fn of(on_sphere: Force, is_rough: bool) -> Self {
         let (force, has_vector) = match on_sphere {
             Force::Along(force) => ([0.0, 0.0, force], false),
-            Force::Vector(vector) | Force::Both(_, vector) => (vector, true),
+            Force::Vector(vector) | Force::Both(_, vector) if is_rough => (vector, true),
+            Force::Vector([.., z]) | Force::Both(_, [.., z]) => ([0.0, 0.0, z], true),
         };
         Self { force, has_vector }
     }
@@ -72,14 +72,6 @@ impl Upward {
 }
 
 impl Floor {
-    pub(super) fn new(is_rough: bool) -> Self {
-        Self {
-            contacts: BTreeMap::new(),
-            is_rough,
-            is_whole: false,
-        }
-    }
-
     /// Expects a row for every bottom sphere with a force on the floor.
     pub(super) fn expect_all(&mut self) {
         self.is_whole = true;
@@ -105,7 +97,7 @@ impl Floor {
     ) -> bool {
         let contact = self.contacts.entry((sphere, Some(wall)));
         let contact = contact.or_insert_with(|| Contact::new(line));
-        let is_repeated = contact.add(is_second, upward, self.is_rough);
+        let is_repeated = contact.add(is_second, upward);
         contact.count(upward, is_repeated);
         is_repeated
     }
@@ -117,14 +109,7 @@ impl Floor {
         let contact = contact.or_insert_with(|| Contact::new(line));
         let is_repeated = match &mut contact.sums {
             [Some(first), second] => {
-                let is_rough = self.is_rough;
-                let apart = |force: [f64; 3]| {
-                    if is_rough {
-                        distance(force, *first)
-                    } else {
-                        (force[2] - first[2]).abs()
-                    }
-                };
+                let apart = |force| distance(force, *first);
                 if second.map_or(0.0, apart) < apart(upward.force) {
                     *second = Some(upward.force);
                 }
@@ -201,10 +186,8 @@ impl Floor {
                 return Err(Refusal::OutOfRange);
             }
             let sums = [sum([0, 1]), sum([1, 0])];
-            if self.is_rough {
-                let has_vectors = contacts.iter().all(|contact| contact.has_vector);
-                on_floor.forces.push((id, has_vectors.then_some(sums)));
-            }
+            let has_vectors = contacts.iter().all(|contact| contact.has_vector);
+            on_floor.forces.push((id, has_vectors.then_some(sums)));
             let [one, other] = sums.map(|[.., normal]| normal);
             let unit = if exact.normal == 0.0 {
                 largest_force
@@ -213,12 +196,7 @@ impl Floor {
             };
             let apart = (one - exact.normal).abs().max((other - exact.normal).abs());
             on_floor.errors.push(relative(apart, unit));
-            let apart = if self.is_rough {
-                distance(sums[0], sums[1])
-            } else {
-                (one - other).abs()
-            };
-            let apart = relative(apart, unit);
+            let apart = relative(distance(sums[0], sums[1]), unit);
             on_floor
                 .contradictions
                 .extend(Some(apart).filter(|apart| *apart > 0.0));
@@ -256,19 +234,14 @@ impl Contact {
 
     /// Adds a force to the sum of its order. Returns whether the row repeats another one: in the same order if it
     /// agrees, or in the other order.
-    fn add(&mut self, is_second: bool, upward: Upward, is_rough: bool) -> bool {
+    fn add(&mut self, is_second: bool, upward: Upward) -> bool {
         let ([first, second], [last, other]) = (&mut self.sums, &mut self.last);
         let (sum, last, reverse) = if is_second {
             (second, other, first)
         } else {
             (first, last, second)
         };
-        let compared = if is_rough {
-            upward.force
-        } else {
-            [0.0, 0.0, upward.normal()]
-        };
-        if last.replace(compared) == Some(compared) {
+        if last.replace(upward.force) == Some(upward.force) {
             return true;
         }
         *sum = Some(sum.map_or(upward.force, |sum| plus(sum, upward.force)));

@@ -78,7 +78,7 @@ impl<'p> Ledger<'p> {
             forces: Forces::default(),
             seconds: Forces::default(),
             strays: BTreeMap::new(),
-            floor: Floor::new(false),
+            floor: Floor::default(),
             repeated: 0,
             lines: Lines::default(),
             walls: 0,
@@ -94,12 +94,7 @@ impl<'p> Ledger<'p> {
         packing.on_rough_floor()?;
         let ledger = Self::new(packing)?;
         let rough = Some(Directions::of(&ledger.numbered)?);
-        let floor = Floor::new(true);
-        Ok(Self {
-            floor,
-            rough,
-            ..ledger
-        })
+        Ok(Self { rough, ..ledger })
     }
 
     pub(super) fn numbered(&self) -> &NumberedPile<'p> {
@@ -146,7 +141,9 @@ impl<'p> Ledger<'p> {
             return Err(Fault::of_bug("the floor touches bottom spheres only"));
         }
         on_sphere.refuse_infinite()?;
-        let is_repeated = self.floor.add_below(sphere, Upward::of(on_sphere), line);
+        let is_repeated =
+            self.floor
+                .add_below(sphere, Upward::of(on_sphere, self.rough.is_some()), line);
         self.repeated += u64::from(is_repeated);
         Ok(())
     }
@@ -210,7 +207,7 @@ impl<'p> Ledger<'p> {
         } else {
             on_first
         };
-        let upward = Upward::of(on_sphere);
+        let upward = Upward::of(on_sphere, self.rough.is_some());
         let is_repeated = self.floor.add((sphere, wall), is_second, upward, line);
         self.repeated += u64::from(is_repeated);
         Ok(())
@@ -284,7 +281,7 @@ impl<'p> Ledger<'p> {
     }
 
     fn forget_floor(&mut self) {
-        self.floor = Floor::new(self.rough.is_some());
+        self.floor = Floor::default();
         self.fallen.clear();
     }
 
