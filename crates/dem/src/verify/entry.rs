@@ -66,9 +66,7 @@ impl Entry {
 
     /// Returns the force between the two numbered spheres of the row. No number may be negative.
     pub(super) fn named(&self) -> Result<Measured, Fault> {
-        let ids = self.numbers().map_err(|error| Fault::Bug {
-            error: Box::new(error),
-        })?;
+        let ids = self.numbers().map_err(Fault::of_error)?;
         match ids.map(u64::try_from) {
             [Ok(one), Ok(other)] => Ok(self.between([one, other])),
             [first, _] => {

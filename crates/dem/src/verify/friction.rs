@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, FrictionFault, FrictionOf};
 use super::floor::OnFloor;
-use super::measured::{Measured, distance, norm, over, relative};
+use super::measured::{Measured, distance, norm, opposite, over, relative};
 use super::refusal::Refusal;
 use super::unbalanced::between;
 use crate::error::bug;
@@ -76,16 +76,24 @@ impl Directions {
         Ok(Self(directions.collect::<Result<_, Error>>()?))
     }
 
+    /// Returns the direction of the n-th contact. The contacts are in the order of their upper spheres.
+    fn of_contact(&self, n: usize) -> Result<[f64; 3], Error> {
+        let direction = n.checked_rem(self.0.len()).and_then(|n| self.0.get(n));
+        direction
+            .copied()
+            .ok_or_else(|| bug("a pile has directions"))
+    }
+
     /// Returns the measurement of the n-th contact with its normal and its tangential force. If the latter is not listed, the
     /// vector is the whole force. The upper sphere is the first.
-    pub(super) fn split(&self, n: usize, measured: Measured) -> Measured {
-        let up = self.0.get(n % self.0.len());
-        let (Some(vector), None, Some(up)) = (measured.vector, measured.tangential, up) else {
-            return measured;
+    pub(super) fn split(&self, n: usize, measured: Measured) -> Result<Measured, Error> {
+        let (Some(vector), None) = (measured.vector, measured.tangential) else {
+            return Ok(measured);
         };
-        let along = dot(vector, *up);
+        let up = self.of_contact(n)?;
+        let along = dot(vector, up);
         let normal = up.map(|component| component * along);
-        Measured {
+        Ok(Measured {
             force: if measured.is_length {
                 along
             } else {
@@ -94,7 +102,7 @@ impl Directions {
             vector: Some(normal),
             tangential: Some(minus(vector, normal)),
             ..measured
-        }
+        })
     }
 }
 
@@ -114,13 +122,13 @@ impl<'n, 'p> FrictionTally<'n, 'p> {
         })
     }
 
-    /// Adds a contact with the exact tangential force on the upper sphere, and the split rows with measured forces.
+    /// Adds the n-th contact with the exact tangential force on the upper sphere, and the split rows with measured forces.
     pub(super) fn add(
         &mut self,
-        exact: &NumberedContact,
+        (n, exact): (usize, &NumberedContact),
         tangential: [f64; 3],
         rows: [Option<Measured>; 2],
-    ) {
+    ) -> Result<(), Error> {
         self.largest = self.largest.max(norm(tangential));
         let is_measured = rows.iter().any(Option::is_some);
         let rows = rows.iter().flatten();
@@ -128,21 +136,20 @@ impl<'n, 'p> FrictionTally<'n, 'p> {
         let apart = |(_, force): &(&Measured, [f64; 3])| distance(*force, tangential);
         let worse = measured.max_by(|one, other| apart(one).total_cmp(&apart(other)));
         let mut acting = [[f64::NAN; 3]; 2];
-        if worse.is_none() && is_measured && norm(tangential) > 0.0 {
-            self.contacts.unknown += 1;
-        }
         if let Some((row, force)) = worse {
             self.contacts.add(exact.ids, force, tangential);
-            let up = self.direction(exact);
+            let up = self.directions.of_contact(n)?;
             let normal = row.vector.unwrap_or_else(|| up.map(|x| x * row.force));
             // The contact is below the upper sphere and above the lower one. Force and place change their signs together,
             // so both moments are equal.
             acting = [plus(normal, force), cross(force, up)];
+        } else if is_measured && norm(tangential) > 0.0 {
+            self.contacts.unknown += 1;
         }
         let [force, moment] = acting;
         let [upper, lower] = exact.ids;
-        self.act(upper, [force, moment]);
-        self.act(lower, [minus([0.0; 3], force), moment]);
+        self.act(upper, [force, moment])?;
+        self.act(lower, [opposite(force), moment])
     }
 
     /// Finishes the comparison with the forces of the floor.
@@ -170,7 +177,7 @@ impl<'n, 'p> FrictionTally<'n, 'p> {
                     acting = [*force, cross(friction, [0.0, 0.0, 1.0])];
                 }
             }
-            self.act(id, acting);
+            self.act(id, acting)?;
         }
         let largest = self.largest;
         let nets = (1_u64..).zip(&self.nets);
@@ -188,19 +195,12 @@ impl<'n, 'p> FrictionTally<'n, 'p> {
     }
 
     /// Adds a force and a moment on a sphere.
-    fn act(&mut self, id: u64, [force, moment]: [[f64; 3]; 2]) {
+    fn act(&mut self, id: u64, [force, moment]: [[f64; 3]; 2]) -> Result<(), Error> {
         let place = id.checked_sub(1).and_then(|id| usize::try_from(id).ok());
-        if let Some([net, turning]) = place.and_then(|place| self.nets.get_mut(place)) {
-            (*net, *turning) = (plus(*net, force), plus(*turning, moment));
-        }
-    }
-
-    /// Returns the unit vector from the lower to the upper sphere of a contact.
-    fn direction(&self, contact: &NumberedContact) -> [f64; 3] {
-        let direction = contact.direction.direction();
-        let known = direction.and_then(|direction| self.directions.0.get(direction.index()));
-        // On a rough floor all contacts slope.
-        known.copied().unwrap_or([f64::NAN; 3])
+        let place = place.and_then(|place| self.nets.get_mut(place));
+        let [net, turning] = place.ok_or_else(|| bug("a contact has spheres of the pile"))?;
+        (*net, *turning) = (plus(*net, force), plus(*turning, moment));
+        Ok(())
     }
 }
 

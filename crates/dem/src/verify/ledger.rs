@@ -220,13 +220,13 @@ impl<'p> Ledger<'p> {
         measured: &Measured,
         line: u64,
     ) -> Result<(), Fault> {
-        let split = self
-            .rough
-            .as_ref()
-            .map(|rough| rough.split(slot, *measured));
+        let split = match &self.rough {
+            Some(rough) => rough.split(slot, *measured).map_err(Fault::of_error)?,
+            None => *measured,
+        };
         let measured = &Measured {
             is_length: false,
-            ..split.unwrap_or(*measured)
+            ..split
         };
         let (ids, contacts) = (measured.ids, self.slots.len());
         let listed = self.listed.get_mut(slot);
@@ -318,7 +318,7 @@ impl<'p> Ledger<'p> {
             let second = listed.filter(|listed| *listed == Listed::Differently);
             let second = second.and_then(|_| self.seconds.get(slot, exact.ids));
             if let Some((rubbing, tangential)) = friction {
-                rubbing.add(&exact, tangential, [measured, second]);
+                rubbing.add((slot, &exact), tangential, [measured, second])?;
             }
             if let (Some(balance), Some(measured)) = (&mut balance, &measured) {
                 balance.add(&exact, measured)?;

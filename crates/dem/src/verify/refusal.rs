@@ -512,9 +512,13 @@ impl Refusal {
 impl Fault {
     /// Returns the fault for a violated invariant.
     pub(super) fn of_bug(invariant: &'static str) -> Self {
-        Self::Bug {
-            error: Box::new(bug(invariant)),
-        }
+        Self::of_error(bug(invariant))
+    }
+
+    /// Returns the fault for an internal error.
+    pub(super) fn of_error(error: Error) -> Self {
+        let error = Box::new(error);
+        Self::Bug { error }
     }
 
     /// Returns this fault for a table that numbers its spheres from `first_id`, if it is one for numbers from 1.
