@@ -503,12 +503,12 @@ pub(super) fn stresses<'p>(
     Ok(stresses.map(move |stress| rounded(&packing.stress_in_si(&stress?), "a stress")))
 }
 
-/// Returns the correctly rounded components of a sum of vectors.
+/// Returns the correctly rounded components of a sum of vectors, with 0 instead of −0.
 pub(super) fn all_rounded<const N: usize>(vector: &[SurdSum; N]) -> Result<[f64; N], Error> {
     let mut rounded = [0.0; N];
     for (rounded, exact) in rounded.iter_mut().zip(vector) {
-        let nearest = exact.nearest();
-        *rounded = nearest.ok_or_else(|| Error::overflow(FORCE, "f64"))?;
+        let nearest = exact.nearest::<f64>();
+        *rounded = 0.0 + nearest.ok_or_else(|| Error::overflow(FORCE, "f64"))?;
     }
     Ok(rounded)
 }

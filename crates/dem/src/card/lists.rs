@@ -40,12 +40,16 @@ pub(super) fn placed(pile: &Pile, before: Json, Site { i, j, k }: Site, after: J
         Dimension::Two => json!({"k": k, "i": i}),
         Dimension::Three => json!({"k": k, "i": i, "j": j}),
     };
+    joined([before, place, after])
+}
+
+/// Returns the entries of all records as one record.
+pub(super) fn joined(records: [Json; 3]) -> Json {
     let entries = |record| match record {
         Json::Object(entries) => entries,
         _ => serde_json::Map::new(),
     };
-    let records = [before, place, after].into_iter();
-    Json::Object(records.flat_map(entries).collect())
+    Json::Object(records.into_iter().flat_map(entries).collect())
 }
 
 pub(super) fn contact(numbered: &NumberedPile<'_>, found: &Extreme) -> Result<Json, Error> {

@@ -8,7 +8,9 @@ use num_traits::{One, Zero};
 use serde_json::{Value as Json, json};
 
 use super::extremes::{Extreme, Extremes};
-use super::lists::{FORCE, base, contact, contacts, integer, placed, rational, spheres, value};
+use super::lists::{
+    FORCE, base, contact, contacts, integer, joined, placed, rational, spheres, value,
+};
 use super::{CardTitle, heading};
 use crate::Error;
 use crate::error::bug;
@@ -25,8 +27,8 @@ use cannonpile::{BaseExtremes, Load, Packing, Pile, Verdict};
 pub(super) type Names = BTreeMap<String, String>;
 
 /// The name of the layout. The version increases when a key is removed or changes its meaning.
-pub(super) const SCHEMA: &str = "cannonpile-card";
-pub(super) const SCHEMA_VERSION: u32 = 1;
+const SCHEMA: &str = "cannonpile-card";
+const SCHEMA_VERSION: u32 = 1;
 
 /// Returns the card, with lists of at most `most` entries, and the texts for its templates.
 pub(super) fn record(
@@ -52,10 +54,7 @@ pub(super) fn record(
     let (attained, falls) = (extremes.pulling.is_zero(), stands == Ok(Some(Verdict::No)));
     let rests = attained && !falls;
     let flag = |holds: bool| holds.then(String::new);
-    let option = match &*title.case {
-        "" => "--scene scene.toml".to_owned(),
-        case => format!("--case {case}"),
-    };
+    let option = scene_option(title);
     let verify = format!("cannonpile verify FORCES {option} --accept {accept}");
     let export = format!("cannonpile export DIR {option} --to");
     let files = format!("{export} csv");
@@ -83,11 +82,46 @@ pub(super) fn record(
     ]));
     let outcome = fill_lines(include_str!("outcome.txt"), &names);
     let criteria = criteria(include_str!("criteria.txt"), &names)?;
-    let version = env!("CARGO_PKG_VERSION");
-    let unless_empty = |text: &str| (!text.is_empty()).then(|| text.to_owned());
     let accept: Json =
         serde_json::from_str(&accept).map_err(|_| bug("the digits of a tolerance are JSON"))?;
-    let card = json!({
+    let tolerance = json!({
+        "accept": accept,
+        "order": 1,
+        "order_in": "1/k",
+        "stiffness": springs.map(|(stiffness, _)| stiffness),
+        "compliance": springs.map(|(_, compliance)| compliance),
+        "law": include_str!("law.txt").lines().collect::<Json>(),
+    });
+    let own = json!({
+        "pile": of_pile,
+        "answers": answers,
+        "tolerance": tolerance,
+        "criteria": criteria,
+        "verify": verify,
+        "files": files,
+    });
+    Ok((framed(numbered, title, &outcome, scene, own), names))
+}
+
+/// Returns the option that names the scene of a card.
+pub(super) fn scene_option(title: &CardTitle) -> String {
+    match &*title.case {
+        "" => "--scene scene.toml".to_owned(),
+        case => format!("--case {case}"),
+    }
+}
+
+/// Returns a card: what all cards have in common around its own entries.
+pub(super) fn framed(
+    numbered: &NumberedPile<'_>,
+    title: &CardTitle,
+    outcome: &str,
+    scene: Option<&str>,
+    own: Json,
+) -> Json {
+    let version = env!("CARGO_PKG_VERSION");
+    let unless_empty = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+    let head = json!({
         "schema": SCHEMA,
         "schema_version": SCHEMA_VERSION,
         "cannonpile": version,
@@ -97,22 +131,9 @@ pub(super) fn record(
         "outcome": outcome.trim_end(),
         "scene": scene,
         "units": {"length": "m", "mass": "kg", "force": "N", "up": "z"},
-        "pile": of_pile,
-        "answers": answers,
-        "tolerance": {
-            "accept": accept,
-            "order": 1,
-            "order_in": "1/k",
-            "stiffness": springs.map(|(stiffness, _)| stiffness),
-            "compliance": springs.map(|(_, compliance)| compliance),
-            "law": include_str!("law.txt").lines().collect::<Json>(),
-        },
-        "criteria": criteria,
-        "verify": verify,
-        "files": files,
-        "cite": fill(include_str!("cite.bib"), &[("version", version.into())]).trim_end(),
     });
-    Ok((card, names))
+    let cite = fill(include_str!("cite.bib"), &[("version", version.into())]);
+    joined([head, own, json!({"cite": cite.trim_end()})])
 }
 
 /// Returns the criteria of a template: each line has a name, a demand and a check.

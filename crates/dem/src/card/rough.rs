@@ -3,12 +3,12 @@
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 
+use super::CardTitle;
 use super::lists::{FORCE, placed, rational};
 use super::page::Layout;
-use super::record::{Names, SCHEMA, SCHEMA_VERSION, criteria, given, name, of_pile};
-use super::{CardTitle, heading};
+use super::record::{Names, criteria, framed, given, name, of_pile, scene_option};
 use crate::numbered::{NumberedPile, all_rounded};
-use crate::template::{fill, fill_lines};
+use crate::template::fill_lines;
 use crate::{Error, Friction};
 use cannonpile::friction::RoughPacking;
 use cannonpile::scalar::SurdSum;
@@ -28,10 +28,7 @@ pub(super) fn record(
     let rough = numbered.packing().on_rough_floor()?;
     let [contacts_hold, floor_holds] = friction.holds(&rough)?;
     let stands = contacts_hold && floor_holds;
-    let option = match &*title.case {
-        "" => "--scene scene.toml".to_owned(),
-        case => format!("--case {case}"),
-    };
+    let option = scene_option(title);
     let verify = format!("cannonpile verify FORCES --floor-table FLOOR {option} --accept {ACCEPT}");
     let of_pile = of_pile(numbered, title, most)?;
     let answers = answers(numbered, &rough, friction, stands, most)?;
@@ -58,27 +55,15 @@ pub(super) fn record(
         .iter()
         .map(|line| format!("| {} |", line.replace('|', " | ")));
     names.insert("failures".into(), rows.collect::<Vec<_>>().join("\n"));
-    let version = env!("CARGO_PKG_VERSION");
-    let unless_empty = |text: &str| (!text.is_empty()).then(|| text.to_owned());
-    let card = json!({
-        "schema": SCHEMA,
-        "schema_version": SCHEMA_VERSION,
-        "cannonpile": version,
-        "case": unless_empty(&title.case),
-        "title": heading(numbered, title),
-        "purpose": unless_empty(&title.purpose),
-        "outcome": outcome.trim_end(),
-        "scene": scene,
-        "units": {"length": "m", "mass": "kg", "force": "N", "up": "z"},
+    let own = json!({
         "pile": of_pile,
         "answers": answers,
         "tolerance": {"accept": 1e-5},
         "criteria": criteria,
         "failures": failures,
         "verify": verify,
-        "cite": fill(include_str!("cite.bib"), &[("version", version.into())]).trim_end(),
     });
-    Ok((card, names))
+    Ok((framed(numbered, title, &outcome, scene, own), names))
 }
 
 /// The page.
@@ -117,9 +102,8 @@ fn answers(
 
 /// Returns a sum of surds with its correctly rounded float.
 fn sum(number: &SurdSum) -> Result<Json, Error> {
-    // Adding 0 turns −0 into 0.
     let [float] = all_rounded(core::array::from_ref(number))?;
-    Ok(json!({"exact": number.to_string(), "float": float + 0.0}))
+    Ok(json!({"exact": number.to_string(), "float": float}))
 }
 
 fn contacts(numbered: &NumberedPile<'_>, rough: &RoughPacking<'_>) -> Result<Json, Error> {
@@ -128,8 +112,7 @@ fn contacts(numbered: &NumberedPile<'_>, rough: &RoughPacking<'_>) -> Result<Jso
     let all = all.map(|(touch, contact)| {
         let ((direction, ids), contact) = (touch?, contact?);
         let vector = |vector: &[SurdSum; 3]| {
-            // Adding 0 turns −0 into 0.
-            let [x, y, z] = all_rounded(vector)?.map(|part| part + 0.0);
+            let [x, y, z] = all_rounded(vector)?;
             Ok::<_, Error>(json!({"x": x, "y": y, "z": z}))
         };
         let normal = contact.normal_vector.map(SurdSum::from);
