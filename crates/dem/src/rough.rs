@@ -120,15 +120,24 @@ impl Friction {
         self.floor.rounded
     }
 
-    /// Returns whether the contacts between spheres hold, and whether no sphere slides on the floor. The comparison is exact.
+    /// Returns whether contacts between spheres hold, and whether the floor does.
     pub(super) fn holds(&self, rough: &RoughPacking<'_>) -> Result<[bool; 2], Error> {
-        let Self { spheres, floor } = self;
-        let contacts = spheres.exact.as_ref();
-        let contacts = contacts.map_or(Ok(true), |friction| rough.contacts_hold_at(friction))?;
-        let floor = floor.exact.as_ref();
-        let floor = floor.map_or(Ok(true), |friction| rough.floor_holds_at(friction))?;
-        Ok([contacts, floor])
+        hold(
+            rough,
+            [&self.spheres, &self.floor].map(|given| given.exact.as_ref()),
+        )
     }
+}
+
+/// Returns whether contacts between spheres hold, and whether the floor does, with coefficients of friction. One that is not
+/// given is large enough. The comparison is exact.
+pub(super) fn hold(
+    rough: &RoughPacking<'_>,
+    [spheres, floor]: [Option<&BigRational>; 2],
+) -> Result<[bool; 2], Error> {
+    let contacts = spheres.map_or(Ok(true), |friction| rough.contacts_hold_at(friction))?;
+    let floor = floor.map_or(Ok(true), |friction| rough.floor_holds_at(friction))?;
+    Ok([contacts, floor])
 }
 
 impl Coefficient {

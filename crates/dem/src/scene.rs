@@ -11,6 +11,7 @@ use core::str::FromStr;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use crate::rough::hold;
 use crate::{Error, Friction, Key};
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Region};
@@ -503,14 +504,8 @@ impl Scene {
         if self.coefficients().next().is_none() {
             return Ok(None);
         }
-        let rough = packing.on_rough_floor()?;
-        let holds = |given: &Option<BigRational>, holds: &dyn Fn(&BigRational) -> _| {
-            given.as_ref().map_or(Ok(true), holds)
-        };
-        let contacts = holds(&self.friction, &|friction| rough.contacts_hold_at(friction))?;
-        let floor = holds(&self.floor_friction, &|friction| {
-            rough.floor_holds_at(friction)
-        })?;
+        let given = [&self.friction, &self.floor_friction].map(Option::as_ref);
+        let [contacts, floor] = hold(&packing.on_rough_floor()?, given)?;
         Ok(Some(contacts && floor))
     }
 }
