@@ -4,17 +4,19 @@ use std::io::Write;
 
 use super::numbered::{NumberedContact, NumberedPile, stresses};
 use super::weights::{PerSphere, nearest_rational};
+use crate::error::bug;
 use crate::table::{WriteError, in_dimension};
 use cannonpile::FloorForce;
 use cannonpile::lattice::{Dimension, Site};
 
-/// Writes the position, size, mass and load of every sphere.
+/// Writes the position, size, mass and load of every sphere, and its stress.
 pub(super) fn write_spheres(
     pile: &NumberedPile<'_>,
+    with_stress: bool,
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    write_heads(out, "spheres.csv", pile)?;
+    write_heads(out, "spheres.csv", (pile, with_stress))?;
     let radius = nearest_rational(pile.packing().radius(), "radius")?;
     let place = Place::of(pile);
     let (masses, loads) = (PerSphere::masses(pile)?, PerSphere::loads(pile)?);
@@ -22,10 +24,7 @@ pub(super) fn write_spheres(
     let along = along.transpose()?;
     let axes = pile.pile().dimension().directions().len() - 1;
     let floor = pile.pile().layers() - 1;
-    let mut stresses = pile
-        .has_stress
-        .then(|| stresses(pile.packing()))
-        .transpose()?;
+    let mut stresses = with_stress.then(|| stresses(pile.packing())).transpose()?;
     for (id, centre) in (1_u64..).zip(pile.centres()?) {
         let (site, [x, y, z]) = centre?;
         let (mass, load) = (masses.of(site), loads.of(site));
@@ -39,8 +38,10 @@ pub(super) fn write_spheres(
         for along in along.iter().flatten().take(axes) {
             write!(out, ",{:?}", along.of(site))?;
         }
-        if let Some(stress) = stresses.as_mut().and_then(Iterator::next) {
-            for part in in_dimension(pile.pile(), stress?) {
+        if let Some(stresses) = &mut stresses {
+            let stress = stresses.next();
+            let stress = stress.ok_or_else(|| bug("every sphere has a stress"))??;
+            for part in in_dimension(pile.pile(), stress) {
                 write!(out, ",{part:?}")?;
             }
         }
@@ -56,7 +57,7 @@ pub(super) fn write_contacts(
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    write_heads(out, "contacts.csv", pile)?;
+    write_heads(out, "contacts.csv", (pile, false))?;
     let place = Place::of(pile);
     for contact in pile.forces()? {
         let NumberedContact {
@@ -80,7 +81,7 @@ pub(super) fn write_base(
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    write_heads(out, "base.csv", pile)?;
+    write_heads(out, "base.csv", (pile, false))?;
     let flat = pile.pile().dimension() == Dimension::Two;
     for force in pile.on_floor()? {
         let (
@@ -106,9 +107,10 @@ pub(super) fn write_base(
 /// Writes a row for each column of the other files.
 pub(super) fn write_columns(
     pile: &NumberedPile<'_>,
+    with_stress: bool,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    for line in columns(pile) {
+    for line in columns(pile, with_stress) {
         writeln!(out, "{line}")?;
     }
     Ok(())
@@ -116,14 +118,17 @@ pub(super) fn write_columns(
 
 /// Returns the lines of `columns.csv` for a pile: file, column, unit, meaning. Discs have no j and no forces along y.
 /// Vertical loads have no components along x and y.
-fn columns(pile: &NumberedPile<'_>) -> impl Iterator<Item = &'static str> + use<> {
+fn columns(
+    pile: &NumberedPile<'_>,
+    with_stress: bool,
+) -> impl Iterator<Item = &'static str> + use<> {
     let flat = pile.pile().dimension() == Dimension::Two;
-    let (vertical, has_stress) = (!has_horizontal_loads(pile), pile.has_stress);
+    let vertical = !has_horizontal_loads(pile);
     let lines = include_str!("columns.csv").lines();
     lines.filter(move |line| match line.split(',').nth(1) {
         Some("j" | "shear_y") => !flat,
-        Some("stress_xx" | "stress_zz" | "stress_xz") => has_stress,
-        Some("stress_yy" | "stress_xy" | "stress_yz") => has_stress && !flat,
+        Some("stress_xx" | "stress_zz" | "stress_xz") => with_stress,
+        Some("stress_yy" | "stress_xy" | "stress_yz") => with_stress && !flat,
         Some("load_x") => !vertical,
         Some("load_y") => !vertical && !flat,
         _ => true,
@@ -134,8 +139,12 @@ fn has_horizontal_loads(pile: &NumberedPile<'_>) -> bool {
     pile.pile().loads().any(|(_, load)| !load.is_vertical())
 }
 
-fn write_heads(out: &mut dyn Write, file: &str, pile: &NumberedPile<'_>) -> std::io::Result<()> {
-    let columns = columns(pile).map(|line| line.split(','));
+fn write_heads(
+    out: &mut dyn Write,
+    file: &str,
+    (pile, with_stress): (&NumberedPile<'_>, bool),
+) -> std::io::Result<()> {
+    let columns = columns(pile, with_stress).map(|line| line.split(','));
     let columns =
         columns.filter_map(|mut fields| (fields.next()? == file).then(|| fields.next())?);
     writeln!(out, "{}", columns.collect::<Vec<_>>().join(","))

@@ -41,6 +41,8 @@ pub struct PileExport<'p> {
     title: CardTitle,
     /// The coefficients of friction, on a rough floor.
     friction: Option<Friction>,
+    /// True if the files of spheres contain their stress.
+    with_stress: bool,
 }
 
 impl<'p> PileExport<'p> {
@@ -73,6 +75,7 @@ impl<'p> PileExport<'p> {
             scene: None,
             title: CardTitle::default(),
             friction: None,
+            with_stress: false,
         })
     }
 
@@ -116,9 +119,11 @@ impl<'p> PileExport<'p> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn with_stress(mut self) -> Self {
-        self.pile.has_stress = true;
-        self
+    pub fn with_stress(self) -> Self {
+        Self {
+            with_stress: true,
+            ..self
+        }
     }
 
     /// Sets the texts of cards and the titles of tests.
@@ -285,16 +290,16 @@ impl<'p> PileExport<'p> {
         self.check_floor(file)?;
         let scene = self.scene.as_deref();
         match file {
-            PileFile::SpheresCsv => csv::write_spheres(pile, out, row),
+            PileFile::SpheresCsv => csv::write_spheres(pile, self.with_stress, out, row),
             PileFile::ContactsCsv => csv::write_contacts(pile, out, row),
             PileFile::BaseCsv => csv::write_base(pile, out, row),
-            PileFile::ColumnsCsv => csv::write_columns(pile, out),
+            PileFile::ColumnsCsv => csv::write_columns(pile, self.with_stress, out),
             PileFile::LammpsData => lammps::write_data(pile, out, row),
             PileFile::LammpsInput => match &self.friction {
                 None => lammps::write_input(pile, out),
                 Some(friction) => rough::write_lammps(pile, friction, out),
             },
-            PileFile::SpheresVtp => vtp::write_spheres(pile, out, row),
+            PileFile::SpheresVtp => vtp::write_spheres(pile, self.with_stress, out, row),
             PileFile::ContactsVtp => vtp::write_contacts(pile, out, row),
             PileFile::YadeSpheres => yade::write_spheres(pile, out, row),
             PileFile::YadeScript => match &self.friction {

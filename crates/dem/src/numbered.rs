@@ -32,8 +32,6 @@ use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
 pub struct NumberedPile<'p> {
     packing: Packing<'p>,
     numbering: Numbering<'p>,
-    /// Whether the files of spheres contain their stress.
-    pub(super) has_stress: bool,
 }
 
 /// A contact of a pile with its correctly rounded force.
@@ -99,7 +97,6 @@ impl<'p> NumberedPile<'p> {
         Ok(Self {
             numbering: pile.numbering()?,
             packing: packing.clone(),
-            has_stress: false,
         })
     }
 

@@ -11,13 +11,12 @@ use cannonpile::lattice::{Axis, ContactKind, Direction};
 /// Writes one point and one vertex for each sphere.
 pub(super) fn write_spheres(
     pile: &NumberedPile<'_>,
+    with_stress: bool,
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
     let n = pile.numbering().sphere_count();
-    let stress = pile
-        .has_stress
-        .then(|| Array::new("stress", Kind::Float64, 9, n));
+    let stress = with_stress.then(|| Array::new("stress", Kind::Float64, 9, n));
     let sections = [
         Section {
             tag: "PointData",
@@ -63,7 +62,7 @@ pub(super) fn write_spheres(
     }
     data.array()?;
     write_reactions(pile, &mut data)?;
-    if pile.has_stress {
+    if with_stress {
         data.array()?;
         for stress in stresses(pile.packing())? {
             let [xx, yy, zz, xy, xz, yz] = stress?;
