@@ -479,3 +479,37 @@ fn columns_of_tangential_forces_are_complete_or_a_sum() {
     assert!(compared.comparison.accepted(1e-14));
     assert_eq!(compared.comparison.tangential(), 3);
 }
+
+#[test]
+fn a_table_of_a_floor_with_glue_is_judged_by_normal_forces() {
+    let pile = four();
+    let packing = packing(&pile, ratio(6, 5));
+    let contacts = "id1,id2,force\n1,2,0.46225016352102427\n1,3,0.46225016352102427\n1,4,0.46225016352102427\n";
+    let compare = |floor: &str| {
+        let compared =
+            Reader::new().compare_with_floor(&packing, contacts.as_bytes(), floor.as_bytes());
+        compared.unwrap().comparison
+    };
+    let head = "id,fx,fy,fz\n1,0,0,0\n";
+    let row = |id: u64, x: f64, z: f64| format!("{id},{x:?},0,{z:?}\n");
+    let normal = 4.0 / 3.0;
+    // The shear force of the glue is not judged.
+    let floor = [2, 3, 4].map(|id| row(id, 9.0, normal)).concat();
+    let comparison = compare(&(head.to_owned() + &floor));
+    assert!(comparison.accepted(0.0), "{comparison}");
+    assert_eq!(
+        (comparison.floor(), comparison.floor_friction_error()),
+        (3, None)
+    );
+    let wrong =
+        head.to_owned() + &row(2, 0.0, normal) + &row(3, 0.0, 2.0 * normal) + &row(4, 0.0, normal);
+    let comparison = compare(&wrong);
+    assert_eq!(comparison.floor_error(), Some(1.0));
+    assert!(!comparison.accepted(0.1));
+    let lost = head.to_owned() + &row(2, 0.0, normal);
+    let (spheres, first) = (2, 3);
+    assert_eq!(
+        compare(&lost).findings(0.1),
+        [Finding::OffFloor { spheres, first }]
+    );
+}
