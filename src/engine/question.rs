@@ -61,7 +61,7 @@ named!(
 pub enum Quantity {
     /// The forces on the supports, in f₀: [`Forces::contacts`](crate::Forces::contacts).
     ContactMultiples,
-    /// The same forces in newtons, without vectors: [`Packing::contact_forces`](crate::Packing::contact_forces).
+    /// Contact forces in newtons, without vectors: [`Packing::contact_forces`](crate::Packing::contact_forces).
     ContactForces,
     /// The contact forces in SI units, with vectors and contact points:
     /// [`Packing::contacts`](crate::Packing::contacts).

@@ -263,8 +263,8 @@ impl Comparison {
         friction.map_or(0, |friction| friction.contacts.errors.len() as u64)
     }
 
-    /// Returns the largest error of a tangential force, as a vector, relative to the exact one. Where that is 0, the error is
-    /// relative to the largest exact tangential force. `None` if no such force was measured.
+    /// Returns the largest error of a tangential force, as a vector, relative to the exact one. It is relative to the
+    /// largest exact tangential force where the exact one is 0. `None` if no such force was measured.
     ///
     /// # Examples
     /// ```

@@ -107,7 +107,7 @@ pub enum FrictionOf {
     Floor(u64),
 }
 
-/// What is wrong with tangential forces.
+/// The kind of fault of tangential forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrictionFault {
     /// All of them are 0.

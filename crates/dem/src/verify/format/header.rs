@@ -18,11 +18,11 @@ pub(in crate::verify) enum Identity {
     OnFloor,
 }
 
-/// What a table must contain, and what is read if it is there.
+/// The columns of a table that are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::verify) struct Needs {
     pub(in crate::verify) identity: Identity,
-    /// Whether tangential forces are read.
+    /// True if tangential forces are read.
     pub(in crate::verify) tangential: bool,
 }
 
