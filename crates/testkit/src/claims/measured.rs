@@ -636,15 +636,25 @@ fn dump(snapshot: u8, entries: usize, table: &str) -> String {
     )
 }
 
-/// The table in this program's own format.
+/// The table in this program's own format, with the columns that were measured.
 fn csv(entries: &[Measured]) -> String {
-    let with_vectors = entries.iter().any(|one| one.vector.is_some());
-    let mut csv = "id1,id2,force".to_owned();
-    csv += if with_vectors { ",fx,fy,fz\n" } else { "\n" };
+    let has = |column: fn(&Measured) -> bool| entries.iter().any(column);
+    let mut csv = "id1,id2".to_owned();
+    for (is_listed, names) in [
+        (!has(|one| one.is_length), ",force"),
+        (has(|one| one.vector.is_some()), ",fx,fy,fz"),
+        (has(|one| one.tangential.is_some()), ",tx,ty,tz"),
+    ] {
+        csv += if is_listed { names } else { "" };
+    }
+    csv.push('\n');
     for one in entries {
         let [first, second] = one.ids;
-        let _ = write!(csv, "{first},{second},{:?}", one.force);
-        for x in one.vector.into_iter().flatten() {
+        let force = (!one.is_length).then_some([one.force]);
+        let forces = force.iter().flatten();
+        let vectors = [one.vector, one.tangential].into_iter().flatten().flatten();
+        let _ = write!(csv, "{first},{second}");
+        for x in forces.copied().chain(vectors) {
             let _ = write!(csv, ",{x:?}");
         }
         csv.push('\n');
