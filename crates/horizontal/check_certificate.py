@@ -211,7 +211,8 @@ class Pile:
         x, y = self.signs[site[0]] * x, self.signs[site[0]] * y
         if self.directions == ["alpha", "beta"]:
             return {"alpha": down - x, "beta": down + x}
-        return {"alpha": down - x - 3 * y, "beta": down - x + 3 * y, "gamma": down + 2 * x}
+        y *= 2 * (1 + self.sine)
+        return {"alpha": down - x - y, "beta": down - x + y, "gamma": 2 * (self.sine * down + x)}
 
     def support(self, site, direction):
         (k, i, j), (x, y) = site, OFFSETS[direction]
@@ -259,16 +260,26 @@ class Certificate:
         elif kind == "elastic":
             (ratio,) = record(claimed, "stiffness_ratio")
             proved = lambda: self.elastic(number(ratio))
+        elif kind == "forces":
+            within, compressive, contacts, floor = record(claimed, "within compressive contacts floor")
+            if not isinstance(compressive, bool):
+                raise Unreadable("compressive must be true or false")
+            numbers = lambda site, *values: (sphere(site), list(map(number, values)))
+            contacts = listed(contacts, "site alpha beta gamma", numbers)
+            floor = listed(floor, "site normal shear_x shear_y", numbers)
+            within = number(within)
+            proved = lambda: self.all_forces(within, compressive, contacts, floor)
         elif kind in ("stands", "cannot-stand") and claimed is None:
             proved = self.forces if kind == "stands" else self.cannot_stand
         else:
             raise Unreadable("the claim is unknown")
-        self.well_posed()
+        self.well_posed(kind == "forces" and not self.horizontal)
         proved()
 
-    def well_posed(self):
+    def well_posed(self, has_only_forces):
         pile = self.pile
-        need(len(pile.directions) == 2 or pile.sine == Fraction(1, 2), f"sin phi = 1/2, not {pile.sine}")
+        regular = len(pile.directions) == 2 or pile.sine == Fraction(1, 2)
+        need(regular or has_only_forces, f"sin phi = 1/2, not {pile.sine}")
         for (site, axis), force in self.horizontal.items():
             there = site in pile and site[0] < pile.floor and pile.neighbour(site, axis) in pile
             need(there, f"no horizontal contact {axis} at (k,i,j) = {site} above the floor")
@@ -280,7 +291,7 @@ class Certificate:
         zero = dict.fromkeys(OFFSETS, 0)
         return {direction: self.phi.get(site, zero)[direction] for direction in self.pile.directions}
 
-    def forces(self):
+    def forces(self, may_pull=False):
         """Return the forces on each sphere from above. A sphere transmits T g + w - sign H, which must not be negative."""
         pile = self.pile
         received, pushed = {}, {}
@@ -298,11 +309,40 @@ class Certificate:
                 force += own[direction]
                 if site in pushed:
                     force -= pile.signs[site[0]] * pushed[site][direction]
-                need(force >= 0, f"f = {force} >= 0 at (k,i,j) = {site}, {direction}")
+                need(may_pull or force >= 0, f"f = {force} >= 0 at (k,i,j) = {site}, {direction}")
                 self.transmitted[site, direction] = force
                 support = received.setdefault(pile.support(site, direction), dict.fromkeys(pile.directions, 0))
                 support[direction] = force
         return received
+
+    def on_floor(self, site, received):
+        """Return the force of a bottom sphere on the floor: down in mg, along x and y in the units of a load."""
+        pile, sine = self.pile, self.pile.sine
+        g = [received.get(direction, 0) for direction in OFFSETS]
+        step = pile.signs[-1] if pile.signs else 1
+        if len(pile.directions) == 2:
+            along_x, along_y, weight = g[1] - g[0], 0, 2
+        else:
+            along_x, along_y, weight = g[2] - sine * (g[0] + g[1]), Fraction(g[1] - g[0]) / 2, 2 * (1 + sine)
+        pushed = [sum(g) / weight, step * along_x / weight, step * along_y / weight]
+        return [Fraction(a) + b for a, b in zip(pushed, pile.force(site))]
+
+    def all_forces(self, within, compressive, contacts, floor):
+        """Check that all given forces are close to the exact ones, and that none is missing."""
+        pile = self.pile
+        received = self.forces(may_pull=True)
+        pushes_only = all(force >= 0 for force in self.transmitted.values())
+        need(pushes_only == compressive, "compressive is right")
+        need(set(contacts) == set(pile.above_floor()), "the spheres of the contacts are those above the floor")
+        need({(i, j) for _, i, j in floor} == pile.layers[-1] and all(k == pile.floor for k, _, _ in floor),
+             "the spheres of the forces on the floor are the bottom ones")
+        for site, given in contacts.items():
+            for direction, force in zip(OFFSETS, given):
+                exact = self.transmitted.get((site, direction), 0)
+                need(abs(force - exact) <= within, f"f = {exact}, not {force}, at (k,i,j) = {site}, {direction}")
+        for site, given in floor.items():
+            exact = self.on_floor(site, received.get(site, {}))
+            need(all(abs(a - b) <= within for a, b in zip(given, exact)), f"{exact}, not {given}, on the floor at {site}")
 
     def drops(self):
         """Yield D of every sloping contact: phi of the upper sphere minus (T phi) of the lower one."""

@@ -1,4 +1,4 @@
-//! Certificates: claims about a pile with horizontal contacts, with data that anybody can check.
+//! Certificates: claims about the forces of a pile, with data that anybody can check.
 //!
 //! At a = R the spheres of a layer touch, and the contact forces are not unique
 //! ([`paper`](cannonpile::paper#horizontal-contacts)). The results come from solvers with rounding errors. So each
@@ -6,7 +6,8 @@
 //! solution), or both. [`Certificate::check`] uses only these numbers and the balance of a sphere. It shares only the
 //! formulas with the solvers ([`formula`](crate::formula) here and in the [core](cannonpile::formula)); the theorems
 //! `horizontal-balance` and `virtual-work` are about these formulas. `check_certificate.py`, in the folder of this
-//! crate, is an independent checker in Python, written from this page. The command `check` reads the same files.
+//! crate, is an independent checker in Python, written from this page. A third one is extracted from a proof in Coq: the
+//! folder `checker` of the crate `cannonpile-proof`. The command `check` reads the same files.
 //!
 //! # Balance
 //! Forces are in units of f₀ = mg/(3cosθ). X ≥ 0 are the forces of horizontal contacts. The forces f_l of sloping
@@ -39,6 +40,7 @@
 //! | [unstable](Claim::CannotStand) (Farkas certificate) | | D ≤ 0, c ≤ 0, Σ w φ > 0 |
 //! | [smallest normal force](Claim::Least) N of a bottom sphere n | attains N | D ≤ 1 at the contacts with n, D ≤ 0 at others, c ≤ 0, and N = w + Σ w φ / 3 |
 //! | [largest normal force](Claim::Greatest) | attains N | D ≥ 1 at the contacts with n, D ≥ 0 at others, c ≥ 0, and the same N |
+//! | [all forces](Claim::Forces), f and those on the floor | f is the given force, within the given bound | |
 //! | [elastic state](Claim::Elastic) with stiffness κ, and κ′ for horizontal contacts | all f ≥ 0 | D ≤ f, D = f where f > 0; κ′/κ · c ≤ X, equal where X > 0 |
 //!
 //! # Example
@@ -55,12 +57,14 @@
 
 mod check;
 mod file;
+mod forces;
 mod record;
 mod refusal;
 
 pub use file::{
     MAX_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,
 };
+pub use forces::AllForces;
 pub use refusal::{Refusal, Relation};
 
 use core::fmt;
@@ -70,6 +74,7 @@ use cannonpile::Pile;
 use cannonpile::data::number;
 use cannonpile::lattice::{HorizontalContact, Site};
 use num_rational::BigRational;
+use num_traits::Zero;
 use serde::{Deserialize, Serialize};
 
 /// A claim about a pile at a = R, with the data for its check.
@@ -132,6 +137,8 @@ pub enum Claim {
         #[serde(with = "number")]
         stiffness_ratio: BigRational,
     },
+    /// All forces of the pile, exactly or within a bound. The pile may have any sin φ, and may be unstable.
+    Forces(Box<AllForces>),
 }
 
 /// A bound of the normal force of a bottom sphere.
@@ -197,6 +204,23 @@ impl fmt::Display for Claim {
                 f,
                 "these are the forces of unilateral springs, horizontal ones {stiffness_ratio} times as stiff as others"
             ),
+            Self::Forces(forces) => {
+                let AllForces {
+                    within,
+                    compressive,
+                    ..
+                } = &**forces;
+                let tension = if *compressive {
+                    "no contact is tensile"
+                } else {
+                    "some contacts are tensile"
+                };
+                if within.is_zero() {
+                    write!(f, "these are all forces; {tension}")
+                } else {
+                    write!(f, "these are all forces, within {within}; {tension}")
+                }
+            }
         }
     }
 }

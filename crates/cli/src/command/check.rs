@@ -16,7 +16,8 @@ A certificate claims a property of a pile at a = R, where the spheres of a layer
 of the horizontal contacts in mg/(3cosθ), a virtual displacement field with three numbers for each sphere above the floor,
 or both. The check accepts the claim if all contact forces are compressive and the field proves that the claim is optimal.
 If it rejects the claim, it prints the first violated equation, and the exit status is 1. The documentation of the module
-'certificate' lists the equations. A second checker is crates/horizontal/check_certificate.py.
+'certificate' lists the equations. A second checker is crates/horizontal/check_certificate.py, and a third one is proved by
+Coq: crates/proof/checker.
 
   {
     \"pile\": {\"dimension\": 3, \"sin_phi\": \"1/2\", \"stacking\": \"++\", \"anchor\": {\"top\": \"hexagon:1\"},
@@ -28,7 +29,8 @@ If it rejects the claim, it prints the first violated equation, and the exit sta
               {\"site\": {\"i\": 0, \"j\": 0, \"k\": 1}, \"alpha\": \"1\", \"beta\": \"1\", \"gamma\": \"1\"}]
   }
 
-The claim is \"stands\", \"cannot-stand\", {\"least\": …}, {\"greatest\": …} or {\"elastic\": {\"stiffness_ratio\": \"1\"}}.
+The claim is \"stands\", \"cannot-stand\", {\"least\": …}, {\"greatest\": …}, {\"elastic\": {\"stiffness_ratio\": \"1\"}}, or
+{\"forces\": …} with all forces of any pile.
 
 Examples:
   cannonpile check certificate.json

@@ -13,7 +13,7 @@ use clap::Args;
 use super::{CERTIFICATE_ON_ROUGH_FLOOR, TensionCheck};
 use crate::Culprit;
 use crate::args::{
-    BasePart, MethodOption, Numbers, Output, Part, SceneOptions, in_state, spheres,
+    BasePart, MethodOption, Number, Numbers, Output, Part, SceneOptions, in_state, spheres,
     with_row_options,
 };
 use crate::output::{Failure, InputError, write_to};
@@ -32,7 +32,7 @@ pub(crate) struct Forces<P: Args> {
     method: MethodOption,
     #[command(flatten)]
     output: Output,
-    /// File for the certificate of the elastic state, which the command check reads
+    /// File for the certificate of all forces of the pile, which the command check reads
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     certificate: Option<PathBuf>,
 }
@@ -67,7 +67,7 @@ struct ForceQuery {
 }
 
 impl<P: Args> Forces<P> {
-    /// Returns the scene, its pile with the horizontal forces of its state, and their certificate, if `--certificate` is given.
+    /// Returns the scene, its pile with the horizontal forces of its state, and the certificate, if `--certificate` is given.
     fn read(&self) -> Result<(Scene, Pile, Option<Certificate>), Failure> {
         let (scene, pile) = self.scene.read_any()?;
         if scene.floor == Floor::Rough {
@@ -82,11 +82,14 @@ impl<P: Args> Forces<P> {
             return Ok((scene, pile, None));
         }
         if scene.state == State::Isostatic {
-            return Err(Failure::Message(
-                "--certificate: isostatic forces need no certificate, because they are unique: add --state elastic, or leave \
-                 it out"
-                    .to_owned(),
-            ));
+            let progress = Progress::begin("computing the certificate");
+            let exact = Certificate::of_forces(&pile)?;
+            drop(progress);
+            let certificate = match self.numbers.number {
+                Number::F64 => exact.rounded()?,
+                _ => exact,
+            };
+            return Ok((scene, pile, Some(certificate)));
         }
         let progress = Progress::begin("computing the elastic state");
         let elastic = scene.elastic(&pile)?;
@@ -143,6 +146,9 @@ With --units si all forces are in N.
 With --floor rough the horizontal force is friction, in friction_x and friction_y. Its units are mg·tan(θ/2) along x and
 √3·mg·tan(θ/2) along y (2cosφ·mg·tan(θ/2) with --sin-phi).
 
+--certificate writes all forces of the pile for the command check: exact ones, or with --number f64 the floats and
+their largest error. With --state elastic it proves that the state has the least energy.
+
 Examples:
   cannonpile base --layers 10
   cannonpile base --layers 10 --spacing 6/5 --units si --number f64 --output base.csv
@@ -179,8 +185,12 @@ With --floor rough the columns after direction are
   nx to nz, tx to tz   with --units si: both forces as vectors on the upper sphere, in N
   x, y, z              with --units si: contact point, in m
 
+--certificate writes all forces of the pile for the command check: exact ones, or with --number f64 the floats and
+their largest error. With --state elastic it proves that the state has the least energy.
+
 Examples:
   cannonpile contacts --layers 4
+  cannonpile contacts --stacking hcp --layers 4 --certificate forces.json
   cannonpile contacts --stacking hcp --layers 7 --layer 4
   cannonpile contacts --stacking=+-+-+ --spacing 1 --state elastic
   cannonpile contacts --layers 2 --floor rough --units si

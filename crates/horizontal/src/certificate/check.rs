@@ -3,14 +3,16 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use cannonpile::engine::{bug, common_multiple, refuse_beyond_memory};
-use cannonpile::formula::{beside, pushed, tripled_half_turn};
-use cannonpile::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
-use cannonpile::{Error, Pile};
+use cannonpile::formula::{beside, increments, pushed, resultant, tripled_half_turn, weight};
+use cannonpile::geometry::{Vector, directions, disc_directions};
+use cannonpile::lattice::{Axis, Dimension, Direction, HorizontalContact, Sign, Site};
+use cannonpile::shape::Selection;
+use cannonpile::{Error, FloorForce, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::{Certificate, Claim, Extreme, Refusal, Relation};
+use super::{AllForces, Certificate, Claim, Extreme, Refusal, Relation};
 use crate::formula;
 
 /// The largest total size of the numbers of one direction, in words of 64 bits.
@@ -42,7 +44,8 @@ impl Certificate {
     /// ```
     pub fn check(&self) -> Result<(), Box<Refusal>> {
         let pile = &self.pile;
-        if !pile.is_regular() {
+        let has_only_forces = matches!(self.claim, Claim::Forces(_)) && self.horizontal.is_empty();
+        if !(pile.is_regular() || has_only_forces) {
             let sin_phi = pile.sin_phi().clone();
             return Err(Box::new(Refusal::NoTouchingNeighbours { sin_phi }));
         }
@@ -80,6 +83,7 @@ impl Certificate {
             Claim::Least(extreme) => self.extreme(extreme, Relation::AtMost),
             Claim::Greatest(extreme) => self.extreme(extreme, Relation::AtLeast),
             Claim::Elastic { stiffness_ratio } => self.elastic(stiffness_ratio),
+            Claim::Forces(given) => self.all_forces(given),
         }
     }
 
@@ -116,26 +120,117 @@ impl Certificate {
         Ok(())
     }
 
-    /// Returns the forces of all sloping contacts, from the top, by the balance of each sphere. A tensile force is
-    /// refused.
-    fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
-        let (pile, mut forces) = (&self.pile, BTreeMap::<Site, Triple>::new());
-        for site in above_the_floor(pile) {
+    /// Returns the forces of all sloping contacts, from the top, by the balance of each sphere.
+    fn balance(&self) -> Result<BTreeMap<Site, Triple>, Error> {
+        let mut forces = BTreeMap::new();
+        for site in above_the_floor(&self.pile) {
             let transmitted = self.transmitted(&forces, site)?;
-            for direction in pile.dimension().directions() {
-                let force = &transmitted[direction.index()];
-                if force.is_negative() {
-                    let (direction, force) = (*direction, force.clone());
-                    return Err(Box::new(Refusal::Tension {
-                        site,
-                        direction,
-                        force,
-                    }));
-                }
-            }
             forces.insert(site, transmitted);
         }
         Ok(forces)
+    }
+
+    /// Returns the first tensile contact and its force, from the top.
+    fn tension(&self, forces: &BTreeMap<Site, Triple>) -> Option<Refusal> {
+        let directions = self.pile.dimension().directions();
+        above_the_floor(&self.pile).find_map(|site| {
+            let transmitted = forces.get(&site)?;
+            let force = |direction: &&Direction| transmitted[direction.index()].is_negative();
+            let direction = *directions.iter().find(force)?;
+            let force = transmitted[direction.index()].clone();
+            Some(Refusal::Tension {
+                site,
+                direction,
+                force,
+            })
+        })
+    }
+
+    /// Returns the same forces. A tensile force is refused.
+    fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
+        let forces = self.balance()?;
+        match self.tension(&forces) {
+            Some(tension) => Err(Box::new(tension)),
+            None => Ok(forces),
+        }
+    }
+
+    /// Checks that all given forces are close to the exact ones, and that none is missing.
+    fn all_forces(&self, given: &AllForces) -> Result<(), Box<Refusal>> {
+        let (pile, exact) = (&self.pile, self.balance()?);
+        let compressive = self.tension(&exact).is_none();
+        if given.compressive != compressive {
+            return Err(Box::new(Refusal::Sign { compressive }));
+        }
+        let close = |site, what, (given, exact): (&BigRational, &BigRational), within| {
+            if &(given - exact).abs() <= within {
+                return Ok(());
+            }
+            let (given, exact) = (given.clone(), exact.clone());
+            let within = within.clone();
+            Err(Box::new(Refusal::Force {
+                site,
+                what,
+                given,
+                exact,
+                within,
+            }))
+        };
+        if let Some(site) = given.contacts.keys().find(|site| !exact.contains_key(site)) {
+            return Err(Box::new(Refusal::NoSphere { site: *site }));
+        }
+        for site in above_the_floor(pile) {
+            let missing = || Box::new(Refusal::NotGiven { site });
+            let both = given.contacts.get(&site).zip(exact.get(&site));
+            let (given_here, exact) = both.ok_or_else(missing)?;
+            for direction in Direction::ALL {
+                let l = direction.index();
+                let numbers = (&given_here[l], &exact[l]);
+                close(site, direction.name(), numbers, &given.within)?;
+            }
+        }
+        let mut floor: BTreeMap<Site, &FloorForce<BigRational>> = given
+            .floor
+            .iter()
+            .map(|force| (force.site, force))
+            .collect();
+        for site in pile.sites(Selection::Layer(pile.layers() - 1))? {
+            let force = floor.remove(&site);
+            let force = force.ok_or_else(|| Box::new(Refusal::NotGiven { site }))?;
+            let exact = self.on_floor(&exact, site);
+            for (what, given_here, exact) in [
+                ("normal", &force.normal, &exact.z),
+                ("shear_x", &force.shear_x, &exact.x),
+                ("shear_y", &force.shear_y, &exact.y),
+            ] {
+                close(site, what, (given_here, exact), &given.within)?;
+            }
+        }
+        match floor.pop_first() {
+            Some((site, _)) => Err(Box::new(Refusal::NotOnFloor { site })),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns the force of a bottom sphere on the floor: what it receives, over the sum of the increments, and its load.
+    fn on_floor(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Vector<BigRational> {
+        let pile = &self.pile;
+        let along = match pile.dimension() {
+            Dimension::Two => disc_directions(),
+            Dimension::Three => directions(pile.sin_phi()),
+        };
+        // A single layer receives nothing, whatever the directions.
+        let along = match pile.shape().sign_below(site.k - 1) {
+            Some(Sign::Minus) => along.map(Vector::turned_about_z),
+            _ => along,
+        };
+        let from_above = resultant(&received(pile, forces, site), &along);
+        let (weight, load) = (weight(&increments(pile.sin_phi())), pile.total_load(site));
+        Vector {
+            x: from_above.x / &weight + load.x,
+            y: from_above.y / &weight + load.y,
+            z: from_above.z / &weight + load.down,
+        }
     }
 
     /// Returns the forces of the sloping contacts below a sphere, from those above it.

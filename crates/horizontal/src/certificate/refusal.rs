@@ -156,6 +156,29 @@ pub enum Refusal {
         /// The normal force that the forces attain.
         attained: BigRational,
     },
+    /// The forces of a sphere are not given.
+    NotGiven {
+        /// The site.
+        site: Site,
+    },
+    /// A given force is not close enough to the exact one.
+    Force {
+        /// The site.
+        site: Site,
+        /// `alpha`, `beta`, `gamma`, `normal`, `shear_x` or `shear_y`.
+        what: &'static str,
+        /// The force given.
+        given: BigRational,
+        /// The exact force.
+        exact: BigRational,
+        /// The largest difference allowed.
+        within: BigRational,
+    },
+    /// The certificate is wrong about whether a contact is tensile.
+    Sign {
+        /// `true` if no exact force is tensile.
+        compressive: bool,
+    },
     /// An operation on the pile failed.
     Pile(Error),
 }
@@ -231,6 +254,19 @@ impl fmt::Display for Refusal {
                 f,
                 "the forces attain the normal force {attained}, not {claimed}"
             ),
+            Self::NotGiven { site } => write!(f, "the forces of the sphere {site} are missing"),
+            Self::Force {
+                site,
+                what,
+                given,
+                exact,
+                within,
+            } => write!(
+                f,
+                "the force {what} of the sphere {site} is {exact}, not {given} within {within}"
+            ),
+            Self::Sign { compressive: true } => f.write_str("no contact is tensile"),
+            Self::Sign { compressive: false } => f.write_str("a contact is tensile"),
             Self::Pile(error) => error.fmt(f),
         }
     }

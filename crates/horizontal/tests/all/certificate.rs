@@ -9,6 +9,7 @@
 
 mod changed;
 mod claims;
+mod forces;
 mod python;
 mod size;
 

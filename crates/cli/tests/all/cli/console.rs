@@ -44,7 +44,7 @@ console! {
     census: 21;
     check: 12;
     completions: 2;
-    contacts: 57;
+    contacts: 61;
     ensemble: 39;
     explain: 12;
     export: 51;

@@ -44,7 +44,7 @@ fn file(certificate: &Certificate) -> Vec<u8> {
 }
 
 /// Asserts that both checkers agree about a certificate, and returns whether they accept it.
-fn agreed(certificate: &Certificate) -> bool {
+pub(super) fn agreed(certificate: &Certificate) -> bool {
     let file = file(certificate);
     let (status, said) = python_checker::verdict(&file).expect("python3");
     let context = || format!("{said}\n{}", String::from_utf8_lossy(&file));
@@ -152,7 +152,8 @@ impl RandomCases {
         let on_floor = *sites.last().unwrap();
         let extreme = extreme(on_floor, self.number(0), self.below(2) == 0);
         let stiffness_ratio = self.number(1);
-        let claim = match self.below(8) {
+        let claim = match self.below(9) {
+            8 => Certificate::of_forces(&pile).expect("a small pile").claim,
             0 => Claim::CannotStand,
             1 => Claim::Least(extreme),
             2 => Claim::Greatest(extreme),
@@ -206,6 +207,15 @@ impl RandomCases {
                     _ => extreme.attained ^= true,
                 },
                 Claim::Elastic { stiffness_ratio } => *stiffness_ratio += self.number(-4),
+                Claim::Forces(forces) => match self.below(4) {
+                    0 => forces.within += self.number(-1),
+                    1 => forces.compressive ^= true,
+                    2 => forces.contacts.entry(site).or_default()[self.below(3)] += self.number(-4),
+                    _ => {
+                        let last = forces.floor.len() - 1;
+                        forces.floor[last].normal += self.number(-4);
+                    }
+                },
                 claim => *claim = Claim::Stands,
             },
             5 => {
