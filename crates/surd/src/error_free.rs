@@ -3,7 +3,7 @@
 //!
 //! `core` has no fused multiply-add, so the algorithms are Knuth's sum and Dekker's product.
 
-/// Returns (s, e) with s = fl(a + b) and s + e = a + b exactly, unless s overflows.
+/// Returns (s, e) with s = fl(a + b) and s + e = a + b exactly, unless s overflows or |b| is [`f64::MAX`].
 #[must_use]
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -13,7 +13,7 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, (a - from_a) + (b - from_b))
 }
 
-/// Returns the same as [`two_sum`], at half the cost, for |a| ≥ |b| or a = 0.
+/// Returns the same as [`two_sum`], at half the cost, for |a| ≥ |b|, for a = 0, or if a is a multiple of the last bit of b.
 #[must_use]
 #[inline]
 pub fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -75,12 +75,12 @@ pub fn power_of_two(e: i32) -> f64 {
     f64::from_bits(u64::from(field.unsigned_abs()) << 52)
 }
 
-/// Returns a·2^e, with one further rounding if the result is subnormal.
+/// Returns a·2^e, with further roundings if the result is subnormal.
 #[must_use]
 #[inline]
 pub fn scale(a: f64, e: i32) -> f64 {
     // One power of two cannot span the range from the smallest subnormal to the largest float. Three
-    // factors can, and no intermediate result overflows or underflows before the final one.
+    // factors can, and no intermediate result overflows before the final one.
     let (third, rest) = (e / 3, e - 2 * (e / 3));
     a * power_of_two(third) * power_of_two(third) * power_of_two(rest)
 }
