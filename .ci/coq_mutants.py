@@ -2,7 +2,7 @@
 """Changes recorded definitions of Formulas.v, one at a time, and checks that Coq rejects a proof: coq_mutants.py FOLDER few|one|all.
 
 FOLDER has the compiled files of `cannonpile prove --to coq`. A change replaces an operator, a number or a name. `all`
-makes every change, `one` the middle one of each definition, and `few` the middle one of every 27th definition. The exit
+makes every change, `one` the middle one of each definition, and `few` the middle one of every 54th definition. The exit
 status is 1 if a change survives, which is printed, or if Coq rejects the unchanged files. COQ_JOBS is the number of
 changes tested in parallel.
 """
@@ -84,7 +84,7 @@ def main():
     first = order.index("Formulas")
     tasks = []
     found = list(definitions(text))
-    for name, start, end in found[4::27] if amount == "few" else found:
+    for name, start, end in found[4::54] if amount == "few" else found:
         body = text[start:end]
         all_of_it = variants(body)
         chosen = all_of_it if amount == "all" else [all_of_it[len(all_of_it) // 2]]

@@ -22,6 +22,8 @@ const BY_HAND: &[(&str, &str)] = &[
     ("Friction.v", include_str!("../coq/Friction.v")),
     ("Horizontal.v", include_str!("../coq/Horizontal.v")),
     ("Virtual.v", include_str!("../coq/Virtual.v")),
+    ("Pile.v", include_str!("../coq/Pile.v")),
+    ("Checker.v", include_str!("../coq/Checker.v")),
     ("Bounds.v", include_str!("../coq/Bounds.v")),
     ("Response.v", include_str!("../coq/Response.v")),
     ("Mean.v", include_str!("../coq/Mean.v")),
