@@ -3,6 +3,7 @@
 use core::ops::Range;
 use std::collections::BTreeMap;
 
+use cannonpile::engine::refuse_beyond_memory;
 use cannonpile::lattice::Region;
 use num_bigint::BigUint;
 
@@ -25,12 +26,28 @@ pub(super) struct Domain<'p> {
     pub(super) piles: &'p RandomPiles,
     pub(super) grid: Grid,
     pub(super) steps: usize,
+    /// The number of numbers that the recursion stores.
+    numbers: BigUint,
 }
 
 /// A row of cells, with the net numbers for which each cell has a sphere.
 type RowOfSpheres = (Range<usize>, Vec<Nets>);
 
 const QUANTITY: &str = "the mean over random stackings";
+
+/// Fails unless the process can allocate so many words.
+///
+/// # Errors
+/// [`TooLarge`](cannonpile::Error::TooLarge).
+pub(super) fn check_words(words: &BigUint) -> Result<(), Error> {
+    refuse_beyond_memory(
+        QUANTITY,
+        words,
+        (u64::MAX, size_of::<u64>()),
+        "use fewer layers, or a smaller pile",
+    )?;
+    Ok(())
+}
 
 impl<'p> Domain<'p> {
     /// Returns the domain, if it fits in memory. Each cell stores forces for `classes` numbers of faults, and each
@@ -100,7 +117,23 @@ impl<'p> Domain<'p> {
         let shifts = if on_base { site_shifts } else { place_shifts };
         let grid = Grid::new(&size, &first, shifts)?;
         let steps = usize::try_from(steps).map_err(|_| bug("the size was checked"))?;
-        Ok(Self { piles, grid, steps })
+        let numbers = per_cell * grid.cells();
+        Ok(Self {
+            piles,
+            grid,
+            steps,
+            numbers,
+        })
+    }
+
+    /// Fails unless the process can allocate the numbers of the recursion, of `words` words each, and `of_place` words for
+    /// each place of the bottom layer.
+    ///
+    /// # Errors
+    /// [`TooLarge`](cannonpile::Error::TooLarge).
+    pub(super) fn check_memory(&self, words: u64, of_place: &BigUint) -> Result<(), Error> {
+        let places = self.bottom()?.len() + 1;
+        check_words(&(&self.numbers * words + of_place * places))
     }
 
     /// Returns the base, for piles on a base.

@@ -6,14 +6,14 @@ use num_integer::binomial;
 use num_rational::BigRational;
 use num_traits::{Zero, pow};
 
-use super::domain::Domain;
+use super::domain::{Domain, check_words};
 use super::floor::FLOOR_UNIT;
 use super::mean::{Mean, MeanForce};
 use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::check_fault_probability;
 use super::transfer::{Spot, run_in_integers};
-use super::width::{Width, bits_of_counts, bits_of_sources};
+use super::width::{Width, bits_of_counts, bits_of_sources, words_of_big};
 use crate::Error;
 use crate::error::bug;
 
@@ -115,6 +115,10 @@ impl RandomPiles {
         let bits = growth + bits_of_sources(&domain, &denominator)?;
         let most_faults = usize::try_from(most_faults).map_err(|_| bug("the size was checked"))?;
         let width = Width::of(bits);
+        // Each place has four sums for each number of faults, first of this width and then as big integers.
+        let each = width.words(bits) + words_of_big(bits);
+        let of_place = BigUint::from(most_faults + 1) * 4_u32 * each;
+        domain.check_memory(width.words(bits), &of_place)?;
         let mut spots = run_in_integers(width, &domain, most_faults + 1, &denominator, None)?;
         spots.sort_by_key(|spot| spot.place);
         Ok(ByFaults {
@@ -266,6 +270,7 @@ impl ByFaults {
     /// ```
     pub fn polynomial(&self) -> Result<Mean<Polynomial>, Error> {
         let most = self.most_faults();
+        self.check_memory_of_polynomials()?;
         // q^d (1−q)^m = Σ_i C(m,i) (−1)^i q^(d+i), with m = n−1−d. The common denominator is 3^(n−1).
         let powers = (0..=self.most_faults).map(|d| {
             let third = pow(BigInt::from(3), most - d);
@@ -294,6 +299,20 @@ impl ByFaults {
             }
             totals
         })
+    }
+
+    /// Fails unless the process can allocate the polynomials and their text.
+    fn check_memory_of_polynomials(&self) -> Result<(), Error> {
+        let classes = self.spots.iter().flat_map(|spot| &spot.classes).flatten();
+        let greatest = classes.map(BigInt::bits).max().unwrap_or(0);
+        // The factors are at most C(n−1,i) 3^(n−1), and less than 3^(2n).
+        let terms = self.most_faults as u64 + 1;
+        let bits = greatest + 4 * terms;
+        // A term has a big integer, its power, and its place in a tree, which may be half full. Its text has three bits in
+        // a byte, and a denominator.
+        let term = 2 * words_of_big(bits) + 20 + bits / 12;
+        let polynomials = BigUint::from(self.spots.len() + 1) * 4_u32 + terms;
+        check_words(&(polynomials * terms * term))
     }
 
     /// Returns the mean. `totals` combines the sums of one place, and `scale` is the denominator of probabilities.

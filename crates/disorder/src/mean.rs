@@ -3,9 +3,9 @@
 use core::num::NonZeroI64;
 
 use cannonpile::scalar::{Algebra, Field, Numerators};
-use num_bigint::BigInt;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::pow;
+use num_traits::{One, pow};
 
 use super::domain::Domain;
 use super::floor::FLOOR_UNIT;
@@ -14,7 +14,7 @@ use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::check_fault_probability;
 use super::transfer::{Transfer, run_in_integers, shares};
-use super::width::{Width, bits_of_sources};
+use super::width::{Width, bits_of_sources, words_of_big};
 use crate::Error;
 use crate::error::bug;
 use crate::{ONE, TWO};
@@ -243,9 +243,22 @@ impl RandomPiles {
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     pub fn mean<T: Algebra>(&self, q: &T) -> Result<Mean<T>, Error> {
+        match self.mean_halved(q, 0) {
+            // The recursion exceeds its result by a few bits.
+            Err(Error::Core(cannonpile::Error::Overflow { .. })) => self.mean_halved(q, 16),
+            mean => mean,
+        }
+    }
+
+    /// Returns the mean, computed with loads and weights that are halved so many times.
+    fn mean_halved<T: Algebra>(&self, q: &T, times: usize) -> Result<Mean<T>, Error> {
         let domain = Domain::new(self, 1, 1)?;
+        // Each place has four numbers, in a list of its own and then in a row.
+        domain.check_memory(1, &BigUint::from(30_u32))?;
+        let power = BigRational::from_integer(BigInt::one() << times);
+        let back = (times > 0).then(|| T::from_rational(&power));
         // A load of W mg adds W to the force of each contact, as a weight of mg adds 1.
-        let scalar = |x: &BigRational| Ok(T::from_rational(x));
+        let scalar = |x: &BigRational| Ok(T::from_rational(&(x / &power)));
         let transfer = Transfer::new(&domain, 1, shares(q).map(Scale), scalar)?;
         // An interval would widen even in a division by 1.
         let over = |sum: T, unit: &Option<NonZeroI64>| {
@@ -262,6 +275,16 @@ impl RandomPiles {
                 over,
                 [&None, &Some(FLOOR_UNIT)],
             )?;
+            let whole = |force: T| match &back {
+                Some(back) => force * back,
+                None => force,
+            };
+            let row = MeanForce {
+                normal: whole(row.normal),
+                shear_x: whole(row.shear_x),
+                shear_y: whole(row.shear_y),
+                ..row
+            };
             row.try_map(defined)
         });
         Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
@@ -299,8 +322,12 @@ impl RandomPiles {
         let domain = Domain::new(self, 1, Width::of(growth).words(growth))?;
         let bits = growth.saturating_add(bits_of_sources(&domain, &denominator)?);
         let choices = usize::try_from(choices).map_err(|_| bug("the size was checked"))?;
+        // Each place has four sums, first of this width and then as big integers, and then four rationals.
+        let (width, big) = (Width::of(bits), words_of_big(bits));
+        let of_place = 4 * width.words(bits) + 12 * big + 20;
+        domain.check_memory(width.words(bits), &of_place.into())?;
         let shares = [(q.denom() - q.numer()) * 3, q.numer().clone()];
-        let spots = run_in_integers(Width::of(bits), &domain, 1, &denominator, Some(shares))?;
+        let spots = run_in_integers(width, &domain, 1, &denominator, Some(shares))?;
         let scale = pow(tripled, choices) * self.firsts().get();
         let forces = &scale * denominator * FLOOR_UNIT.get();
         let rows = spots.into_iter().map(|spot| {

@@ -28,6 +28,12 @@ pub(super) enum Width {
     Big,
 }
 
+/// Returns the number of words of a list entry that is a big integer of so many bits, with the list of its digits. A list may
+/// have twice the length that it needs.
+pub(super) const fn words_of_big(bits: u64) -> u64 {
+    10 + 2 * (bits / 64)
+}
+
 impl Width {
     /// Returns the width for magnitudes of this many bits.
     pub(super) const fn of(bits: u64) -> Self {

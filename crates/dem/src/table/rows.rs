@@ -90,6 +90,9 @@ pub(super) fn show(
 /// An iterator over rows.
 pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 
+/// Generates the rows for a format of numbers.
+pub(super) type MakeRows<'a> = Box<dyn FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + 'a>;
+
 /// The source of the sums of columns. Sums are in the order of the columns.
 pub(super) enum Sums<'a> {
     /// A function that computes the sums without the rows, for tables that may be long.
@@ -117,7 +120,9 @@ pub struct Table<'a> {
     /// The number of rows, if it is known.
     count: Option<BigUint>,
     /// The generator of the rows for a number format.
-    pub(super) rows: Box<dyn FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + 'a>,
+    pub(super) rows: MakeRows<'a>,
+    /// The same rows once more, to check them before any of them is written.
+    pub(super) again: Option<MakeRows<'a>>,
     pub(super) sums: Option<Sums<'a>>,
 }
 
@@ -171,6 +176,12 @@ impl<'a> Table<'a> {
                     }
                 })))
             }),
+            again: self.again.map(|again| -> MakeRows<'b> {
+                Box::new(|numbers| {
+                    let rows: RowIter<'b> = again(numbers)?;
+                    Ok(rows)
+                })
+            }),
         }
     }
 
@@ -181,22 +192,30 @@ impl<'a> Table<'a> {
         noun: &'static str,
         rows: impl Iterator<Item = Row> + 'a,
     ) -> Self {
-        Self::made_for(columns, noun, |_| Ok(Box::new(rows)))
+        Self::of(columns, noun, Box::new(|_| Ok(Box::new(rows))))
     }
 
     /// Returns a table whose rows are generated for the requested number format.
     pub(super) fn made_for(
         columns: Vec<Column>,
         noun: &'static str,
-        rows: impl FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + 'a,
+        rows: impl FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + Clone + 'a,
     ) -> Self {
+        Self {
+            again: Some(Box::new(rows.clone())),
+            ..Self::of(columns, noun, Box::new(rows))
+        }
+    }
+
+    fn of(columns: Vec<Column>, noun: &'static str, rows: MakeRows<'a>) -> Self {
         Self {
             columns,
             layout: Layout::Rows(noun),
             bounds: Vec::new(),
             count: None,
             sums: None,
-            rows: Box::new(rows),
+            rows,
+            again: None,
         }
     }
 
@@ -218,7 +237,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the table with the number of its rows, and a row of bounds that no row exceeds.
+    /// Returns the table with the number of its rows, and a row of bounds that no row exceeds. The bounds may be wide: rows
+    /// that fit a format count, even if the bounds do not fit.
     #[doc(hidden)]
     #[must_use]
     pub fn bounded(self, count: BigUint, bounds: Vec<Cell>) -> Self {

@@ -33,7 +33,7 @@ fn unfinished() -> MutexGuard<'static, Unfinished> {
 }
 
 /// Removes all temporary files of this process, and the folders created for them. Afterwards no file can be begun or
-/// completed. This function is for a thread that handles SIGINT or SIGTERM and then exits.
+/// completed. This function is for a thread that handles a signal, such as SIGINT or SIGTERM, and then exits.
 ///
 /// # Examples
 /// ```standalone_crate

@@ -27,9 +27,9 @@ impl Table<'_> {
     /// Writes the table. Memory does not grow with the number of rows.
     ///
     /// # Errors
-    /// [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number might not fit the
-    /// format. This error precedes all output, because a bound of all numbers is checked first. [`WriteError::Io`] if
-    /// writing to the output fails.
+    /// [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number does not fit the
+    /// format. This error precedes all output: a bound of all numbers is checked first, and then all rows, if the bound
+    /// does not fit. [`WriteError::Io`] if writing to the output fails.
     ///
     /// # Examples
     /// ```
@@ -53,8 +53,19 @@ impl Table<'_> {
         out: &mut dyn Write,
     ) -> Result<(), WriteError> {
         let mut line = Line::default();
-        show(&self.columns, &self.bounds, numbers, &mut line)?;
         let is_counted = self.row_count().is_some();
+        if let Err(refused) = show(&self.columns, &self.bounds, numbers, &mut line) {
+            // The bounds are wider than the rows, so the rows decide. The error of the bounds names the column.
+            let rows = self.again.and_then(|again| again(numbers).ok());
+            let fits = rows.is_some_and(|mut rows| {
+                rows.all(|row| {
+                    row.is_ok_and(|row| show(&self.columns, &row, numbers, &mut line).is_ok())
+                })
+            });
+            if !fits {
+                return Err(refused.into());
+            }
+        }
         let mut rows = (self.rows)(numbers)?;
         // Errors of the first rows precede all output. One sphere has no further rows.
         let mut first = Vec::new();

@@ -4,9 +4,9 @@ use core::fmt;
 
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Ring;
-use num_bigint::BigUint;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 use super::setup::{MAX_BINS, stackings_of};
 use super::{Choice, Distribution, Ensemble, Extreme, Histogram, Shard, Tally, WithFaults};
@@ -236,7 +236,7 @@ impl Tally {
                 && held.is_some() == has_held
                 && held.as_ref().is_none_or(is_between)
                 && standing.stackings <= all.stackings
-                && standing.contacts <= all.contacts
+                && standing.is_part_of(all, self.ensemble.bin_width())
                 && (self.choice != Choice::All
                     || stackings
                         .count_with(*faults)
@@ -268,12 +268,83 @@ impl Distribution {
                 && ends.iter().all(|end| is_of_ensemble(end))
         };
         self.forces.total() == self.contacts
+            && self.has_possible_sums(ensemble.bin_width())
             && self.stackings.is_zero() == self.normals.counts.is_empty()
             && ends.iter().all(are_possible)
     }
 }
 
+impl Distribution {
+    /// Returns whether these forces without tension, and others, can be the forces of `all`.
+    fn is_part_of(&self, all: &Self, width: &BigRational) -> bool {
+        let is_tension = |least: &Option<Extreme>| {
+            let least = least.as_ref();
+            least.is_some_and(|least| least.force.is_negative())
+        };
+        let forces = all.forces.without(&self.forces);
+        let normals = all.normals.without(&self.normals);
+        let (Some(forces), Some(_)) = (forces, normals) else {
+            return false;
+        };
+        let others = Self {
+            contacts: forces.total(),
+            sum: &all.sum - &self.sum,
+            sum_of_squares: &all.sum_of_squares - &self.sum_of_squares,
+            forces,
+            ..Self::default()
+        };
+        others.has_possible_sums(width)
+            && !is_tension(&self.least)
+            && !is_tension(&self.least_normal)
+    }
+
+    /// Returns whether the contact forces in the bins can have these sums.
+    ///
+    /// Each force lies between the ends of its bin, and its square between those of their squares. The square of the sum is
+    /// at most the sum of the squares times the number of forces (Cauchy and Schwarz).
+    fn has_possible_sums(&self, width: &BigRational) -> bool {
+        let count = BigRational::from_integer(self.contacts.clone().into());
+        let [mut least, mut greatest] = [(); 2].map(|()| [BigInt::zero(), BigInt::zero()]);
+        for (place, count) in (0..).zip(&self.forces.counts) {
+            let count = BigInt::from(count.clone());
+            let [begin, end] =
+                [0, 1].map(|n| BigInt::from(i128::from(self.forces.first) + place + n));
+            let squares = [&begin * &begin, &end * &end];
+            let [small, large] = if squares[0] <= squares[1] {
+                [0, 1]
+            } else {
+                [1, 0]
+            };
+            least[0] += &count * begin;
+            least[1] += &count * &squares[small];
+            greatest[0] += &count * end;
+            greatest[1] += count * &squares[large];
+        }
+        let square = width * width;
+        let is_between = |sum: &BigRational, of: usize, unit: &BigRational| {
+            unit * &least[of] <= *sum && *sum <= unit * &greatest[of]
+        };
+        is_between(&self.sum, 0, width)
+            && is_between(&self.sum_of_squares, 1, &square)
+            && &self.sum * &self.sum <= &self.sum_of_squares * count
+    }
+}
+
 impl Histogram {
+    /// Returns the counts without those of a part. `None` if some count of the part is greater.
+    fn without(&self, part: &Self) -> Option<Self> {
+        let bins = (0..).map(|place| i128::from(self.first) + place);
+        let rest = self.counts.iter().zip(bins).map(|(count, bin)| {
+            let of_part = part.count(bin);
+            (of_part <= *count).then(|| count - of_part)
+        });
+        let counts: Vec<_> = rest.collect::<Option<_>>()?;
+        let (first, total) = (self.first, self.total());
+        let rest = Self { first, counts };
+        // Counts of the part in other bins are missing here.
+        (rest.total() + part.total() == total).then_some(rest)
+    }
+
     /// Returns whether the first and the last bin contain the least and the greatest number.
     fn is_possible(&self, [least, greatest]: [&Option<Extreme>; 2], width: &BigRational) -> bool {
         let (Some(begin), Some(end)) = (self.counts.first(), self.counts.last()) else {

@@ -5,8 +5,9 @@ use std::io::{self, BufReader, Read, Write};
 use cannonpile::data::number;
 use num_bigint::BigUint;
 use num_rational::BigRational;
-use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
+use serde_json::Number;
+use sha2::{Digest, Sha256};
 
 use super::{Choice, ContactSet, Ensemble, Shard, Tally, Unmergeable, WithFaults};
 use crate::Error;
@@ -15,9 +16,32 @@ use crate::Error;
 const MAX_BYTES: u64 = 512 << 20;
 
 /// A number of stackings, in the serialised form of this crate.
-#[derive(Serialize)]
+#[derive(PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 struct Count(#[serde(with = "number")] BigUint);
+
+/// The entries of a file that follow from the others.
+#[derive(PartialEq)]
+struct Derived {
+    stackings: Count,
+    /// The stable stackings, and those that are stable with horizontal contacts.
+    stable: [Stable; 2],
+}
+
+/// The number of stable stackings, and its share. Not every run counts them.
+#[derive(PartialEq)]
+struct Stable {
+    count: Option<Count>,
+    probability: Option<String>,
+    /// The ends as they are written.
+    interval: Option<[Number; 2]>,
+}
+
+/// The names of the entries of [`Stable`].
+const STABLE: [[&str; 3]; 2] = [
+    ["standing", "standing_probability", "standing_interval"],
+    ["held", "held_probability", "held_interval"],
+];
 
 /// A tally with the metadata of its file: the version of this crate, and the fault probability of the reported
 /// probabilities.
@@ -55,7 +79,7 @@ pub struct TallyRecord {
     tally: Tally,
 }
 
-/// The fields of a file. Fields that follow from the counts are not read.
+/// The entries of a file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parts {
@@ -65,21 +89,15 @@ struct Parts {
     shard: Shard,
     #[serde(with = "number")]
     fault_probability: BigRational,
-    #[serde(rename = "stackings")]
-    _stackings: IgnoredAny,
-    #[serde(rename = "standing")]
-    _standing: IgnoredAny,
-    #[serde(default, rename = "standing_probability")]
-    _standing_probability: Option<IgnoredAny>,
-    #[serde(default, rename = "standing_interval")]
-    _standing_interval: Option<IgnoredAny>,
-    #[serde(default, rename = "held")]
-    _held: Option<IgnoredAny>,
-    #[serde(default, rename = "held_probability")]
-    _held_probability: Option<IgnoredAny>,
-    #[serde(default, rename = "held_interval")]
-    _held_interval: Option<IgnoredAny>,
+    stackings: Count,
+    standing: Count,
+    standing_probability: Option<String>,
+    standing_interval: Option<[Number; 2]>,
+    held: Option<Count>,
+    held_probability: Option<String>,
+    held_interval: Option<[Number; 2]>,
     faults: Vec<WithFaults>,
+    sha256: Option<String>,
 }
 
 impl TallyRecord {
@@ -157,59 +175,84 @@ impl TallyRecord {
 
     /// Writes the record as JSON, with a line for each number of faults. Equal records yield equal bytes.
     ///
+    /// The last entry, `sha256`, is the SHA-256 of the bytes before it, without the comma and the line end.
+    ///
     /// # Errors
     /// Any error of the output.
     ///
     /// # Examples
     /// See [`TallyRecord`].
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let Self {
-            version,
-            fault_probability,
-            tally,
-        } = self;
+        self.write_entries(out)?;
+        write!(out, ",\n  \"sha256\": \"{}\"\n}}\n", self.digest()?)
+    }
+
+    /// Returns the SHA-256 of the entries, in hexadecimal digits.
+    fn digest(&self) -> io::Result<String> {
+        let mut digest = Sha256::new();
+        self.write_entries(&mut digest)?;
+        let bytes = digest.finalize();
+        Ok(format!("{bytes:x}"))
+    }
+
+    /// Writes all entries but the digest.
+    fn write_entries(&self, out: &mut impl Write) -> io::Result<()> {
+        let tally = &self.tally;
         let mut object = Object { out, gap: "{\n" };
-        object.entry("cannonpile", version)?;
+        object.entry("cannonpile", &self.version)?;
         object.entry("ensemble", &tally.ensemble)?;
         object.entry("choice", &tally.choice)?;
         object.entry("shard", &tally.shard)?;
-        object.entry("fault_probability", &fault_probability.to_string())?;
-        object.entry("stackings", &Count(tally.stackings()))?;
-        let names = [
-            (
-                ContactSet::Sloping,
-                ["standing", "standing_probability", "standing_interval"],
-            ),
-            (
-                ContactSet::WithHorizontal,
-                ["held", "held_probability", "held_interval"],
-            ),
-        ];
-        for (by, [count, probability, interval]) in names {
-            let Some(standing) = tally.standing(by) else {
-                continue;
-            };
-            object.entry(count, &Count(standing))?;
-            let exact = tally.standing_probability(by, fault_probability);
-            if let Some(exact) = exact.map_err(io::Error::other)? {
-                object.entry(probability, &exact.to_string())?;
+        object.entry("fault_probability", &self.fault_probability.to_string())?;
+        let derived = self.derived().map_err(io::Error::other)?;
+        object.entry("stackings", &derived.stackings)?;
+        for (stable, [count, probability, interval]) in derived.stable.iter().zip(STABLE) {
+            if let Some(found) = &stable.count {
+                object.entry(count, found)?;
             }
-            if let Some(bounds) = tally.standing_interval(by) {
-                object.entry(interval, &bounds)?;
+            if let Some(exact) = &stable.probability {
+                object.entry(probability, exact)?;
+            }
+            if let Some(bounds) = &stable.interval {
+                object.entry(interval, bounds)?;
             }
         }
         let Object { out, .. } = object;
         out.write_all(b",\n  \"faults\": ")?;
-        lines(tally.faults.iter(), out)?;
-        out.write_all(b"\n}\n")
+        lines(tally.faults.iter(), out)
     }
 
-    /// Reads a record that [`write`](Self::write) has written. Fields that follow from the counts are computed again.
+    /// Computes the entries that follow from the others.
+    fn derived(&self) -> Result<Derived, Error> {
+        let tally = &self.tally;
+        let stable = |by| {
+            let probability = tally.standing_probability(by, &self.fault_probability)?;
+            Ok::<_, Error>(Stable {
+                count: tally.standing(by).map(Count),
+                probability: probability.map(|exact| exact.to_string()),
+                interval: tally
+                    .standing_interval(by)
+                    .and_then(|[from, to]| Some([Number::from_f64(from)?, Number::from_f64(to)?])),
+            })
+        };
+        Ok(Derived {
+            stackings: Count(tally.stackings()),
+            stable: [
+                stable(ContactSet::Sloping)?,
+                stable(ContactSet::WithHorizontal)?,
+            ],
+        })
+    }
+
+    /// Reads a record that [`write`](Self::write) has written.
+    ///
+    /// Entries that follow from the counts are computed again and compared. The digest shows whether any other entry was
+    /// changed. Space and line ends between entries do not matter.
     ///
     /// # Errors
     /// Any error of the input. The kind is [`InvalidData`](io::ErrorKind::InvalidData) or
     /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line in the message, if the input is an
-    /// invalid record or has more than 512 MiB.
+    /// invalid record, was changed after it was written, has no digest, or has more than 512 MiB.
     ///
     /// # Examples
     /// ```
@@ -226,9 +269,28 @@ impl TallyRecord {
             choice,
             shard,
             fault_probability,
+            stackings,
+            standing,
+            standing_probability,
+            standing_interval,
+            held,
+            held_probability,
+            held_interval,
             faults,
-            ..
+            sha256,
         } = parts;
+        let stable = |count, probability, interval| Stable {
+            count,
+            probability,
+            interval,
+        };
+        let derived = Derived {
+            stackings,
+            stable: [
+                stable(Some(standing), standing_probability, standing_interval),
+                stable(held, held_probability, held_interval),
+            ],
+        };
         let tally = Tally {
             ensemble,
             choice,
@@ -247,7 +309,22 @@ impl TallyRecord {
                 record.fault_probability
             )));
         }
-        Ok(Self { version, ..record })
+        let record = Self { version, ..record };
+        if record.derived().map_err(io::Error::other)? != derived {
+            return Err(refused(
+                "the totals do not match the counts; run this part again".to_owned(),
+            ));
+        }
+        match sha256 {
+            Some(digest) if digest == record.digest()? => Ok(record),
+            Some(_) => Err(refused(
+                "it was changed after it was written; run this part again".to_owned(),
+            )),
+            None => Err(refused(
+                "it has no digest 'sha256', as an earlier version wrote it; run this part again"
+                    .to_owned(),
+            )),
+        }
     }
 }
 

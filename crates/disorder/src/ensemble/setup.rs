@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use cannonpile::engine::common_denominator;
-use cannonpile::engine::{refuse_beyond, refuse_beyond_memory};
+use cannonpile::engine::{refuse_beyond, refuse_beyond_memory, threads};
 use cannonpile::formula;
 use cannonpile::lattice::Region;
 use num_bigint::{BigInt, BigUint};
@@ -17,6 +17,7 @@ use super::sums::Sums;
 use super::{Choice, Ensemble, Shard};
 use crate::Error;
 use crate::error::bug;
+use crate::width::words_of_big;
 
 /// The largest number of 64-bit words that a walk stores, for all layers of one stacking.
 const MAX_WORDS: u64 = 50_000_000;
@@ -98,11 +99,10 @@ impl Task {
         // tripled, and so is the width of their bins.
         let bound = (greatest * &scale * 16_u32).max(width.clone() * 3_u32);
         let bound = bound * power_of_three(steps.saturating_sub(1));
-        // A big integer stores its words in a list, which costs about five words more.
         let words = match bound.bits() {
             0..64 => 1,
             64..128 => 2,
-            bits => bits / 64 + 5,
+            bits => words_of_big(bits),
         };
         refuse_too_many(&(BigUint::from(total * NUMBERS) * words))?;
         Ok(Self {
@@ -197,7 +197,8 @@ fn refuse_too_many(words: &BigUint) -> Result<(), Error> {
     refuse_beyond_memory(
         "the layers of one stacking",
         words,
-        (MAX_WORDS, size_of::<u64>()),
+        // Each thread analyses a stacking.
+        (MAX_WORDS, size_of::<u64>() * threads()),
         "use fewer layers, or a smaller top",
     )?;
     Ok(())

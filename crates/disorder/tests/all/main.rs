@@ -14,6 +14,7 @@ mod sums;
 mod widths;
 
 mod ensemble {
+    mod altered;
     mod enumeration;
     mod parts;
     mod samples;

@@ -199,6 +199,7 @@ pub fn rough_summary(units: &Units<'_>, stands: Option<bool>) -> Result<Table<'s
 }
 
 /// Forces with friction, in the units of a table.
+#[derive(Clone)]
 enum Rough<'p> {
     Pile(RoughFloor<'p>),
     Si(Box<RoughPacking<'p>>),

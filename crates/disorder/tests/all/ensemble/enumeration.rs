@@ -306,12 +306,12 @@ fn size_errors_state_the_size() -> Result<(), Error> {
     let stackings = RandomStackings::new(3, FirstSign::Plus)?;
     let wide = Ensemble::under("hexagon:4000".parse()?, stackings)?;
     assert_eq!(needed(&wide), 6 * (3 * 4000 * 3999 + 1));
-    // The load is 2^−1640, the forces have 17 bits, and the sign changes need a factor of 3^108. This makes 28.5 words,
-    // and five more to store them.
+    // The load is 2^−1640, the forces have 17 bits, and the sign changes need a factor of 3^108. This makes 28.5 words.
+    // A list of them may have twice this length, and ten more words are needed to store it.
     let stackings = RandomStackings::new(110, FirstSign::Plus)?;
     let load = num_traits::pow(ratio(1, 2), 1640);
     let fine = Ensemble::under(Region::SITE, stackings)?.with_load([0, 0], load)?;
-    assert_eq!(needed(&fine), 6 * spheres(110) * 33);
+    assert_eq!(needed(&fine), 6 * spheres(110) * 66);
     Ok(())
 }
 
