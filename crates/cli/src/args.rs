@@ -15,7 +15,7 @@ use cannonpile_dem::table::{FileFormat, NumberFormat, Table, Units, WriteError};
 use clap::{Args, ValueEnum};
 use num_bigint::BigUint;
 
-use crate::output::{Failure, InputError, write_to};
+use crate::output::{Failure, InputError, creates_folder_of, write_around, write_to};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
 pub(crate) use scene::{SceneOptions, in_state};
@@ -180,6 +180,33 @@ impl Output {
         let format = self.format()?;
         self.write(progress, |out| {
             table.write(format.into(), numbers.into(), out)
+        })
+    }
+
+    /// Writes to the file or to stdout, and writes other files by `others`. If it fails, none is written.
+    ///
+    /// `others` creates the folder `made`, if it is missing.
+    pub(crate) fn write_with(
+        &self,
+        progress: &Progress,
+        content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+        made: Option<&Path>,
+        others: impl FnOnce() -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let file = self.file.as_deref();
+        let is_within = |file: &Path| made.is_some_and(|folder| creates_folder_of(folder, file));
+        // What stdout has got cannot be taken back.
+        if file.is_none_or(is_within) {
+            others()?;
+            return self.write(progress, content);
+        }
+        write_around("output", file, |out| {
+            let written = progress.count(out, false, |out| {
+                content(out)?;
+                Ok(out.flush()?)
+            });
+            written.map_err(|error| Failure::of_writing(error, "output", file))?;
+            others()
         })
     }
 

@@ -29,7 +29,7 @@ use cannonpile_dem::scene::parse;
 use cannonpile_dem::table::{Cell, Table};
 use cannonpile_disorder::check_fault_probability;
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Signed};
 
 use crate::Error;
 use crate::output::{Failure, InputError, print_message};
@@ -126,16 +126,22 @@ impl TensionCheck {
     }
 
     /// Watches the rows while they are written.
-    fn watch<'t>(&'t self, table: Table<'t>) -> Table<'t> {
+    fn watch<'t, 'a: 't>(&'t self, table: Table<'a>) -> Table<'t> {
         let mut columns = table.columns().iter();
-        let Some(place) = columns.position(|column| column.name == self.column) else {
-            return table;
-        };
+        let place = columns.position(|column| column.name == self.column);
         table.inspect(move |row| {
-            if row.get(place).is_some_and(Cell::is_negative) {
+            let cell = place.and_then(|place| row.get(place));
+            if cell.is_some_and(Cell::is_negative) {
                 self.seen.set(true);
             }
         })
+    }
+
+    /// Looks at a force that is in no row.
+    fn find(&self, force: &BigRational) {
+        if force.is_negative() {
+            self.seen.set(true);
+        }
     }
 
     /// Prints a note on stderr if the pile is unstable. For a part of it, only the rows written so far count.

@@ -9,8 +9,9 @@ mod output;
 mod progress;
 mod signals;
 mod tables;
+mod threads;
 
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -161,11 +162,17 @@ const NO: u8 = 1;
 const USAGE_ERROR: u8 = 2;
 
 fn main() -> ExitCode {
-    signals::remove_files_on_signal();
+    let handled = signals::remove_files_on_signal();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
+    if let Err(reason) = handled.and_then(|()| threads::start()) {
+        print_message(&format!(
+            "error: cannot start a thread: {reason}; allow this process more memory or more threads, or set RAYON_NUM_THREADS=1"
+        ));
+        return ExitCode::from(USAGE_ERROR);
+    }
     match arguments.command.run() {
         Ok(true) | Err(Failure::Closed) => return ExitCode::SUCCESS,
         Ok(false) => return ExitCode::from(NO),
@@ -181,15 +188,10 @@ fn main() -> ExitCode {
 /// Prints a message of clap: help and version unchanged, an error in one line with a remedy.
 fn usage(error: &clap::Error) -> ExitCode {
     match error.kind() {
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            // Printing into a closed pipe is not an error here.
-            let _ = error.print();
-            return ExitCode::SUCCESS;
-        }
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => return printed(error.print()),
         // A command without arguments prints its help on stdout, and succeeds.
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            let _ = io::Write::write_all(&mut io::stdout(), error.to_string().as_bytes());
-            return ExitCode::SUCCESS;
+            return printed(io::stdout().write_all(error.to_string().as_bytes()));
         }
         _ => {}
     }
@@ -224,6 +226,18 @@ fn usage(error: &clap::Error) -> ExitCode {
     };
     print_message(&format!("{message}{remedy}"));
     ExitCode::from(USAGE_ERROR)
+}
+
+/// Returns the exit status after a text was printed on stdout.
+fn printed(written: io::Result<()>) -> ExitCode {
+    let written = written.and_then(|()| io::stdout().flush());
+    match written.map_err(|error| Failure::of_writing(error.into(), "output", None)) {
+        Err(Failure::Message(message)) => {
+            print_message(&format!("error: {message}"));
+            ExitCode::from(USAGE_ERROR)
+        }
+        _ => ExitCode::SUCCESS,
+    }
 }
 
 /// Returns the longest command that the arguments begin with.

@@ -3,7 +3,7 @@
 use core::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{self, Path};
 
 use cannonpile_dem::table::{WriteError, write_aside};
 
@@ -96,13 +96,30 @@ impl<E: Into<Error>> From<E> for InputError {
 pub(crate) const READABLE_FILE: &str = "give a readable file";
 pub(crate) const READABLE_FILE_OR_STDIN: &str = "give a readable file, or - for stdin";
 
-/// Returns the error that FILE cannot be read.
+/// Returns the error that the file `name` cannot be read.
 pub(crate) fn unreadable(name: impl Display, error: &io::Error, remedy: &str) -> Failure {
     let reason = reason(error);
-    Failure::Message(format!("FILE: {name} cannot be read: {reason}; {remedy}"))
+    Failure::Message(format!("{name} cannot be read: {reason}; {remedy}"))
 }
 
-/// Opens FILE. The name `-` is not special.
+/// Returns the error of a file that is not what a command reads, or that cannot be read. It names what was
+/// expected, and the command that writes or shows one.
+pub(crate) fn unusable(
+    name: impl Display,
+    error: &io::Error,
+    [what, example]: [&str; 2],
+    remedy: &str,
+) -> Failure {
+    match error.kind() {
+        io::ErrorKind::FileTooLarge => Failure::Message(format!("{name}: {error}")),
+        io::ErrorKind::InvalidData | io::ErrorKind::UnexpectedEof => {
+            Failure::Message(format!("{name} is not {what}: {error}; {example}"))
+        }
+        _ => unreadable(name, error, remedy),
+    }
+}
+
+/// Opens a file. The name `-` is not special.
 pub(crate) fn open(path: &Path) -> Result<File, Failure> {
     File::open(path).map_err(|error| unreadable(path.display(), &error, READABLE_FILE))
 }
@@ -126,6 +143,32 @@ pub(crate) fn write_to(
         None => write_out(content),
     };
     written.map_err(|error| Failure::of_writing(error, option, file))
+}
+
+/// Writes like [`write_to`]. The content may write other files too: the file of `option` is created before them, and gets
+/// its name after them.
+pub(crate) fn write_around(
+    option: &str,
+    file: Option<&Path>,
+    content: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut failure = None;
+    let written = write_to(option, file, |out| {
+        content(out).map_err(|refused| {
+            failure = Some(refused);
+            io::Error::other("the content failed").into()
+        })
+    });
+    failure.map_or(written, Err)
+}
+
+/// Returns whether writing to `folder` creates the missing folder of `file`.
+pub(crate) fn creates_folder_of(folder: &Path, file: &Path) -> bool {
+    let of_file = path::absolute(file).ok();
+    let of_file = of_file.as_deref().and_then(Path::parent);
+    of_file.is_some_and(|of_file| {
+        !of_file.exists() && path::absolute(folder).is_ok_and(|folder| folder.starts_with(of_file))
+    })
 }
 
 fn write_out(

@@ -1,14 +1,19 @@
-//! The progress line of a long command: on stderr, if it is a terminal, after the first second.
+//! The progress of a long command on stderr: a line that changes if it is a terminal, otherwise a line each minute.
 
 use std::io::{self, IsTerminal, Write};
-use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{FormattedDuration, HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// The delay before the line appears.
+use crate::output::print_message;
+
+/// The delay before the line appears on a terminal.
 const DELAY: Duration = Duration::from_secs(1);
+
+/// The time between two lines if stderr is not a terminal.
+const MINUTE: Duration = Duration::from_secs(60);
 
 /// The time between two updates of the line.
 const TICK: Duration = Duration::from_millis(100);
@@ -19,15 +24,15 @@ const OF_STACKINGS: &str =
     "{spinner} {msg} {bar:30} {percent}% of {human_len}, {per_sec}, {eta} left";
 const OF_UNKNOWN_LENGTH: &str = "{spinner} {msg}, {elapsed}";
 
-/// A progress line on stderr. Dropping this value removes the line.
+/// The progress on stderr. Dropping this value removes the line from a terminal.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    /// `None` if stderr is not a terminal.
-    line: Option<DelayedLine>,
+    /// `None` if the system has no thread for it.
+    reporter: Option<Reporter>,
 }
 
-/// The thread that shows the line after the delay. Closing the channel ends the thread.
-struct DelayedLine {
+/// The thread that reports the progress. Closing the channel ends the thread.
+struct Reporter {
     ended: Sender<()>,
     thread: JoinHandle<()>,
 }
@@ -53,9 +58,6 @@ impl Progress {
 
     fn new(bar: ProgressBar, template: &str, doing: &'static str) -> Self {
         bar.set_draw_target(ProgressDrawTarget::hidden());
-        if !io::stderr().is_terminal() {
-            return Self { bar, line: None };
-        }
         // The templates above are valid. An invalid one would leave the default style.
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
@@ -63,14 +65,16 @@ impl Progress {
         bar.set_message(doing);
         let (ended, wait) = mpsc::channel();
         let shown = bar.clone();
-        let thread = thread::spawn(move || {
-            if wait.recv_timeout(DELAY) == Err(RecvTimeoutError::Timeout) && !shown.is_finished() {
-                shown.set_draw_target(ProgressDrawTarget::stderr());
-                shown.enable_steady_tick(TICK);
+        let report = move || {
+            if io::stderr().is_terminal() {
+                show(&shown, &wait);
+            } else {
+                print_each_minute(doing, &shown, &wait);
             }
-        });
-        let line = Some(DelayedLine { ended, thread });
-        Self { bar, line }
+        };
+        let thread = thread::Builder::new().spawn(report).ok();
+        let reporter = thread.map(|thread| Reporter { ended, thread });
+        Self { bar, reporter }
     }
 
     /// Adds `count` rows or stackings to the progress.
@@ -85,9 +89,6 @@ impl Progress {
         to_stdout: bool,
         content: impl FnOnce(&mut dyn Write) -> R,
     ) -> R {
-        if self.line.is_none() {
-            return content(out);
-        }
         content(&mut Counting {
             out,
             bar: &self.bar,
@@ -98,13 +99,42 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Some(DelayedLine { ended, thread }) = self.line.take() {
+        if let Some(Reporter { ended, thread }) = self.reporter.take() {
             drop(ended);
             // The thread never panics.
             let _ = thread.join();
         }
         self.bar.finish_and_clear();
     }
+}
+
+/// Shows the line on a terminal, unless the action ends before the delay.
+fn show(bar: &ProgressBar, ended: &Receiver<()>) {
+    if ended.recv_timeout(DELAY) == Err(RecvTimeoutError::Timeout) && !bar.is_finished() {
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+        bar.enable_steady_tick(TICK);
+    }
+}
+
+/// Prints a line each minute until the action ends.
+fn print_each_minute(doing: &str, bar: &ProgressBar, ended: &Receiver<()>) {
+    while ended.recv_timeout(MINUTE) == Err(RecvTimeoutError::Timeout) {
+        print_message(&line(doing, bar.position(), bar.length(), bar.elapsed()));
+    }
+}
+
+/// Returns the line about an action that has done this much of `all`, if it is known, in this time.
+fn line(doing: &str, done: u64, all: Option<u64>, elapsed: Duration) -> String {
+    let far = match all {
+        Some(all) if all > 0 => {
+            let percent = u128::from(done) * 100 / u128::from(all);
+            let (done, all) = (HumanCount(done), HumanCount(all));
+            format!(": {done} of {all} ({percent}%)")
+        }
+        _ if done > 0 => format!(": {}", HumanCount(done)),
+        _ => String::new(),
+    };
+    format!("note: {doing}{far}, after {}", FormattedDuration(elapsed))
 }
 
 /// A writer that counts lines.
@@ -128,5 +158,34 @@ impl Write for Counting<'_> {
 
     fn flush(&mut self) -> io::Result<()> {
         self.out.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn line_says_what_is_done_how_far_and_since_when() {
+        let minutes = |n: u64| Duration::from_secs(60 * n);
+        for (done, all, elapsed, expected) in [
+            (
+                1_234_567,
+                Some(33_554_432),
+                minutes(1),
+                "note: analysing: 1,234,567 of 33,554,432 (3%), after 00:01:00",
+            ),
+            (
+                u64::MAX,
+                Some(u64::MAX),
+                minutes(90),
+                "note: analysing: 18,446,744,073,709,551,615 of 18,446,744,073,709,551,615 (100%), after 01:30:00",
+            ),
+            (7, None, minutes(2), "note: analysing: 7, after 00:02:00"),
+            (0, None, minutes(3), "note: analysing, after 00:03:00"),
+            (0, Some(0), minutes(3), "note: analysing, after 00:03:00"),
+        ] {
+            assert_eq!(line("analysing", done, all, elapsed), expected);
+        }
     }
 }

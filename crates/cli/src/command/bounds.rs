@@ -1,10 +1,11 @@
 //! `bounds`: the range of each base normal force, with horizontal contacts.
 
+use std::io::Write;
 use std::iter::once;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use cannonpile::shape::Selection;
-use cannonpile_horizontal::certificate::write_certificates;
+use cannonpile_horizontal::certificate::{Certificate, write_certificates};
 use cannonpile_horizontal::{NormalBounds, bounds};
 use clap::Args;
 
@@ -53,31 +54,35 @@ impl Bounds {
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
         let progress = Progress::begin("computing the bounds");
-        let table = match (&self.certificate, selection) {
-            (Some(file), Selection::One(site)) => {
-                let found = bounds(&pile, site)?;
-                write_proofs(&found, file)?;
-                tables::bounds_of(&pile, once(Ok((site, found))))
-            }
-            _ => tables::bounds(&pile, selection)
-                .map_err(|error| with_row_options(error, selection))?,
+        let (Some(file), Selection::One(site)) = (&self.certificate, selection) else {
+            let table = tables::bounds(&pile, selection)
+                .map_err(|error| with_row_options(error, selection))?;
+            self.output.write_table(table, self.number, &progress)?;
+            return Ok(true);
         };
-        self.output.write_table(table, self.number, &progress)?;
+        let found = bounds(&pile, site)?;
+        let proofs = proofs(&found)?;
+        let table = tables::bounds_of(&pile, once(Ok((site, found))));
+        let format = self.output.format()?;
+        let content = |out: &mut dyn Write| table.write(format.into(), self.number.into(), out);
+        self.output.write_with(&progress, content, None, || {
+            write_to("certificate", Some(file), |mut out| {
+                Ok(write_certificates(&proofs, &mut out)?)
+            })
+        })?;
         Ok(true)
     }
 }
 
-fn write_proofs(bounds: &NormalBounds, file: &Path) -> Result<(), Failure> {
+/// Returns the certificates of both bounds.
+fn proofs(bounds: &NormalBounds) -> Result<Vec<Certificate>, Failure> {
     let both = [&bounds.least, &bounds.greatest].map(|bound| bound.certificate.clone());
     let both: Option<Vec<_>> = both.into_iter().collect();
-    let both = both.ok_or_else(|| {
+    both.ok_or_else(|| {
         Failure::Message(
             "--certificate: the certificate of this pile would be too large (the bounds of straight piles are proved for \
              every L): leave it out, or use fewer layers"
                 .to_owned(),
         )
-    })?;
-    write_to("certificate", Some(file), |mut out| {
-        Ok(write_certificates(&both, &mut out)?)
     })
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use cannonpile_horizontal::certificate::{Certificate, Refusal, read_certificates};
 use clap::Args;
 
-use crate::output::{Failure, READABLE_FILE_OR_STDIN, unreadable, write_to};
+use crate::output::{Failure, READABLE_FILE_OR_STDIN, unusable, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -47,7 +47,7 @@ pub(crate) struct Check {
 impl Check {
     /// Checks the certificates and returns whether all are accepted.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let progress = Progress::begin("reading FILE");
+        let progress = Progress::begin("reading the certificate");
         let certificates = self
             .read()
             .map_err(|error| self.unreadable_certificate(&error))?;
@@ -103,20 +103,12 @@ impl Check {
 
     /// Returns the reason why the file contains no certificate.
     fn unreadable_certificate(&self, error: &io::Error) -> Failure {
-        let name = self.name();
-        Failure::Message(match error.kind() {
-            io::ErrorKind::FileTooLarge => format!("FILE: {name}: {error}"),
-            io::ErrorKind::InvalidData | io::ErrorKind::UnexpectedEof => {
-                format!(
-                    "FILE: {name} is not a certificate: {error}; 'cannonpile check --help' shows one"
-                )
-            }
-            _ => return unreadable(name, error, READABLE_FILE_OR_STDIN),
-        })
+        let expected = ["a certificate", "'cannonpile check --help' shows one"];
+        unusable(self.name(), error, expected, READABLE_FILE_OR_STDIN)
     }
 
     /// Returns the reason why the pile of a certificate is invalid.
     fn refused(&self, error: &impl Display) -> Failure {
-        Failure::Message(format!("FILE: {}: {error}", self.name()))
+        Failure::Message(format!("{}: {error}", self.name()))
     }
 }

@@ -20,7 +20,7 @@ use num_rational::BigRational;
 
 use super::{fault_probability, has_horizontal_contacts};
 use crate::args::{Format, Number, Output, SceneOptions};
-use crate::output::{Failure, InputError, open, write_to};
+use crate::output::{Failure, InputError, READABLE_FILE, open, unusable, write_to};
 use crate::progress::Progress;
 use crate::{Error, tables};
 
@@ -251,7 +251,7 @@ pub(crate) struct Merge {
 
 impl Merge {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let progress = Progress::begin("reading FILE");
+        let progress = Progress::begin("reading the parts");
         let parts: Result<Vec<_>, Failure> = self.parts.iter().map(|path| read(path)).collect();
         let whole = TallyRecord::merge(&parts?).map_err(|refused| self.message(&refused))?;
         drop(progress);
@@ -270,15 +270,15 @@ impl Merge {
             _ => None,
         };
         let file = place.map_or_else(String::new, |path| format!("{}: ", path.display()));
-        Failure::Message(format!("FILE: {file}{refused}"))
+        Failure::Message(format!("{file}{refused}"))
     }
 }
 
 pub(super) fn read(path: &Path) -> Result<TallyRecord, Failure> {
-    let name = path.display();
-    TallyRecord::read(open(path)?).map_err(|error| {
-        Failure::Message(format!(
-            "FILE: {name} is not part of an ensemble: {error}; 'cannonpile ensemble --shard I/N --format json' writes one"
-        ))
-    })
+    let expected = [
+        "part of an ensemble",
+        "'cannonpile ensemble --shard I/N --format json' writes one",
+    ];
+    TallyRecord::read(open(path)?)
+        .map_err(|error| unusable(path.display(), &error, expected, READABLE_FILE))
 }

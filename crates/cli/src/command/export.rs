@@ -16,7 +16,7 @@ use num_traits::One;
 
 use super::note_instability;
 use crate::args::{Format, SceneOptions, in_state, resolve_format};
-use crate::output::{Failure, print_message, write_to};
+use crate::output::{Failure, creates_folder_of, print_message, write_around, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -157,30 +157,52 @@ impl Export {
         )?;
         self.check_free_space(&export, &formats)?;
         let begun = Instant::now();
-        let progress = Progress::of_rows("files", Some(rows(&export, &formats)));
+        let (list, mut written) = (self.list.as_deref(), Vec::new());
+        let failure = |error| match error {
+            WriteError::Answer(error) => self.scene.overflow_failure(error.into(), &scene),
+            error => Failure::of_writing(error, "list", list),
+        };
+        let write = || {
+            let written = self.write(&export, &formats, page.as_ref());
+            written.map_err(failure)
+        };
+        let list_of = |written: &[Written], out: &mut dyn Write| {
+            files(written).write(format.into(), NumberFormat::Exact, out)
+        };
+        if list.is_some_and(|list| creates_folder_of(&self.folder, list)) {
+            written = write()?;
+            write_to("list", list, |out| list_of(&written, out))?;
+        } else {
+            write_around("list", list, |out| {
+                written = write()?;
+                list_of(&written, out).map_err(failure)
+            })?;
+        }
+        note_instability(&pile);
+        print_rate(&written, begun);
+        Ok(true)
+    }
+
+    /// Writes the files.
+    fn write(
+        &self,
+        export: &PileExport<'_>,
+        formats: &[PileFormat],
+        page: Option<&Page<'_>>,
+    ) -> Result<Vec<Written>, WriteError> {
+        let progress = Progress::of_rows("files", Some(rows(export, formats)));
         let advance = &mut |rows| progress.advance(rows);
-        let written = match &page {
-            Some(page) if self.is_viewer_only(&formats) => {
+        match page {
+            Some(page) if self.is_viewer_only(formats) => {
                 self.write_page(page).map(|written| vec![written])
             }
             Some(page) => {
                 let (name, write) = (PAGE, &|out: &mut dyn Write| page.write(out));
                 let page = [OtherFile { name, write }];
-                export.write_with(&formats, &page, &self.folder, advance)
+                export.write_with(formats, &page, &self.folder, advance)
             }
-            None => export.write(&formats, &self.folder, advance),
-        };
-        drop(progress);
-        let written = written.map_err(|error| match error {
-            WriteError::Answer(error) => self.scene.overflow_failure(error.into(), &scene),
-            error => Failure::of_writing(error, "list", self.list.as_deref()),
-        })?;
-        write_to("list", self.list.as_deref(), |out| {
-            files(&written).write(format.into(), NumberFormat::Exact, out)
-        })?;
-        note_instability(&pile);
-        print_rate(&written, begun);
-        Ok(true)
+            None => export.write(formats, &self.folder, advance),
+        }
     }
 
     /// Returns the coefficients of friction of a scene with a rough floor.
@@ -296,6 +318,15 @@ impl Export {
                 "--list: {list} is one of the exported files: give another file name"
             )));
         }
+        if place(&self.folder)
+            .zip(place(list))
+            .is_some_and(|(folder, list)| folder.starts_with(list))
+        {
+            let list = list.display();
+            return Err(Failure::Message(format!(
+                "--list: {list} is the folder of the export: give a file name"
+            )));
+        }
         Ok(())
     }
 
@@ -318,7 +349,7 @@ impl Export {
         let room = there.and_then(|folder| fs4::available_space(folder).ok());
         if let Some(room) = room.filter(|room| *room < bytes) {
             return Err(Failure::Message(format!(
-                "DIR: {folder} needs about {gigabytes} GB, but its disk has only {} free: use another disk, fewer formats or \
+                "{folder} needs about {gigabytes} GB, but its disk has only {} free: use another disk, fewer formats or \
                  fewer layers",
                 indicatif::DecimalBytes(room)
             )));

@@ -1,5 +1,6 @@
 //! `base` and `contacts`: base forces and contact forces.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 use cannonpile::Pile;
@@ -111,7 +112,7 @@ impl<P: Args> Forces<P> {
         selection: Selection,
         query: &ForceQuery,
     ) -> Result<bool, Failure> {
-        self.output.format()?;
+        let format = self.output.format()?;
         let rows = spheres(pile, selection)? * query.rows;
         let progress = Progress::of_rows(query.doing, rows.try_into().ok());
         let units = self.method.apply(self.numbers.units.of(scene, pile)?)?;
@@ -120,14 +121,18 @@ impl<P: Args> Forces<P> {
             _ => query.table,
         };
         let table = table(&units, selection).map_err(|error| with_row_options(error, selection))?;
-        if let Some(certificate) = certificate {
+        let tension = TensionCheck::in_column(query.column);
+        let table = tension.watch(table);
+        let content =
+            |out: &mut dyn Write| table.write(format.into(), self.numbers.number.into(), out);
+        self.output.write_with(&progress, content, None, || {
+            let Some(certificate) = certificate else {
+                return Ok(());
+            };
             write_to("certificate", self.certificate.as_deref(), |mut out| {
                 Ok(write_certificate(certificate, &mut out)?)
-            })?;
-        }
-        let tension = TensionCheck::in_column(query.column);
-        self.output
-            .write_table(tension.watch(table), self.numbers.number, &progress)?;
+            })
+        })?;
         drop(progress);
         tension.note(pile, selection);
         Ok(true)

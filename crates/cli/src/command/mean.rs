@@ -6,7 +6,7 @@ use cannonpile_disorder::RandomPiles;
 use clap::{Args, ValueEnum};
 use num_rational::BigRational;
 
-use super::fault_probability;
+use super::{TensionCheck, fault_probability};
 use crate::args::{Output, RandomSceneOptions};
 use crate::output::{Failure, print_message};
 use crate::progress::Progress;
@@ -111,19 +111,24 @@ impl Mean {
         let piles = self.scene.read()?;
         self.output.format()?;
         let progress = Progress::begin("averaging over stackings");
+        let tension = TensionCheck::in_column("normal");
         if self.by.is_some() {
             let by_faults = piles
                 .by_faults()
                 .map_err(|error| self.scene.refused(error))?;
-            self.write(tables::by_faults(&by_faults), &progress)?;
+            let table = tension.watch(tables::by_faults(&by_faults));
+            self.write(table, &progress)?;
         } else {
-            self.write(self.table(&piles)?, &progress)?;
+            let table = self.table(&piles, &tension)?;
+            self.write(tension.watch(table), &progress)?;
         }
         drop(progress);
-        print_message(
-            "note: the mean is over all stackings, unstable ones included; a negative normal force occurs in prestressed or \
-             glued piles only",
-        );
+        if tension.seen.get() {
+            print_message(
+                "note: the mean is over all stackings, unstable ones included; a negative normal force occurs in prestressed \
+                 or glued piles only",
+            );
+        }
         Ok(true)
     }
 
@@ -131,7 +136,12 @@ impl Mean {
         self.output.write_table(table, self.number, progress)
     }
 
-    fn table(&self, piles: &RandomPiles) -> Result<Table<'static>, Failure> {
+    /// Returns the table of means. Polynomials show no sign, so their coefficients by number of faults are looked at here.
+    fn table(
+        &self,
+        piles: &RandomPiles,
+        tension: &TensionCheck,
+    ) -> Result<Table<'static>, Failure> {
         let refused = |error: cannonpile_disorder::Error| self.scene.refused(error);
         if self.symbolic {
             if self.number == Number::F64 {
@@ -139,10 +149,12 @@ impl Mean {
                     "--number f64: polynomials always have exact coefficients: leave it out, or use --fault-probability".to_owned(),
                 ));
             }
-            let polynomials = piles
-                .by_faults()
-                .and_then(|by_faults| by_faults.polynomial());
-            return Ok(tables::mean_of_polynomials(polynomials.map_err(refused)?));
+            let by_faults = piles.by_faults().map_err(refused)?;
+            for row in by_faults.rows() {
+                tension.find(&row.map_err(refused)?.normal);
+            }
+            let polynomials = by_faults.polynomial().map_err(refused)?;
+            return Ok(tables::mean_of_polynomials(polynomials));
         }
         let half = || BigRational::new(1.into(), 2.into());
         let q = self.fault_probability.clone().unwrap_or_else(half);

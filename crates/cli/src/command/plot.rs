@@ -16,7 +16,7 @@ use num_rational::BigRational;
 use super::ensemble::HistogramForces;
 use super::{fault_probability, of_weight};
 use crate::args::{SceneOptions, UnitSystem, parse_site};
-use crate::output::{Failure, InputError, open, print_message, write_to};
+use crate::output::{Failure, InputError, READABLE_FILE, open, print_message, unusable, write_to};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
 
@@ -361,7 +361,7 @@ impl Plot {
                 let figure = figure::distribution(record.tally(), (*histogram).into(), q)?;
                 figure.ok_or_else(|| {
                     Failure::Message(format!(
-                        "FILE: {} is only a part of an ensemble: merge it with the others first",
+                        "{} is only a part of an ensemble: merge it with the others first",
                         file.display()
                     ))
                 })
@@ -373,12 +373,12 @@ impl Plot {
 
 /// Reads the record of a refinement study.
 fn read_study(path: &Path) -> Result<RefinementStudy, Failure> {
-    let name = path.display();
-    RefinementStudy::read(open(path)?).map_err(|error| {
-        Failure::Message(format!(
-            "FILE: {name} is not a refinement study: {error}; 'cannonpile verify --refinement K1=FILE1,K2=FILE2 --format json' writes one"
-        ))
-    })
+    let expected = [
+        "a refinement study",
+        "'cannonpile verify --refinement K1=FILE1,K2=FILE2 --format json' writes one",
+    ];
+    RefinementStudy::read(open(path)?)
+        .map_err(|error| unusable(path.display(), &error, expected, READABLE_FILE))
 }
 
 /// Parses the lengths of runs of equal signs. The first run has the sign +.

@@ -1,5 +1,6 @@
 //! `prove`: theorems that hold for every pile.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use cannonpile_dem::table::{NumberFormat, write_all};
@@ -96,19 +97,23 @@ impl Prove {
         let files = files
             .iter()
             .map(|file| (folder.join(file.name()), file.text()));
-        write_all(folder, files, |text, out| {
-            Ok(out.write_all(text.as_bytes())?)
-        })
-        .map_err(|error| Failure::of_writing(error, "to", Some(folder)))?;
         let checks = commands(folder)?;
-        let progress = Progress::begin("listing");
+        let progress = Progress::begin("writing the proofs");
         let (table, numbers) = (tables::in_coq(), NumberFormat::Exact);
-        self.output.write(&progress, |out| {
+        let list = |out: &mut dyn Write| {
             table.write(format.into(), numbers, out)?;
             if format == Format::Table {
                 writeln!(out, "\n{checks}")?;
             }
             Ok(())
+        };
+        self.output.write_with(&progress, list, Some(folder), || {
+            let written = write_all(folder, files, |text, out| {
+                Ok(out.write_all(text.as_bytes())?)
+            });
+            written
+                .map(drop)
+                .map_err(|error| Failure::of_writing(error, "to", Some(folder)))
         })?;
         Ok(true)
     }

@@ -3,7 +3,7 @@
 mod refinement;
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use cannonpile::Packing;
@@ -18,7 +18,7 @@ use clap::{Args, ValueEnum};
 use super::note_instability;
 use crate::args::{Format, Output, SceneOptions, in_state};
 use crate::hashed::Hashed;
-use crate::output::{Failure, READABLE_FILE_OR_STDIN, print_message, reason, unreadable, write_to};
+use crate::output::{Failure, READABLE_FILE_OR_STDIN, print_message, unreadable, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -246,7 +246,7 @@ impl Verify {
     ) -> Result<bool, Failure> {
         let format = self.output.format()?;
         let reader = self.reader()?.on_floor(scene.floor);
-        let progress = Progress::begin("comparing FILE with the exact forces");
+        let progress = Progress::begin("comparing the measured forces with the exact ones");
         let read = compare(
             &reader,
             packing,
@@ -263,14 +263,16 @@ impl Verify {
             Some(source) => report.with_source(source),
             None => report,
         };
-        self.output
-            .write(&progress, |out| report.write(format.into(), out))?;
-        if let (Some(file), Some(unbalanced)) = (&self.unbalanced, &read.unbalanced) {
+        let content = |out: &mut dyn Write| report.write(format.into(), out);
+        self.output.write_with(&progress, content, None, || {
+            let (Some(file), Some(unbalanced)) = (&self.unbalanced, &read.unbalanced) else {
+                return Ok(());
+            };
             let table = unbalanced.table(packing)?;
             write_to("unbalanced", Some(file), |out| {
                 table.write(format_of_extension(file), NumberFormat::F64, out)
-            })?;
-        }
+            })
+        })?;
         drop(progress);
         if let Some(note) = other_steps(path, &read) {
             print_message(&note);
@@ -321,33 +323,26 @@ impl Verify {
     }
 
     fn refused(&self, refusal: Refusal, path: &Path, scene: &Scene) -> Failure {
-        let (option, path, refusal) = match (refusal, &self.floor_table) {
+        let (name, is_measured, refusal) = match (refusal, &self.floor_table) {
             (Refusal::FloorTable(refusal), Some(floor)) => {
-                ("--floor-table", floor.as_path(), *refusal)
+                (format!("--floor-table: {}", name(floor)), false, *refusal)
             }
-            (refusal, _) => ("FILE", path, refusal),
+            (refusal, _) => (name(path), true, refusal),
         };
-        let name = name(path);
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
             Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
             Refusal::Io(error) if error.kind() == io::ErrorKind::InvalidData => {
-                format!("{option}: {name}, {error}: compress it again, or give it as it is")
+                format!("{name}, {error}: compress it again, or give it as it is")
             }
-            Refusal::Io(error) if option == "FILE" => {
-                return unreadable(name, &error, READABLE_FILE_OR_STDIN);
-            }
-            Refusal::Io(error) => {
-                let reason = reason(&error);
-                format!("{option}: {name} cannot be read: {reason}; {READABLE_FILE_OR_STDIN}")
-            }
+            Refusal::Io(error) => return unreadable(name, &error, READABLE_FILE_OR_STDIN),
             refusal @ Refusal::Line {
                 fault: Fault::NoColumn { .. } | Fault::NoNamedColumn { .. },
                 ..
-            } if option == "FILE" => {
-                format!("FILE: {name}, {refusal}; --columns can name them")
+            } if is_measured => {
+                format!("{name}, {refusal}; --columns can name them")
             }
-            refusal => format!("{option}: {name}, {refusal}"),
+            refusal => format!("{name}, {refusal}"),
         })
     }
 }

@@ -160,7 +160,13 @@ fn signals_remove_unfinished_files() {
     use std::thread::sleep;
     use std::time::Duration;
 
-    for (signal, status) in [("INT", 130), ("TERM", 143)] {
+    for (signal, status) in [
+        ("INT", 130),
+        ("TERM", 143),
+        ("HUP", 129),
+        ("QUIT", 131),
+        ("USR1", 138),
+    ] {
         let folder = tempfile::tempdir().expect("a folder");
         let into = folder.path().join("new/pile");
         let mut export = Command::new(env!("CARGO_BIN_EXE_cannonpile"))

@@ -176,16 +176,20 @@ fn polynomials_equal_means_over_all_stackings() {
     }
 }
 
-/// A note defines the mean in every format, and the help explains every column.
+/// A note explains negative normal forces in every format, and only these. The help explains every column.
 #[test]
 fn note_and_help_define_the_mean() {
+    let point = "--top plane --weightless --load 0,0,0=1 --layers 5";
     for options in [
-        "",
+        "--fault-probability 1",
         "--symbolic",
         "--by faults",
-        "--given sphere --format json",
+        "--fault-probability 1 --given sphere --format json",
     ] {
         let output = cannonpile(&format!("mean --layers 3 {options}"));
+        assert_eq!(output.status.code(), Some(0));
+        assert!(output.stderr.is_empty());
+        let output = cannonpile(&format!("mean {point} {options}"));
         assert_eq!(output.status.code(), Some(0));
         let told = String::from_utf8(output.stderr).expect("text");
         assert_eq!(told.lines().count(), 1, "{told}");

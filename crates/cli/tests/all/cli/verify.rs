@@ -179,7 +179,7 @@ fn infinite_table_is_rejected_at_the_third_row_of_a_pair() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(
         String::from_utf8(output.stderr).expect("text"),
-        "error: FILE: stdin, line 4: spheres 1 and 2 are already on line 2: list each pair once, or once in each order; if the \
+        "error: stdin, line 4: spheres 1 and 2 are already on line 2: list each pair once, or once in each order; if the \
          table holds several steps, name their column with step=COLUMN in --columns, or leave one step\n"
     );
 }
@@ -231,14 +231,14 @@ fn usage_errors_are_one_line() {
     let bad = Temporary::new("bad.csv", "id1,id2,force\n1,2,one\n");
     let beyond = Temporary::new("beyond.csv", "id1,id2,force\n1,99,1\n");
     for (arguments, want) in [
-        (format!("verify {}", bad.path()), format!("error: FILE: {}, line 2: force 'one' is not a number such as 0.46 or 1e-3\n", bad.path())),
+        (format!("verify {}", bad.path()), format!("error: {}, line 2: force 'one' is not a number such as 0.46 or 1e-3\n", bad.path())),
         (
             format!("verify {} --layers 3", beyond.path()),
-            format!("error: FILE: {}, line 2: no sphere 99: the spheres of this scene are numbered 1 to 10, from the top; does the table have more layers, or several numbers for one wall?\n", beyond.path()),
+            format!("error: {}, line 2: no sphere 99: the spheres of this scene are numbered 1 to 10, from the top; does the table have more layers, or several numbers for one wall?\n", beyond.path()),
         ),
         (
             "verify no/such.csv".into(),
-            "error: FILE: no/such.csv cannot be read: no such file or folder; give a readable file, or - for stdin\n".into(),
+            "error: no/such.csv cannot be read: no such file or folder; give a readable file, or - for stdin\n".into(),
         ),
         (
             format!("verify {good} --layers 3 --mass 1e-350"),
