@@ -195,7 +195,7 @@ impl Output {
     ) -> Result<(), Failure> {
         let file = self.file.as_deref();
         let is_within = |file: &Path| made.is_some_and(|folder| creates_folder_of(folder, file));
-        // What stdout has got cannot be taken back.
+        // Text that was written to stdout cannot be taken back.
         if file.is_none_or(is_within) {
             others()?;
             return self.write(progress, content);

@@ -2,7 +2,7 @@
 //!
 //! At a = R the spheres of a layer touch, and the contact forces are not unique
 //! ([`paper`](cannonpile::paper#horizontal-contacts)). The results come from solvers with rounding errors. So each
-//! result comes with a certificate: horizontal forces X (a primal solution), a field φ on the spheres (a dual
+//! result comes with a certificate. It has horizontal forces X (a primal solution), a field φ on the spheres (a dual
 //! solution), or both. [`Certificate::check`] uses only these numbers and the balance of a sphere. It shares only the
 //! formulas with the solvers ([`formula`](crate::formula) here and in the [core](cannonpile::formula)); the theorems
 //! `horizontal-balance` and `virtual-work` are about these formulas. `check_certificate.py`, in the folder of this

@@ -121,7 +121,7 @@ pub struct Table<'a> {
     count: Option<BigUint>,
     /// The generator of the rows for a number format.
     pub(super) rows: MakeRows<'a>,
-    /// The same rows once more, to check them before any of them is written.
+    /// A second generator of the rows, to check all of them before the first is written.
     pub(super) again: Option<MakeRows<'a>>,
     pub(super) sums: Option<Sums<'a>>,
 }

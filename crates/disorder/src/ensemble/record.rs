@@ -250,9 +250,10 @@ impl TallyRecord {
     /// changed. Space and line ends between entries do not matter.
     ///
     /// # Errors
-    /// Any error of the input. The kind is [`InvalidData`](io::ErrorKind::InvalidData) or
-    /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line in the message, if the input is an
-    /// invalid record, was changed after it was written, has no digest, or has more than 512 MiB.
+    /// * The errors of the input.
+    /// * [`InvalidData`](io::ErrorKind::InvalidData) or [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line
+    ///   in the message, if the input is an invalid record or has more than 512 MiB.
+    /// * [`InvalidData`](io::ErrorKind::InvalidData) if the record was changed after it was written, or has no digest.
     ///
     /// # Examples
     /// ```

@@ -98,7 +98,7 @@ fn no_altered_number_is_accepted() {
     assert!(count > 10_000, "{count}");
 }
 
-/// The same, if who alters a number also computes the digest again: only a possible record is accepted.
+/// An altered record with a digest of its own is accepted only if it is possible.
 #[test]
 fn no_contradiction_is_accepted() {
     let mut accepted = 0;
@@ -151,7 +151,7 @@ fn a_record_without_digest_is_refused() {
     let (entries, _) = split(text);
     let refused = TallyRecord::read(format!("{entries}\n}}\n").as_bytes()).unwrap_err();
     assert!(refused.to_string().contains("no digest"), "{refused}");
-    // Space between entries is no part of the record.
+    // Space between entries does not matter.
     let spaced = text.replace(",\n", " ,\n\n ");
     assert!(TallyRecord::read(spaced.as_bytes()).is_ok());
 }
