@@ -131,32 +131,18 @@ Proof.
     + apply in_map_iff. exists j. split; [reflexivity|]. unfold from_to. apply range_iff. lia.
 Qed.
 
-(** A pile is built downwards from a top, or upwards from a base: layers from the top. *)
-Fixpoint downwards (kind : kind) (signs : list sign) (l : list sphere) : list (list sphere) :=
-  l :: match signs with [] => [] | sigma :: signs => downwards kind signs (supports kind sigma l) end.
+(** A pile is built downwards from a top, or upwards from a base: each layer follows from the one before. *)
+Fixpoint grown (next : sign -> list sphere -> list sphere) (signs : list sign) (l : list sphere) : list (list sphere) :=
+  l :: match signs with [] => [] | sigma :: signs => grown next signs (next sigma l) end.
 
-Fixpoint upwards (kind : kind) (signs : list sign) (l : list sphere) : list (list sphere) :=
-  l :: match signs with [] => [] | sigma :: signs => upwards kind signs (supported kind sigma l) end.
-
-Theorem downwards_are : forall kind signs l n, (n < length signs)%nat ->
-  nth (S n) (downwards kind signs l) [] = supports kind (nth n signs Plus) (nth n (downwards kind signs l) []).
+Theorem grown_are : forall next signs l n, (n < length signs)%nat ->
+  nth (S n) (grown next signs l) [] = next (nth n signs Plus) (nth n (grown next signs l) []).
 Proof.
-  intros kind signs. induction signs as [|sigma signs IH]; intros l n H; cbn [length] in H; [lia|].
+  intros next signs. induction signs as [|sigma signs IH]; intros l n H; cbn [length] in H; [lia|].
   destruct n as [|n].
-  - cbn [downwards nth]. destruct signs; reflexivity.
-  - change (nth (S n) (downwards kind signs (supports kind sigma l)) []
-      = supports kind (nth n signs Plus) (nth n (downwards kind signs (supports kind sigma l)) [])).
-    apply IH. lia.
-Qed.
-
-Theorem upwards_are : forall kind signs l n, (n < length signs)%nat ->
-  nth (S n) (upwards kind signs l) [] = supported kind (nth n signs Plus) (nth n (upwards kind signs l) []).
-Proof.
-  intros kind signs. induction signs as [|sigma signs IH]; intros l n H; cbn [length] in H; [lia|].
-  destruct n as [|n].
-  - cbn [upwards nth]. destruct signs; reflexivity.
-  - change (nth (S n) (upwards kind signs (supported kind sigma l)) []
-      = supported kind (nth n signs Plus) (nth n (upwards kind signs (supported kind sigma l)) [])).
+  - cbn [grown nth]. destruct signs; reflexivity.
+  - change (nth (S n) (grown next signs (next sigma l)) []
+      = next (nth n signs Plus) (nth n (grown next signs (next sigma l)) [])).
     apply IH. lia.
 Qed.
 
@@ -176,8 +162,8 @@ Record pile := Pile {
 }.
 
 Definition layers (p : pile) : list (list sphere) :=
-  if p.(is_under_top) then downwards p.(of_kind) p.(signs) (in_region p.(lower) p.(upper) 0)
-  else rev (upwards p.(of_kind) (rev p.(signs)) (in_region p.(lower) p.(upper) (Z.of_nat (length p.(signs))))).
+  if p.(is_under_top) then grown (supports p.(of_kind)) p.(signs) (in_region p.(lower) p.(upper) 0)
+  else rev (grown (supported p.(of_kind)) (rev p.(signs)) (in_region p.(lower) p.(upper) (Z.of_nat (length p.(signs))))).
 
 (** The spheres above the floor, and the bottom layer. *)
 Definition above_floor (layers : list (list sphere)) : list sphere := distinct (concat (removelast layers)).
