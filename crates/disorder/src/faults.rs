@@ -304,7 +304,7 @@ impl ByFaults {
     /// Fails unless the process can allocate the polynomials and their text.
     fn check_memory_of_polynomials(&self) -> Result<(), Error> {
         let classes = self.spots.iter().flat_map(|spot| &spot.classes).flatten();
-        let greatest = classes.map(BigInt::bits).max().unwrap_or(0);
+        let greatest = classes.map(BigInt::bits).fold(0, u64::max);
         // The factors are at most C(n−1,i) 3^(n−1), and less than 3^(2n).
         let terms = self.most_faults as u64 + 1;
         let bits = greatest + 4 * terms;
