@@ -89,8 +89,10 @@ impl Aside {
             // Temporary files are private, but the result has the permissions of any new file; the umask still applies.
             aside.permissions(fs::Permissions::from_mode(0o666));
         }
-        let fresh = aside.prefix(FRESH).tempfile_in(folder)?;
-        let pending = Pending::new(fresh.path())?;
+        let (fresh, pending) = Pending::create(
+            || aside.prefix(FRESH).tempfile_in(folder),
+            |fresh| fresh.path().to_path_buf(),
+        )?;
         lock(fresh.as_file());
         let (mut aside, pending) = named_as_locked(fresh, pending, folder)?;
         let bytes = write_to(aside.as_file_mut(), write)?;

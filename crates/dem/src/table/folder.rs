@@ -76,9 +76,14 @@ impl New {
             .take_while(|path| *path != Path::new("") && !path.exists());
         let missing: Vec<&Path> = missing.collect();
         for path in missing.into_iter().rev() {
-            self.announce(path)?;
+            match Pending::create(|| fs::create_dir(path), |()| path.to_path_buf()) {
+                Ok(((), pending)) => self.0.push(pending),
+                // Another process has created it.
+                Err(_) if path.is_dir() => {}
+                Err(error) => return Err(error),
+            }
         }
-        fs::create_dir_all(folder)
+        Ok(())
     }
 
     /// Records a path that is created next.

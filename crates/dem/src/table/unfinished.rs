@@ -71,12 +71,26 @@ impl Pending {
     /// # Errors
     /// [`io::ErrorKind::Interrupted`] once [`remove_unfinished`] has been called.
     pub(crate) fn new(path: &Path) -> io::Result<Self> {
+        Self::create(|| Ok(path), |path| path.to_path_buf()).map(|(_, pending)| pending)
+    }
+
+    /// Creates a file or folder. The lock is held meanwhile, so that every path which exists is known.
+    ///
+    /// # Errors
+    /// Those of `create`, and [`io::ErrorKind::Interrupted`] once [`remove_unfinished`] has been called.
+    pub(crate) fn create<T>(
+        create: impl FnOnce() -> io::Result<T>,
+        path: impl FnOnce(&T) -> PathBuf,
+    ) -> io::Result<(T, Self)> {
         let mut unfinished = unfinished();
         if unfinished.closed {
             return Err(io::ErrorKind::Interrupted.into());
         }
-        unfinished.paths.push(path.to_owned());
-        Ok(Self(path.to_owned()))
+        let created = create()?;
+        let path = path(&created);
+        unfinished.paths.push(path.clone());
+        drop(unfinished);
+        Ok((created, Self(path)))
     }
 
     /// Removes the file or folder.
