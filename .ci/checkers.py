@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Compares the three checkers of certificates: checkers.py CANNONPILE CHECK [TIMES].
+"""Compares the three checkers of certificates: checkers.py CANNONPILE CHECK [TIMES [PILES]].
 
-CHECK is the program extracted from Checker.v. Certificates of random piles, of each kind, must be accepted by all three.
-Then one number, sign, claim or entry is changed at random, TIMES times (2000), and all three must give the same verdict.
-One changed force of a certificate of exact forces must be refused.
+CHECK is the program extracted from Checker.v. Certificates of PILES random piles (14), of each kind, must be accepted by
+all three. Then one number, sign, claim or entry is changed at random, TIMES times (2000), and after that one byte of the
+file as often. All three must give the same verdict, and refuse one changed force of a certificate of exact forces.
 """
 
 import copy
@@ -22,17 +22,19 @@ import check_certificate  # noqa: E402
 
 binary, proved = sys.argv[1:3]
 times = int(sys.argv[3]) if len(sys.argv) > 3 else 2000
+piles = int(sys.argv[4]) if len(sys.argv) > 4 else 14
 chance = random.Random(1998)
 
 
 def scenes():
     """Yields options of random piles."""
-    for _ in range(12):
+    for _ in range(piles - 2):
         steps = chance.randint(1, 5)
         stacking = "".join(chance.choice("+-") for _ in range(steps))
         shape = chance.choice([f"--top hexagon:{chance.randint(1, 2)}", "--top triangle:2", f"--base hexagon:{steps + 2}"])
         load = f"{chance.randint(0, 9)}/{chance.randint(1, 7)}"
-        yield f"{shape} --stacking={stacking} --layers {steps + 1}", load
+        tilt = f" --tilt 1/{chance.randint(2, 9)},-1/{chance.randint(2, 9)}" if chance.random() < 0.3 else ""
+        yield f"{shape} --stacking={stacking} --layers {steps + 1}{tilt}", load
     yield "--dimension 2 --layers 5", "3/2"
     yield "--sin-phi 2/7 --layers 4 --tilt 1/9,1/7", "5"
 
@@ -98,34 +100,92 @@ def changed(certificate):
     return other, path
 
 
-def verdicts(certificate, file):
+BYTES = b"0123456789+-/.,:()[]{}\"ABCabcehinstu_ \n\\\0\x7f\xff"
+
+
+def with_other_byte(text):
+    """Returns the text with one byte replaced, inserted or left out."""
+    place, other = chance.randrange(len(text)), bytes([chance.choice(BYTES)])
+    return text[:place] + chance.choice([other, other, b""]) + text[place + chance.choice([0, 1]) :]
+
+
+# A certificate in another notation each, which the parsers of the library or of JSON may read.
+SMALL = (
+    '{"pile":{"dimension":3,"sin_phi":"1/2","stacking":"++","anchor":{"top":"hexagon:1"},"weightless":false,"weights":[],'
+    '"loads":[{"site":{"i":0,"j":0,"k":0},"weight":"1"}]},"claim":"stands","horizontal":[],"field":[]}'
+)
+OTHER_NOTATIONS = [
+    ('"1/2"', other) for other in ('"+1/2"', '"0.5"', '"5e-1"', '".5"', '" 1/2"', '"1/+2"', '"1/2\\u0030"', '"\\u0031/2"', "0.5", "null")
+] + [
+    ('"++"', other) for other in ('"ABC"', '"cc"', '"c"', '"(2,0)"', '"(0,2)"', '"(02)"', '"()"', '"+(2)"', '"fcc"', '"\uff0b+"', '""')
+] + [
+    ('"hexagon:1"', other)
+    for other in ('"hexagon:1,1,1"', '"hexagon:1.0"', '"hexagon:1e0"', '"hexagon:+1"', '"triangle:1,1"', '"0..0,0..0,0..0"',
+                  '"region:0...0,0..0,0..0"', '"region:0..0,0..0"', '"region:+0..0,0..0,0..0"', '"Hexagon:1"', '"site"')
+] + [
+    ('"stands"', other) for other in ('{"stands":null}', '["stands"]', '"Stands"', "null", '{"elastic":["1"]}', '{"elastic":{"stiffness_ratio":1}}')
+] + [
+    ('"dimension":3', f'"dimension":{other}') for other in ("3.0", "3e0", '"3"', "03", "+3", "true")
+] + [
+    ('"i":0', f'"i":{other}') for other in ("-0", "0.0", '"+0"', '"0e1"', "1e400", "99999999999999999999", "NaN", "[0]", '"' + 39 * "0" + '"')
+] + [
+    ('{"i":0,"j":0,"k":0}', "[0,0,0]"), ('"weightless":false', '"weightless":0'), ('"weights":[]', '"weights":{}'),
+    ('"weights":[]', '"weights":null'), ('"field":[]', '"field":[],"field":[]'), ('"field":[]', '"field":[],"more":0'),
+    ('"field":[]}', '"field":[]},'), ('"field":[]', '"field":[,]'), ('{"pile"', '\ufeff{"pile"'), ('{"pile"', "[[]]"),
+    (SMALL, "[]"), (SMALL, ""), (SMALL, f"[{SMALL},{{}}]"), (SMALL, SMALL + SMALL), (SMALL, "[" * 200 + "]" * 200),
+    (SMALL, f"[{SMALL.replace('stands', 'cannot-stand')},{SMALL.replace('stands', 'fall')}]"),
+]
+
+
+def verdicts(text, file):
     """Returns the exit status of each checker."""
-    text = json.dumps(certificate)
-    file.write_text(text)
+    file.write_bytes(text)
     run = lambda *command: subprocess.run([*command, str(file)], capture_output=True).returncode
-    return run(binary, "check"), check_certificate.verdict(io.StringIO(text))[0], run(proved)
+    return run(binary, "check"), check_certificate.verdict(io.StringIO(text.decode("latin-1")))[0], run(proved)
+
+
+def encoded(certificate):
+    return json.dumps(certificate).encode()
 
 
 with tempfile.TemporaryDirectory() as work:
     file = Path(work) / "certificate.json"
+    assert verdicts(SMALL.encode(), file) == (0, 0, 0)
+    for given, other in OTHER_NOTATIONS:
+        assert given in SMALL
+        text = SMALL.replace(given, other, 1).encode()
+        assert verdicts(text, file) == (2, 2, 2), (verdicts(text, file), text)
+    print(len(OTHER_NOTATIONS), "in other notations: not certificates")
+
     certificates = made(Path(work))
     kinds = {}
     for certificate in certificates:
-        assert verdicts(certificate, file) == (0, 0, 0), (verdicts(certificate, file), certificate)
+        status = verdicts(encoded(certificate), file)
+        assert status == (0, 0, 0), (status, certificate)
         claim = certificate["claim"]
         kind = claim if isinstance(claim, str) else next(iter(claim))
         kinds[kind] = kinds.get(kind, 0) + 1
     print("accepted by all three:", ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items())))
     assert len(kinds) == 6, kinds
-    counts = {}
-    for _ in range(times):
-        certificate = chance.choice(certificates)
+
+    def compare(change, what):
+        """Returns how often each verdict was given."""
+        counts = [0, 0, 0]
+        for _ in range(times):
+            certificate = chance.choice(certificates)
+            text, breaks = change(certificate)
+            status = verdicts(text, file)
+            assert len(set(status)) == 1, (status, text)
+            assert not breaks or status[0] != 0, text
+            counts[status[0]] += 1
+        print(f"{times} {what}: {counts[0]} accepted, {counts[1]} refused, {counts[2]} not certificates")
+        return counts
+
+    def number(certificate):
         other, path = changed(certificate)
-        status = verdicts(other, file)
-        assert len(set(status)) == 1, (status, path, other)
         claim = certificate["claim"]
-        if "forces" in claim and claim["forces"]["within"] == "0" and path[:2] == ("claim", "forces") and path[-1] != "within":
-            assert status[0] != 0, (path, other)
-        counts[status[0]] = counts.get(status[0], 0) + 1
-    print(f"{times} changed: {counts.get(0, 0)} accepted, {counts.get(1, 0)} refused, {counts.get(2, 0)} not certificates")
-    assert counts.get(1, 0) > times / 2, counts
+        is_exact = "forces" in claim and claim["forces"]["within"] == "0"
+        return encoded(other), is_exact and path[:2] == ("claim", "forces") and path[-1] != "within"
+
+    assert compare(number, "changed")[1] > times / 2
+    assert compare(lambda certificate: (with_other_byte(encoded(certificate)), False), "with another byte")[2] > times / 2

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Checks a certificate about the contact forces of a sphere pile at a = R: check_certificate.py FILE (- for stdin).
 
+The guide has the grammar of these files: docs/certificates.md.
+
 Prints `accepted` (exit status 0), or `refused: ` and the first condition that is violated (1). If the input is not a
 certificate, it prints one line on stderr (2). It needs Python 3.9 or later and the standard library only.
 
@@ -56,16 +58,29 @@ def matched(pattern, given, what):
 
 
 def number(given):
-    digits = r"\d{1,%d}" % MAX_DIGITS
-    matched(rf"-?{digits}(/0*[1-9]\d{{0,{MAX_DIGITS - 1}}})?", given, "a number such as -7/3")
+    digits = r"[1-9]\d{0,%d}" % (MAX_DIGITS - 1)
+    matched(rf"(0|-?{digits})(/{digits})?", given, "a number such as -7/3")
     return Fraction(given)
 
 
+INTEGER = r"(?:0|-?[1-9]\d{0,38})"
+
+
+def whole(digits, bits=128):
+    """Return an integer that fits a number of bits, with a sign. A JSON number has 64 bits, and may be without a sign."""
+    found = int(matched(INTEGER, digits, "an integer")[0])
+    if not -(2 ** (bits - 1)) <= found < 2 ** (bits if bits == 64 else bits - 1):
+        raise Unreadable(f"{digits} is not an integer of {bits} bits")
+    return found
+
+
+def literal(digits):
+    """Return the value of a JSON number, which must be an integer."""
+    return whole(digits, 64)
+
+
 def integer(given):
-    """Return an integer from a JSON number of at most 64 bits, or from a string of digits."""
-    if type(given) is int and -(2**63) <= given < 2**64:
-        return given
-    return int(matched(r"-?\d{1,38}", given, "an integer")[0])
+    return given if type(given) is int else whole(given)
 
 
 def sphere(given):
@@ -94,7 +109,8 @@ def signs_of(given):
     """
     if given == "A":
         return []
-    found = matched(r"([+-]+)|(-?)\((\d{1,9}(?:,\d{1,9})*)\)", given, "a stacking such as +-+ or (100,3,100)")
+    run = r"[1-9]\d{0,8}"
+    found = matched(rf"([+-]+)|(-?)\(({run}(?:,{run})*)\)", given, "a stacking such as +-+ or (100,3,100)")
     if found[1]:
         return [1 if sign == "+" else -1 for sign in found[1]]
     runs = [int(run) for run in found[3].split(",")]
@@ -106,11 +122,11 @@ def signs_of(given):
 
 def region_of(given):
     """Return the sites of a region, which is given by bounds of i, j and i + j."""
-    between = r"-?\d{1,38}\.\.-?\d{1,38}"
-    sides = r"(hexagon|triangle):\d{1,38}(,\d{1,38})?"
+    between, size = rf"{INTEGER}\.\.{INTEGER}", r"(?:0|[1-9]\d{0,38})"
+    sides = rf"hexagon:{size}(,{size})?|(triangle):{size}"
     found = matched(rf"{sides}|region:{between},{between},{between}", given, "a region")
-    bounds = [int(bound) for bound in re.findall(r"-?\d+", given)]
-    if found[1] == "triangle":
+    bounds = [whole(bound) for bound in re.findall(r"-?\d+", given)]
+    if found[2]:
         bounds = [bounds[0], 1]
     if len(bounds) < 6:
         bounds = [1 - bounds[-1], bounds[0] - 1] * 3
@@ -135,7 +151,7 @@ class Pile:
         dimension, sine, stacking, anchor, weightless, tilt, weights, loads = record(
             given, "dimension sin_phi stacking anchor weightless tilt weights loads"
         )
-        if dimension not in (2, 3) or isinstance(dimension, bool) or not isinstance(weightless, bool):
+        if dimension not in (2, 3) or not isinstance(weightless, bool):
             raise Unreadable("dimension must be 2 or 3, and weightless true or false")
         self.signs = signs_of(stacking)
         self.directions = ["alpha", "beta", "gamma"][:dimension]
@@ -240,26 +256,29 @@ class Pile:
 
 class Certificate:
     def __init__(self, given):
-        pile, self.claim, horizontal, field = record(given, "pile claim horizontal field")
+        pile, claim, horizontal, field = record(given, "pile claim horizontal field")
         self.pile = Pile(pile)
         axis = lambda given: matched("|".join(AXES), given, "an axis")[0]
         push = lambda site, along, force: ((sphere(site), axis(along)), number(force))
         values = lambda site, *three: (sphere(site), dict(zip(OFFSETS, map(number, three))))
         self.horizontal = listed(horizontal, "site axis force", push)
         self.phi = listed(field, "site alpha beta gamma", values)
+        self.kind, self.proved = self.read_claim(claim)
 
-    def check(self):
-        kind, claimed = self.claim, None
-        if isinstance(kind, dict) and len(kind) == 1:
-            ((kind, claimed),) = kind.items()
+    def read_claim(self, given):
+        """Return the kind of the claim, and a function that checks it."""
+        kind, claimed = given, None
+        if isinstance(given, dict) and len(given) == 1:
+            ((kind, claimed),) = given.items()
         if kind in ("least", "greatest"):
             site, normal, attained = record(claimed, "site normal attained")
             if not isinstance(attained, bool):
                 raise Unreadable("attained must be true or false")
-            proved = lambda: self.extreme(kind, sphere(site), number(normal), attained)
+            site, normal = sphere(site), number(normal)
+            proved = lambda: self.extreme(kind, site, normal, attained)
         elif kind == "elastic":
-            (ratio,) = record(claimed, "stiffness_ratio")
-            proved = lambda: self.elastic(number(ratio))
+            ratio = number(*record(claimed, "stiffness_ratio"))
+            proved = lambda: self.elastic(ratio)
         elif kind == "forces":
             within, compressive, contacts, floor = record(claimed, "within compressive contacts floor")
             if not isinstance(compressive, bool):
@@ -269,12 +288,15 @@ class Certificate:
             floor = listed(floor, "site normal shear_x shear_y", numbers)
             within = number(within)
             proved = lambda: self.all_forces(within, compressive, contacts, floor)
-        elif kind in ("stands", "cannot-stand") and claimed is None:
+        elif given in ("stands", "cannot-stand"):
             proved = self.forces if kind == "stands" else self.cannot_stand
         else:
             raise Unreadable("the claim is unknown")
-        self.well_posed(kind == "forces" and not self.horizontal)
-        proved()
+        return kind, proved
+
+    def check(self):
+        self.well_posed(self.kind == "forces" and not self.horizontal)
+        self.proved()
 
     def well_posed(self, has_only_forces):
         pile = self.pile
@@ -418,11 +440,14 @@ def unique_keys(pairs):
 def verdict(file, name="-"):
     """Check a file with one certificate or an array of them. Return the exit status and the line to print."""
     try:
-        given = json.load(file, object_pairs_hook=unique_keys)
+        text = file.read()
+        if not text.isascii() or "\\" in text:
+            raise Unreadable("a certificate is ASCII, without backslashes")
+        given = json.loads(text, object_pairs_hook=unique_keys, parse_int=literal, parse_float=literal, parse_constant=literal)
         if given == []:
             raise Unreadable("the array of certificates is empty")
-        for certificate in given if isinstance(given, list) else [given]:
-            Certificate(certificate).check()
+        for certificate in [Certificate(one) for one in (given if isinstance(given, list) else [given])]:
+            certificate.check()
     except Refused as refusal:
         return 1, f"refused: {refusal}"
     except (Unreadable, OSError, ValueError, RecursionError) as error:

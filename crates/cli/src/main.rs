@@ -162,6 +162,7 @@ const NO: u8 = 1;
 const USAGE_ERROR: u8 = 2;
 
 fn main() -> ExitCode {
+    threads::share_limited_memory();
     let handled = signals::remove_files_on_signal();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,

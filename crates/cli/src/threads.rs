@@ -1,6 +1,28 @@
-//! The threads of computations.
+//! The threads of computations, and the memory that they share.
 
 use std::io;
+
+/// The variable with which glibc limits the number of its arenas.
+#[cfg(target_os = "linux")]
+const ARENAS: &str = "MALLOC_ARENA_MAX";
+
+/// Starts this process again with one arena of memory for all threads, if its address space is limited.
+///
+/// Otherwise each thread reserves memory that the others cannot use, and an allocation can fail although all memory was
+/// available a moment before. If the process cannot start again, it goes on as it is.
+pub(crate) fn share_limited_memory() {
+    #[cfg(target_os = "linux")]
+    if memory().is_some() && std::env::var_os(ARENAS).is_none() {
+        use std::os::unix::process::CommandExt as _;
+
+        let mut arguments = std::env::args_os();
+        let mut again = std::process::Command::new("/proc/self/exe");
+        if let Some(name) = arguments.next() {
+            again.arg0(name);
+        }
+        let _failed = again.args(arguments).env(ARENAS, "1").exec();
+    }
+}
 
 /// Starts the threads of computations: one for each core, but few if the memory of the process is limited.
 ///
@@ -18,7 +40,7 @@ pub(crate) fn start() -> io::Result<()> {
     pool.build_global().map_err(io::Error::other)
 }
 
-/// The address space for each thread: its stack, and the memory that the allocator reserves for it.
+/// The address space for each thread: its stack, and what it computes.
 const OF_A_THREAD: u64 = 128 << 20;
 
 /// Returns the number of threads in a process with this much address space: at least one.

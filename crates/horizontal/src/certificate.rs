@@ -60,6 +60,7 @@ mod file;
 mod forces;
 mod record;
 mod refusal;
+mod text;
 
 pub use file::{
     MAX_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,

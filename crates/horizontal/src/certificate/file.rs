@@ -8,7 +8,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::certificate::Certificate;
+use super::Certificate;
+use super::text::Text;
 
 /// The maximum size of a certificate file: 512 MiB.
 pub const MAX_BYTES: u64 = 512 << 20;
@@ -36,7 +37,8 @@ pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
 }
 
 /// Reads a certificate from JSON, as a stream. The memory needed is a few times the size of the file, which is
-/// limited to [`MAX_BYTES`].
+/// limited to [`MAX_BYTES`]. The guide has the grammar, `docs/certificates.md`; other notations of numbers, stackings and
+/// records are errors.
 ///
 /// # Errors
 /// * The errors of `input`.
@@ -70,7 +72,7 @@ fn read<T: for<'de> Deserialize<'de>>(input: impl Read) -> io::Result<T> {
         input,
         left: MAX_BYTES,
     };
-    Ok(serde_json::from_reader(BufReader::new(input))?)
+    Ok(serde_json::from_reader(BufReader::new(Text::new(input)))?)
 }
 
 /// One certificate or a list of certificates.
