@@ -50,6 +50,11 @@ properties! {
     every_scalar_contains_the_forces_of_mixed_piles: claims::scalars::mixed, 256;
 }
 
+#[cfg(feature = "rayon")]
+properties! {
+    threads_do_not_change_answers: claims::threads::any_number, 24;
+}
+
 #[cfg(feature = "serde")]
 properties! {
     values_survive_json: claims::json::any_value, 512;

@@ -147,7 +147,7 @@ pub fn engine(bytes: &[u8]) -> Corpus {
             claims::slices::filled,
             claims::standing::of_all_forces,
             claims::bases::any_base,
-            claims::scalars::mixed,
+            |u| each(u, &[claims::scalars::mixed, claims::threads::any_number]),
         ],
     )
 }

@@ -39,6 +39,7 @@
 //! | `disorder` | the mean over random stackings equals a plain average over all stackings (feature `disorder`) |
 //! | `ensemble` | tallies equal a plain enumeration, and parts merge into the whole (feature `disorder`) |
 //! | `certificates` | an accepted certificate is true, and the Python checker agrees (feature `horizontal`) |
+//! | `threads` | one thread and several give equal forces (feature `rayon`) |
 //! | `horizontal` | exact linear programs and certificates confirm the answers about horizontal contacts (feature `horizontal`) |
 //!
 //! `reference` contains the oracle's forces of a described pile.
@@ -87,6 +88,8 @@ pub mod sites;
 pub mod slices;
 pub mod stackings;
 pub mod standing;
+#[cfg(feature = "rayon")]
+pub mod threads;
 #[cfg(feature = "dem")]
 pub mod vtk;
 
