@@ -24,6 +24,7 @@ const BY_HAND: &[(&str, &str)] = &[
     ("Virtual.v", include_str!("../coq/Virtual.v")),
     ("Pile.v", include_str!("../coq/Pile.v")),
     ("Checker.v", include_str!("../coq/Checker.v")),
+    ("Placement.v", include_str!("../coq/Placement.v")),
     ("Bounds.v", include_str!("../coq/Bounds.v")),
     ("Response.v", include_str!("../coq/Response.v")),
     ("Mean.v", include_str!("../coq/Mean.v")),
