@@ -1,6 +1,6 @@
 (** Forces as linear forms in the loads. A table has the forces under unit loads, one sphere and one axis at a time. The
     function [places] accepts it only if it gives the forces under all loads. `.ci/placement.py` applies it to the forces
-    that the engines compute. *)
+    that `contacts` and `base` print. *)
 
 From Coq Require Import ZArith QArith Setoid Morphisms Lia Lqa Bool List.
 From Cannonpile Require Import Directions Sums Formulas Balance Stackings Regions Horizontal Loads Virtual Pile Checker.
