@@ -77,7 +77,7 @@ impl DoubleDouble {
     }
 
     /// Returns `r` rounded to a double-double, or not-a-number if `r` overflows an `f64`. The relative error is at most
-    /// 2^−106 for |r| ≥ 2^−900.
+    /// 2^−106 for 2^−900 ≤ |r| ≤ [`f64::MAX`].
     ///
     /// # Examples
     /// ```

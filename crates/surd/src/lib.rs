@@ -31,6 +31,25 @@
 //! * The crate contains no `unsafe`. Without the default feature `std` it is `no_std` with `alloc`. The
 //!   feature `serde` writes numbers as strings.
 
+//!
+//! # Laws
+//! These laws hold exactly, for all numbers. `tests/laws.rs` and `tests/properties.rs` test each on random numbers,
+//! among them ties, subnormals and hidden squares.
+//!
+//! | type | laws |
+//! |---|---|
+//! | [`Surd`] | a total order, which agrees with signed squares; a positive factor keeps it, a negative one reverses it |
+//! | | equal numbers have equal hashes, also if their stored radicands differ |
+//! | | products commute and associate, with 1 and 0; (x·y)² = x²·y², √(x²) = \|x\|, x·(1/y)·y = x for y ≠ 0 |
+//! | | a printed number of up to 5000 digits is read as the same number, and prints as the same text |
+//! | | `to_f64` is monotone and odd; a float converts to itself |
+//! | [`SurdSum`] | x + y = y + x, (x + y)·z = x·z + y·z; equal sums have equal terms, up to their stored radicands, and equal hashes |
+//! | | the sign of x + y is the order of x and −y; its float has this sign |
+//! | [`DoubleDouble`] | the order is that of the exact values |
+//! | | x + y = y + x, x·y = y·x, −x − y = −(x + y), (−x)·y = −(x·y), x − x = 0, x + 0 = x, x·1 = x, x/1 = x |
+//!
+//! Sums and products of double-doubles round, so they do not associate. Not-a-number is not equal to itself.
+
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

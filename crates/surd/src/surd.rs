@@ -25,8 +25,8 @@ use crate::{CorrectlyRounded, Error};
 /// surds is in general not a surd, so `Surd` is not a scalar type.
 ///
 /// √(a/b) is stored as √(ab)/b, after extraction of square factors from a and from b: the squares of all
-/// primes below 1000, and the cofactor if it is a perfect square. In particular √(a/b²) always has the
-/// radicand of √a. Equality and order do not depend on the stored form.
+/// primes below 1000, and the cofactor if it is a perfect square. In particular √(a/b²) has the radicand of √a,
+/// for all coprime a and b. Equality and order do not depend on the stored form.
 ///
 /// # Examples
 /// ```

@@ -189,3 +189,17 @@ fn squares_of_small_primes_are_extracted() {
     let sum = surd((1, 1), (45, 1)).checked_add(&surd((1, 1), (5, 1)));
     assert_eq!(sum.unwrap().to_string(), "4*sqrt(5)");
 }
+
+/// Without a common factor of a and b, the square in the denominator is extracted whatever its factors are. A common square
+/// of a prime above 1000 cancels in √(a/b²), but is not found in √a.
+#[test]
+fn radicand_of_coprime_quotient_is_that_of_numerator() {
+    let form = |a: i64, b: i64| Surd::sqrt(ratio(a, b * b)).unwrap().radicand().clone();
+    for a in [2, 12, 1009 * 1009 * 1013] {
+        for b in [1, 5 * 7, 1_000_003, 25 * 1019] {
+            assert_eq!(form(a, b), form(a, 1), "{a} {b}");
+        }
+    }
+    assert_eq!(form(1009 * 1009 * 1013, 1009), 1013_u32.into());
+    assert_eq!(form(1009 * 1009 * 1013, 1), 1_031_316_053_u32.into());
+}
