@@ -114,6 +114,13 @@ SMALL = (
     '{"pile":{"dimension":3,"sin_phi":"1/2","stacking":"++","anchor":{"top":"hexagon:1"},"weightless":false,"weights":[],'
     '"loads":[{"site":{"i":0,"j":0,"k":0},"weight":"1"}]},"claim":"stands","horizontal":[],"field":[]}'
 )
+ALLOWED_NOTATIONS = [
+    ('"1/2"', '"2/4"'), ('"++"', '"(2)"'), ('"++"', '"-(1,1)"'), ('"hexagon:1"', '"hexagon:1,1"'), ('"hexagon:1"', '"triangle:1"'),
+    ('"hexagon:1"', '"region:0..0,0..0,0..0"'), ('{"i":0,"j":0,"k":0}', '{ "k" : "0",\n"j":"0","i":0 }'),
+    ('"weight":"1"', '"weight":"1/3","x":"0/5"'), ('"loads":[', '"tilt":{"y":"0","x":"0"},"horizontal":[],"loads":['),
+    ('"weight":"1"}', '"weight":"1"},{"site":{"i":0,"j":0,"k":0},"weight":"0","y":"0"}'), (SMALL, f" [{SMALL} ,\t{SMALL}]\r\n"),
+    ('"weights":[]', '"weights":[{"site":{"i":0,"j":0,"k":2},"weight":"0"}]'),
+]
 OTHER_NOTATIONS = [
     ('"1/2"', other) for other in ('"+1/2"', '"0.5"', '"5e-1"', '".5"', '" 1/2"', '"1/+2"', '"1/2\\u0030"', '"\\u0031/2"', "0.5", "null")
 ] + [
@@ -151,11 +158,12 @@ def encoded(certificate):
 with tempfile.TemporaryDirectory() as work:
     file = Path(work) / "certificate.json"
     assert verdicts(SMALL.encode(), file) == (0, 0, 0)
-    for given, other in OTHER_NOTATIONS:
-        assert given in SMALL
-        text = SMALL.replace(given, other, 1).encode()
-        assert verdicts(text, file) == (2, 2, 2), (verdicts(text, file), text)
-    print(len(OTHER_NOTATIONS), "in other notations: not certificates")
+    for notations, status in ((ALLOWED_NOTATIONS, 0), (OTHER_NOTATIONS, 2)):
+        for given, other in notations:
+            assert given in SMALL
+            text = SMALL.replace(given, other, 1).encode()
+            assert verdicts(text, file) == (status,) * 3, (verdicts(text, file), text)
+    print(f"{len(ALLOWED_NOTATIONS)} allowed notations: accepted; {len(OTHER_NOTATIONS)} others: not certificates")
 
     certificates = made(Path(work))
     kinds = {}

@@ -46,7 +46,7 @@
 //! | [`SurdSum`] | x + y = y + x, (x + y)·z = x·z + y·z; equal sums have equal terms, up to their stored radicands, and equal hashes |
 //! | | the sign of x + y is the order of x and −y; its float has this sign |
 //! | [`DoubleDouble`] | the order is that of the exact values |
-//! | | x + y = y + x, x·y = y·x, −x − y = −(x + y), (−x)·y = −(x·y), x − x = 0, x + 0 = x, x·1 = x, x/1 = x |
+//! | | x + y = y + x, x·y = y·x, −x − y = −(x + y), (−x)·y = −(x·y), x + (−x) = 0, x + 0 = x, x·1 = x, x/1 = x |
 //!
 //! Sums and products of double-doubles round, so they do not associate. Not-a-number is not equal to itself.
 

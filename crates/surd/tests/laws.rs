@@ -226,7 +226,7 @@ fn double_doubles(u: &mut Unstructured<'_>) -> Checked {
         same("(−x)·y", &(-x * y), &-(x * y))?;
     }
     let zero = DoubleDouble::new(0.0);
-    same("x − x", &(x - x), &zero)?;
+    same("x + (−x)", &(x + -x), &zero)?;
     same("x + 0", &(x + zero), &x)?;
     same("x·1", &(x * DoubleDouble::new(1.0)), &x)?;
     same("x/1", &x.checked_div(&DoubleDouble::new(1.0)), &Some(x))
