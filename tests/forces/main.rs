@@ -13,6 +13,7 @@ mod formula {
 mod engine {
     mod high;
     mod methods;
+    mod placement;
     mod plans;
     mod trees;
     mod widths;
