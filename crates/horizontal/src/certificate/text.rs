@@ -10,7 +10,7 @@ pub(super) struct Text<R> {
     pub(super) input: R,
     /// The string that is being read, from its opening quote on.
     word: Option<Vec<u8>>,
-    /// The last token: a bracket, a comma or a colon, `"` for a string, `0` for a literal.
+    /// The last token: a bracket, a comma or a colon, `"` for a string, `0` for a literal. Before the first token it is zero.
     last: u8,
     /// Whether a string that has ended is a key of a record.
     is_key: bool,
@@ -22,7 +22,7 @@ impl<R> Text<R> {
         Self {
             input,
             word: None,
-            last: b':',
+            last: 0,
             is_key: false,
             line: 1,
         }
@@ -63,9 +63,14 @@ impl<R> Text<R> {
             b' ' | b'\t' | b'\r' | b'\n' => return Ok(()),
             b'"' | b'[' | b']' | b'{' | b'}' | b',' | b':' => byte,
             _ if self.last == b'0' => return Ok(()),
-            b'n' => return Err(self.error("null has no meaning here; leave out the key")),
+            b'n' if self.last != 0 => {
+                return Err(self.error("null has no meaning here; leave out the key"));
+            }
             _ => b'0',
         };
+        if self.last == 0 && token != b'{' && token != b'[' {
+            return Err(self.error("a certificate begins with { or ["));
+        }
         // A record is not a list of its values, and a list has records only.
         let fits = match (self.last, token) {
             (b'[', token) => token == b'{' || token == b']',
