@@ -113,7 +113,7 @@ fn is_word(word: &str) -> bool {
     let unsigned = word.strip_prefix('-').unwrap_or(word);
     let runs = unsigned.strip_prefix('(');
     if let Some(runs) = runs.and_then(|runs| runs.strip_suffix(')')) {
-        return runs.split(',').all(is_natural);
+        return runs.split(',').all(|run| is_natural(run) && run != "0");
     }
     match word.split_once(':') {
         Some(("hexagon" | "triangle", sizes)) => sizes.split(',').all(is_natural),
