@@ -57,11 +57,11 @@ fn large(u: &mut Unstructured<'_>) -> Result<Pile, Failure> {
 
 /// Compares the answers about one pile. Floats must be equal to the last bit.
 fn agree(pile: &Pile, k: i128, number: usize) -> Checked {
-    let one = in_pool(1, || slices(pile))?;
-    let several = in_pool(number, || slices(pile))?;
-    same("floats", &several.0, &one.0)?;
-    same("numerators", &several.1, &one.1)?;
-    same("floats on the floor", &several.2, &one.2)?;
+    let one = in_pool(1, || Filled::of(pile))?;
+    let several = in_pool(number, || Filled::of(pile))?;
+    same("floats", &several.floats, &one.floats)?;
+    same("numerators", &several.numerators, &one.numerators)?;
+    same("floats on the floor", &several.floor, &one.floor)?;
     let forces = pile.forces::<BigRational>();
     let contacts: Result<Vec<_>, Error> = forces.contacts(Selection::Layer(k))?.collect();
     let floor: Result<Vec<_>, Error> = forces.base(Selection::Base)?.collect();
@@ -85,21 +85,34 @@ fn agree(pile: &Pile, k: i128, number: usize) -> Checked {
 /// Three values for each sphere.
 type Slices<T> = [Vec<T>; 3];
 
-/// Fills slices with the forces of all contacts, as floats and as numerators, and with the floats on the floor.
-fn slices(pile: &Pile) -> Result<(Slices<f64>, Slices<BigInt>, Slices<f64>), Failure> {
-    let layers = pile.forces::<f64>().layers(Selection::All)?;
-    let mut floats = empty(layers.slice_len()?);
-    layers.fill(floats.each_mut().map(Vec::as_mut_slice))?;
-    let layers = pile.forces::<BigRational>().layers(Selection::All)?;
-    let layers = layers.numerators::<BigInt>()?;
-    let mut numerators = empty(layers.slice_len()?);
-    layers.fill(numerators.each_mut().map(Vec::as_mut_slice))?;
-    let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    let base = layers.next_layer()?;
-    let base = base.ok_or_else(|| Failure::Refuted("no base".to_owned()))?;
-    let mut floor = empty(base.sphere_count());
-    base.fill_base(floor.each_mut().map(Vec::as_mut_slice))?;
-    Ok((floats, numerators, floor))
+/// The forces of all contacts, as floats and as numerators, and the floats on the floor.
+struct Filled {
+    floats: Slices<f64>,
+    numerators: Slices<BigInt>,
+    floor: Slices<f64>,
+}
+
+impl Filled {
+    fn of(pile: &Pile) -> Result<Self, Failure> {
+        let layers = pile.forces::<f64>().layers(Selection::All)?;
+        let mut floats = empty(layers.slice_len()?);
+        layers.fill(floats.each_mut().map(Vec::as_mut_slice))?;
+        let layers = pile.forces::<BigRational>().layers(Selection::All)?;
+        let layers = layers.numerators::<BigInt>()?;
+        let mut numerators = empty(layers.slice_len()?);
+        layers.fill(numerators.each_mut().map(Vec::as_mut_slice))?;
+        let forces = pile.forces::<f64>();
+        let mut layers = forces.layers(Selection::Base)?;
+        let base = layers.next_layer()?;
+        let base = base.ok_or_else(|| Failure::Refuted("no base".to_owned()))?;
+        let mut floor = empty(base.sphere_count());
+        base.fill_base(floor.each_mut().map(Vec::as_mut_slice))?;
+        Ok(Self {
+            floats,
+            numerators,
+            floor,
+        })
+    }
 }
 
 fn empty<T: Clone + Zero>(spheres: usize) -> Slices<T> {
