@@ -1,7 +1,8 @@
 (* Reads certificates from a JSON file and gives them to the extracted checker: check FILE (- for stdin).
 
    Prints `accepted` (exit status 0), `refused` (1), or one line on stderr if the input is not a certificate (2). What is
-   proved is `Checker.check` in Checker.v. This file, the compiler, Zarith and the lines of Extract.v are trusted. *)
+   proved is `Checker.check` in Checker.v. This file, the compiler, Zarith and the lines of Extract.v are trusted. The
+   grammar is in docs/certificates.md. *)
 
 module Big = Z
 open Checker
