@@ -81,3 +81,8 @@ pub use sum::SurdSum;
 pub use surd::Surd;
 
 pub use {num_bigint, num_rational};
+
+/// The example of README.md, compiled as a doc test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
