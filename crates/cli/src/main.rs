@@ -174,6 +174,7 @@ fn main() -> ExitCode {
         ));
         return ExitCode::from(USAGE_ERROR);
     }
+    progress::watch();
     match arguments.command.run() {
         Ok(true) | Err(Failure::Closed) => return ExitCode::SUCCESS,
         Ok(false) => return ExitCode::from(NO),

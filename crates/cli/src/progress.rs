@@ -1,19 +1,18 @@
 //! The progress of a long command on stderr: a line that changes if it is a terminal, otherwise a line each minute.
 
 use std::io::{self, IsTerminal, Write};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
-use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::sync::Mutex;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use indicatif::{FormattedDuration, HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::output::print_message;
 
-/// The delay before the line appears on a terminal.
-const DELAY: Duration = Duration::from_secs(1);
+const SECOND: Duration = Duration::from_secs(1);
 
-/// The time between two lines if stderr is not a terminal.
-const MINUTE: Duration = Duration::from_secs(60);
+/// The seconds between two lines if stderr is not a terminal.
+const MINUTE: u32 = 60;
 
 /// The time between two updates of the line.
 const TICK: Duration = Duration::from_millis(100);
@@ -24,17 +23,56 @@ const OF_STACKINGS: &str =
     "{spinner} {msg} {bar:30} {percent}% of {human_len}, {per_sec}, {eta} left";
 const OF_UNKNOWN_LENGTH: &str = "{spinner} {msg}, {elapsed}";
 
-/// The progress on stderr. Dropping this value removes the line from a terminal.
-pub(crate) struct Progress {
-    bar: ProgressBar,
-    /// `None` if the system has no thread for it.
-    reporter: Option<Reporter>,
+/// The action of the command, for the thread of [`watch`].
+static NOW: Mutex<Now> = Mutex::new(Now {
+    action: None,
+    quiet: 0,
+});
+
+struct Now {
+    /// What the command does, and how far it is. `None` between the actions that have a name.
+    action: Option<(&'static str, ProgressBar)>,
+    /// The seconds since the last line.
+    quiet: u32,
 }
 
-/// The thread that reports the progress. Closing the channel ends the thread.
-struct Reporter {
-    ended: Sender<()>,
-    thread: JoinHandle<()>,
+/// Starts the thread that reports the progress of this command. Without a thread, nothing is reported.
+pub(crate) fn watch() {
+    let (began, is_terminal) = (Instant::now(), io::stderr().is_terminal());
+    let report = move || {
+        loop {
+            thread::sleep(SECOND);
+            let Ok(mut now) = NOW.lock() else { return };
+            if let Some(line) = now.after_a_second(is_terminal, began.elapsed()) {
+                print_message(&line);
+            }
+        }
+    };
+    let _ = thread::Builder::new().spawn(report);
+}
+
+impl Now {
+    /// Shows a named action on a terminal. Otherwise returns a line if the last one was a minute ago.
+    fn after_a_second(&mut self, is_terminal: bool, elapsed: Duration) -> Option<String> {
+        if let (true, Some((_, bar))) = (is_terminal, &self.action) {
+            if bar.is_hidden() && !bar.is_finished() {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+                bar.enable_steady_tick(TICK);
+            }
+            self.quiet = 0;
+            return None;
+        }
+        self.quiet = (self.quiet + 1) % MINUTE;
+        (self.quiet == 0).then(|| match &self.action {
+            Some((doing, bar)) => line(doing, bar.position(), bar.length(), elapsed),
+            None => line("working", 0, None, elapsed),
+        })
+    }
+}
+
+/// A named action of this command. Dropping this value removes its line from a terminal.
+pub(crate) struct Progress {
+    bar: ProgressBar,
 }
 
 impl Progress {
@@ -63,18 +101,10 @@ impl Progress {
             bar.set_style(style);
         }
         bar.set_message(doing);
-        let (ended, wait) = mpsc::channel();
-        let shown = bar.clone();
-        let report = move || {
-            if io::stderr().is_terminal() {
-                show(&shown, &wait);
-            } else {
-                print_each_minute(doing, &shown, &wait);
-            }
-        };
-        let thread = thread::Builder::new().spawn(report).ok();
-        let reporter = thread.map(|thread| Reporter { ended, thread });
-        Self { bar, reporter }
+        if let Ok(mut now) = NOW.lock() {
+            now.action = Some((doing, bar.clone()));
+        }
+        Self { bar }
     }
 
     /// Adds `count` rows or stackings to the progress.
@@ -99,31 +129,14 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Some(Reporter { ended, thread }) = self.reporter.take() {
-            drop(ended);
-            // The thread never panics.
-            let _ = thread.join();
+        if let Ok(mut now) = NOW.lock() {
+            now.action = None;
         }
         self.bar.finish_and_clear();
     }
 }
 
-/// Shows the line on a terminal, unless the action ends before the delay.
-fn show(bar: &ProgressBar, ended: &Receiver<()>) {
-    if ended.recv_timeout(DELAY) == Err(RecvTimeoutError::Timeout) && !bar.is_finished() {
-        bar.set_draw_target(ProgressDrawTarget::stderr());
-        bar.enable_steady_tick(TICK);
-    }
-}
-
-/// Prints a line each minute until the action ends.
-fn print_each_minute(doing: &str, bar: &ProgressBar, ended: &Receiver<()>) {
-    while ended.recv_timeout(MINUTE) == Err(RecvTimeoutError::Timeout) {
-        print_message(&line(doing, bar.position(), bar.length(), bar.elapsed()));
-    }
-}
-
-/// Returns the line about an action that has done this much of `all`, if it is known, in this time.
+/// Returns the line about an action that has done this much of `all`, if it is known. The command began at this time before.
 fn line(doing: &str, done: u64, all: Option<u64>, elapsed: Duration) -> String {
     let far = match all {
         Some(all) if all > 0 => {
@@ -187,5 +200,33 @@ mod tests {
         ] {
             assert_eq!(line("analysing", done, all, elapsed), expected);
         }
+    }
+    #[test]
+    fn a_line_is_printed_each_minute_also_outside_of_named_actions() {
+        let bar = ProgressBar::new(9);
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+        bar.inc(7);
+        let mut now = Now {
+            action: None,
+            quiet: 0,
+        };
+        let mut lines = Vec::new();
+        for second in 1..=200 {
+            // The named action begins and ends between two lines.
+            now.action = (70..130)
+                .contains(&second)
+                .then(|| ("reading", bar.clone()));
+            let line = now.after_a_second(false, Duration::from_secs(second));
+            lines.extend(line.map(|line| (second, line)));
+        }
+        let expected = [
+            (60, "note: working, after 00:01:00"),
+            (120, "note: reading: 7 of 9 (77%), after 00:02:00"),
+            (180, "note: working, after 00:03:00"),
+        ];
+        assert_eq!(
+            lines,
+            expected.map(|(second, line)| (second, line.to_owned()))
+        );
     }
 }
