@@ -38,12 +38,16 @@ struct Now {
 
 /// Starts the thread that reports the progress of this command. Without a thread, nothing is reported.
 pub(crate) fn watch() {
-    let (began, is_terminal) = (Instant::now(), io::stderr().is_terminal());
+    // Some terminals cannot show a line that changes, such as those with TERM=dumb.
+    let (began, is_terminal) = (Instant::now(), !ProgressDrawTarget::stderr().is_hidden());
     let report = move || {
         loop {
             thread::sleep(SECOND);
             let Ok(mut now) = NOW.lock() else { return };
-            if let Some(line) = now.after_a_second(is_terminal, began.elapsed()) {
+            let line = now.after_a_second(is_terminal, began.elapsed());
+            // The command does not wait for a slow reader of stderr.
+            drop(now);
+            if let Some(line) = line {
                 print_message(&line);
             }
         }
@@ -52,7 +56,7 @@ pub(crate) fn watch() {
 }
 
 impl Now {
-    /// Shows a named action on a terminal. Otherwise returns a line if the last one was a minute ago.
+    /// Shows a named action on a terminal. In all other cases returns a line if the last one was a minute ago.
     fn after_a_second(&mut self, is_terminal: bool, elapsed: Duration) -> Option<String> {
         if let (true, Some((_, bar))) = (is_terminal, &self.action) {
             if bar.is_hidden() && !bar.is_finished() {
@@ -73,6 +77,8 @@ impl Now {
 /// A named action of this command. Dropping this value removes its line from a terminal.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    /// The action that this one interrupts.
+    outer: Option<(&'static str, ProgressBar)>,
 }
 
 impl Progress {
@@ -101,10 +107,12 @@ impl Progress {
             bar.set_style(style);
         }
         bar.set_message(doing);
-        if let Ok(mut now) = NOW.lock() {
-            now.action = Some((doing, bar.clone()));
-        }
-        Self { bar }
+        let action = (doing, bar.clone());
+        let outer = NOW
+            .lock()
+            .ok()
+            .and_then(|mut now| now.action.replace(action));
+        Self { bar, outer }
     }
 
     /// Adds `count` rows or stackings to the progress.
@@ -130,13 +138,14 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         if let Ok(mut now) = NOW.lock() {
-            now.action = None;
+            now.action = self.outer.take();
         }
         self.bar.finish_and_clear();
     }
 }
 
-/// Returns the line about an action that has done this much of `all`, if it is known. The command began at this time before.
+/// Returns the line about an action that has done `done` of `all`, if `all` is known. `elapsed` is the time since the
+/// command began.
 fn line(doing: &str, done: u64, all: Option<u64>, elapsed: Duration) -> String {
     let far = match all {
         Some(all) if all > 0 => {
