@@ -109,7 +109,8 @@ def with_other_byte(text):
     return text[:place] + chance.choice([other, other, b""]) + text[place + chance.choice([0, 1]) :]
 
 
-# A certificate in another notation each, which the parsers of the library or of JSON may read.
+# Each pair changes this certificate to another notation. Some parsers of JSON or of the library read those of the second
+# list, too.
 SMALL = (
     '{"pile":{"dimension":3,"sin_phi":"1/2","stacking":"++","anchor":{"top":"hexagon:1"},"weightless":false,"weights":[],'
     '"loads":[{"site":{"i":0,"j":0,"k":0},"weight":"1"}]},"claim":"stands","horizontal":[],"field":[]}'
@@ -122,6 +123,9 @@ ALLOWED_NOTATIONS = [
     ('"weights":[]', '"weights":[{"site":{"i":0,"j":0,"k":2},"weight":"0"}]'),
 ]
 OTHER_NOTATIONS = [
+    ('"stacking":"++","anchor":{"top"', '"stacking":"A","anchor":{"side"'),
+    ('"weightless":false,"weights":[]', '"weightless":true,"weights":[{"site":{"i":0,"j":0,"k":0},"weight":"-1"}]'),
+] + [
     ('"1/2"', other) for other in ('"+1/2"', '"0.5"', '"5e-1"', '".5"', '" 1/2"', '"1/+2"', '"1/2\\u0030"', '"\\u0031/2"', "0.5", "null")
 ] + [
     ('"++"', other) for other in ('"ABC"', '"cc"', '"c"', '"(2,0)"', '"(0,2)"', '"(02)"', '"()"', '"+(2)"', '"fcc"', '"\uff0b+"', '""')

@@ -156,7 +156,7 @@ class Pile:
         self.signs = signs_of(stacking)
         self.directions = ["alpha", "beta", "gamma"][:dimension]
         sine = number(sine)
-        if not isinstance(anchor, dict) or len(anchor) != 1:
+        if not isinstance(anchor, dict) or list(anchor) not in (["top"], ["base"]):
             raise Unreadable("the anchor must be a top or a base")
         ((side, region),) = anchor.items()
         straight = side == "top" and region_of(region) == {(0, 0)} and -1 not in self.signs
@@ -169,6 +169,8 @@ class Pile:
         self.floor = len(self.layers) - 1
         weight_at = lambda site, weight: (sphere(site), number(weight))
         self.own = listed(weights, "site weight", weight_at)
+        if any(weight < 0 for weight in self.own.values()):
+            raise Unreadable("a weight is negative")
         self.ordinary = 0 if weightless else 1
         if weightless:
             self.own = dict.fromkeys(self.own, 0)
@@ -181,8 +183,8 @@ class Pile:
             if load[0] < 0:
                 raise Unreadable("a load is negative")
             self.loads[site] = [a + b for a, b in zip(self.loads.get(site, [0, 0, 0]), load)]
-        if any(site not in self for site in [*self.own, *self.loads]) or any(w < 0 for w in self.own.values()):
-            raise Unreadable("a weight is negative, or the site of a weight or load is not in the pile")
+        if any(site not in self for site in [*self.own, *self.loads]):
+            raise Unreadable("the site of a weight or load is not in the pile")
         if dimension == 2 and (self.tilt[1] or any(load[2] for load in self.loads.values())):
             raise Unreadable("a force on discs has a component along y")
 
@@ -193,11 +195,9 @@ class Pile:
             steps = [(sign * x, sign * y) for x, y in (OFFSETS[l] for l in self.directions)]
             if side == "top":
                 sites = {(i + x, j + y) for i, j in sites for x, y in steps}
-            elif side == "base":
+            else:
                 candidates = {(i - x, j - y) for i, j in sites for x, y in steps}
                 sites = {(i, j) for i, j in candidates if all((i + x, j + y) in sites for x, y in steps)}
-            else:
-                raise Unreadable("the anchor must be a top or a base")
             layers.append(sites)
             count += len(sites)
             if count > MAX_SPHERES:
@@ -216,7 +216,7 @@ class Pile:
         return ((k, i, j) for k in range(self.floor) for i, j in sorted(self.layers[k], key=row_order))
 
     def force(self, site):
-        """Return gravity and load on a sphere: downwards in mg, along x in mg tan(theta), along y in sqrt(3) mg tan(theta)."""
+        """Return gravity and load on a sphere: downwards in mg, along x in mg tan(theta), along y in 2 cos(phi) mg tan(theta)."""
         weight = self.own.get(site, self.ordinary)
         gravity = [weight, weight * self.tilt[0], weight * self.tilt[1]]
         return [a + b for a, b in zip(gravity, self.loads.get(site, [0, 0, 0]))]
