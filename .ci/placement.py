@@ -102,6 +102,10 @@ def computed(binary, pile, work):
             digit = int(digits[end - DIGITS : end], 16) - (1 << BITS - 1)
             if digit:
                 found[load][place] = Fraction(digit, scale)
+    # A load on a bottom sphere acts on the floor below it only. The theorem `placed` adds it, so no table has it.
+    for at in floor:
+        for axis, part in enumerate((2, 0, 1)):
+            assert found[at, axis] == {(at, part): 1}, "a load on a bottom sphere acts elsewhere"
     return found
 
 

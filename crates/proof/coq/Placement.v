@@ -36,7 +36,7 @@ Definition unit_z : vector := Vector 0 0 1.
 
 (** ** The transfer of forces is linear *)
 
-(** No horizontal contacts: the layers are apart. *)
+(** No horizontal contacts: the spheres of a layer do not touch. *)
 Definition apart (x : axis) (p : sphere) : Q := 0.
 
 Section Linear.

@@ -502,7 +502,7 @@ fn polynomials_are_the_linear_forms() {
     }
 }
 
-/// A wrong coefficient, contact or sphere is noticed in every call.
+/// A wrong coefficient, contact or sphere is noticed.
 #[test]
 fn a_misplaced_force_is_noticed() {
     let pile = loaded(&under("triangle:2", "+-+"));
