@@ -231,7 +231,8 @@ def is_form_of(x, answer):
     lowest = math.gcd(int(numer), int(denom or 1)) == 1 and denom not in ("0", "1")
     same = coefficient**2 * radicand == x[0] ** 2 * x[1] and (coefficient < 0) == (x[0] < 0)
     irrational = alone is not None or (not radicand.is_square() and c not in ("0", "-0"))
-    return lowest and same and irrational
+    small = radicand.gcd(reference.SMALL)
+    return lowest and same and irrational and (radicand // small).gcd(small) == 1
 
 
 def order_of(sign):

@@ -83,7 +83,7 @@ def rounded(n, d, form):
     negative, n = n < 0, abs(n)
     if n == 0:
         return 0
-    # The exponent of the last bit. The quotient has `precision` bits, or one fewer.
+    # The exponent of the last bit. The quotient has `precision` bits, or one more, which the loop removes. Subnormals have fewer.
     last = max(n.bit_length() - d.bit_length() - precision, smallest)
     while True:
         numer, denom = (n << -last, d) if last < 0 else (n, d << last)

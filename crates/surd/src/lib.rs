@@ -30,10 +30,9 @@
 //!   one.
 //! * The crate contains no `unsafe`. Without the default feature `std` it is `no_std` with `alloc`. The
 //!   feature `serde` writes numbers as strings.
-
 //!
 //! # Laws
-//! These laws hold exactly, for all numbers. `tests/laws.rs` and `tests/properties.rs` test each on random numbers,
+//! These laws hold exactly, for all numbers; those of double-doubles, as long as operands and results are finite. `tests/laws.rs` and `tests/properties.rs` test each on random numbers,
 //! among them ties, subnormals and hidden squares.
 //!
 //! | type | laws |
@@ -44,7 +43,7 @@
 //! | | a printed number of up to 5000 digits is read as the same number, and prints as the same text |
 //! | | `to_f64` is monotone and odd; a float converts to itself |
 //! | [`SurdSum`] | x + y = y + x, (x + y)·z = x·z + y·z; equal sums have equal terms, up to their stored radicands, and equal hashes |
-//! | | the sign of x + y is the order of x and −y; its float has this sign |
+//! | | the sign of x + y is the order of x and −y; its float has this sign (or is zero, if the sum is tiny) |
 //! | [`DoubleDouble`] | the order is that of the exact values |
 //! | | x + y = y + x, x·y = y·x, −x − y = −(x + y), (−x)·y = −(x·y), x + (−x) = 0, x + 0 = x, x·1 = x, x/1 = x |
 //!
