@@ -190,7 +190,7 @@ fn filled<T: Zero + Clone, R>(
 }
 
 /// The methods that apply to a pile, and the choice of the plan.
-fn methods<'p, T: Algebra>(pile: &'p Pile) -> impl Iterator<Item = Forces<'p, T>> {
+fn methods<T: Algebra>(pile: &Pile) -> impl Iterator<Item = Forces<'_, T>> {
     let chosen = [Method::Closed, Method::Tree, Method::Sweep]
         .map(|method| pile.forces().with_method(method));
     chosen.into_iter().flatten().chain([pile.forces()])

@@ -2,7 +2,7 @@
 
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::shape::Selection;
-use cannonpile::{Counters, Error, Method, Pile, Plan, Quantity, Question};
+use cannonpile::{Counters, Error, Method, Pile, Quantity, Question};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
