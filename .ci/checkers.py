@@ -29,9 +29,11 @@ chance = random.Random(1998)
 def scenes():
     """Yields options of random piles."""
     for _ in range(piles - 2):
-        steps = chance.randint(1, 5)
+        top = chance.choice(["hexagon:1", "hexagon:2", "triangle:2", None])
+        # Elastic states of larger piles take minutes.
+        steps = chance.randint(1, 5 if top == "hexagon:1" else 3)
         stacking = "".join(chance.choice("+-") for _ in range(steps))
-        shape = chance.choice([f"--top hexagon:{chance.randint(1, 2)}", "--top triangle:2", f"--base hexagon:{steps + 2}"])
+        shape = f"--top {top}" if top else f"--base hexagon:{steps + 2}"
         load = f"{chance.randint(0, 9)}/{chance.randint(1, 7)}"
         tilt = f" --tilt 1/{chance.randint(2, 9)},-1/{chance.randint(2, 9)}" if chance.random() < 0.3 else ""
         yield f"{shape} --stacking={stacking} --layers {steps + 1}{tilt}", load
