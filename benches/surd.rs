@@ -210,7 +210,7 @@ struct Inputs {
     numbers: Vec<(String, String, u32)>,
 }
 
-/// What a library does with some inputs: for each task its results as text, and nanoseconds for one of them.
+/// The results of each task in one library, as text, and the nanoseconds for one of them.
 struct Column {
     library: &'static str,
     results: [Option<Vec<String>>; 5],

@@ -32,8 +32,8 @@
 //!   feature `serde` writes numbers as strings.
 //!
 //! # Laws
-//! These laws hold exactly, for all numbers; those of double-doubles, as long as operands and results are finite. `tests/laws.rs` and `tests/properties.rs` test each on random numbers,
-//! among them ties, subnormals and hidden squares.
+//! These laws hold exactly, for all numbers; those of double-doubles, as long as operands and results are finite.
+//! `tests/laws.rs` and `tests/properties.rs` test each on random numbers, among them ties, subnormals and hidden squares.
 //!
 //! | type | laws |
 //! |---|---|
