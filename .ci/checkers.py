@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares the three checkers of certificates: checkers.py CANNONPILE CHECK [TIMES [PILES]].
 
-CHECK is the program extracted from Checker.v. Certificates of PILES random piles (14), of each kind, must be accepted by
+CHECK is the program extracted from Checker.v. Certificates of PILES random piles (20), of each kind, must be accepted by
 all three. Then one number, sign, claim or entry is changed at random, TIMES times (2000), and after that one byte of the
 file as often. All three must give the same verdict, and refuse one changed force of a certificate of exact forces.
 """
@@ -22,18 +22,16 @@ import check_certificate  # noqa: E402
 
 binary, proved = sys.argv[1:3]
 times = int(sys.argv[3]) if len(sys.argv) > 3 else 2000
-piles = int(sys.argv[4]) if len(sys.argv) > 4 else 14
+piles = int(sys.argv[4]) if len(sys.argv) > 4 else 20
 chance = random.Random(1998)
 
 
 def scenes():
     """Yields options of random piles."""
     for _ in range(piles - 2):
-        top = chance.choice(["hexagon:1", "hexagon:2", "triangle:2", None])
-        # Elastic states of larger piles take minutes.
-        steps = chance.randint(1, 5 if top == "hexagon:1" else 3)
+        steps = chance.randint(1, 5)
         stacking = "".join(chance.choice("+-") for _ in range(steps))
-        shape = f"--top {top}" if top else f"--base hexagon:{steps + 2}"
+        shape = chance.choice([f"--top hexagon:{chance.randint(1, 2)}", "--top triangle:2", f"--base hexagon:{steps + 2}"])
         load = f"{chance.randint(0, 9)}/{chance.randint(1, 7)}"
         tilt = f" --tilt 1/{chance.randint(2, 9)},-1/{chance.randint(2, 9)}" if chance.random() < 0.3 else ""
         yield f"{shape} --stacking={stacking} --layers {steps + 1}{tilt}", load
@@ -48,7 +46,10 @@ def made(folder):
     for scene, load in scenes():
         commands = [f"contacts {scene}", f"base {scene} --number f64", f"contacts {scene} --weightless --tilt 0,0"]
         if "sin-phi" not in scene:
-            commands += [f"summary {scene} --spacing 1", f"contacts {scene} --spacing 1 --state elastic"]
+            commands.append(f"summary {scene} --spacing 1")
+            # On these bases the elastic state takes minutes.
+            if "hexagon:6" not in scene and "hexagon:7" not in scene:
+                commands.append(f"contacts {scene} --spacing 1 --state elastic")
         if "dimension" not in scene and "base" not in scene and "sin-phi" not in scene:
             commands.append(f"contacts {scene} --load 0,0,0={load},1/3,1/5")
             commands.append(f"bounds {scene} --spacing 1 --at 0,0")
