@@ -30,7 +30,7 @@ static NOW: Mutex<Now> = Mutex::new(Now {
 });
 
 struct Now {
-    /// What the command does, and how far it is. `None` between the actions that have a name.
+    /// The named action, and how far it is. `None` between such actions.
     action: Option<(&'static str, ProgressBar)>,
     /// The seconds since the last line.
     quiet: u32,
@@ -58,7 +58,7 @@ pub(crate) fn watch() {
 impl Now {
     /// Shows a named action on a terminal. In all other cases returns a line if the last one was a minute ago.
     fn after_a_second(&mut self, is_terminal: bool, elapsed: Duration) -> Option<String> {
-        if let (true, Some((_, bar))) = (is_terminal, &self.action) {
+        if is_terminal && let Some((_, bar)) = &self.action {
             if bar.is_hidden() && !bar.is_finished() {
                 bar.set_draw_target(ProgressDrawTarget::stderr());
                 bar.enable_steady_tick(TICK);
@@ -210,6 +210,20 @@ mod tests {
             assert_eq!(line("analysing", done, all, elapsed), expected);
         }
     }
+
+    #[test]
+    fn an_action_is_named_again_after_a_shorter_one() {
+        // No other test of this crate begins an action.
+        let doing = || NOW.lock().unwrap().action.as_ref().map(|(doing, _)| *doing);
+        let outer = Progress::begin("checking");
+        let inner = Progress::of_rows("reading", Some(3));
+        assert_eq!(doing(), Some("reading"));
+        drop(inner);
+        assert_eq!(doing(), Some("checking"));
+        drop(outer);
+        assert_eq!(doing(), None);
+    }
+
     #[test]
     fn a_line_is_printed_each_minute_also_outside_of_named_actions() {
         let bar = ProgressBar::new(9);
