@@ -12,6 +12,7 @@ use super::super::format::{Counted, Format, Header};
 use super::super::refusal::Refusal;
 use super::piece::{Piece, Row, Rows, Section, outside};
 use super::values::Values;
+use crate::error::bug;
 
 /// The largest number of components that are columns.
 const MOST_COMPONENTS: usize = 16;
@@ -80,10 +81,9 @@ pub(super) fn read(
         let fields = ends.iter().map(|end| {
             let field = text.get(begin..*end);
             begin = *end;
-            // The ends are those of the fields.
-            field.unwrap_or_default()
+            field.ok_or_else(|| bug("each field ends in the text of its row"))
         });
-        let fields: Vec<&str> = fields.collect();
+        let fields: Vec<&str> = fields.collect::<Result<_, _>>()?;
         sink.row(&header, &fields, *line)?;
     }
     Ok(())
