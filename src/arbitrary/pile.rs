@@ -102,12 +102,12 @@ pub fn light_description(u: &mut Unstructured<'_>) -> Result<Description> {
     grown(u, from_base, region, signs, light_weight)
 }
 
-/// Draws a pile of at most five layers, small enough for an exact linear program over all its forces, with weights and
-/// loads from [`light_weight`].
+/// Draws a pile of at most `layers` layers, and at most five, small enough for an exact linear program over all its
+/// forces, with weights and loads from [`light_weight`].
 ///
 /// # Errors
 /// The errors of [`Unstructured`].
-pub fn tiny_description(u: &mut Unstructured<'_>) -> Result<Description> {
+pub fn tiny_description(u: &mut Unstructured<'_>, layers: usize) -> Result<Description> {
     let from_base = u.arbitrary()?;
     let (region, most): (_, usize) = if rarely(u, 4)? {
         let [i, j] = [u.int_in_range(-2..=2)?, u.int_in_range(-2..=2)?];
@@ -121,7 +121,7 @@ pub fn tiny_description(u: &mut Unstructured<'_>) -> Result<Description> {
     };
     // Nearly all piles of fewer layers are stable.
     let fewer = [1, 0, 2, 0][u.choose_index(4)?];
-    let steps = most.saturating_sub(fewer);
+    let steps = most.min(layers.saturating_sub(1)).saturating_sub(fewer);
     let signs = signs_of(u, steps)?;
     grown(u, from_base, region, signs, light_weight)
 }

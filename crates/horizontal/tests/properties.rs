@@ -19,7 +19,7 @@ properties! {
 #[test]
 fn tiny_piles_cover_all_verdicts() {
     let kinds = census(|u| {
-        let pile = region::tiny(u)?
+        let pile = region::tiny(u, 5)?
             .pile()
             .expect("the description is a valid pile");
         let alone = pile.first_failure().expect("a verdict").is_none();
