@@ -310,7 +310,8 @@ class Rewriter:
     def unnamed(self, body, faults):
         """Returns the mutated body of a function with the return type `impl Iterator`."""
         planted = f"{self.path}::mutants::Either::Planted"
-        dynamic = "::std::boxed::Box<dyn ::core::iter::Iterator<Item = _>>"
+        # Callers may send the iterator to another thread.
+        dynamic = "::std::boxed::Box<dyn ::core::iter::Iterator<Item = _> + ::core::marker::Send>"
         text = ""
         for fault in faults:
             given = f"return {planted}(::std::boxed::Box::new({fault.replacement}) as {dynamic});"
@@ -391,10 +392,15 @@ class Copy:
         )
 
     def blamed(self, error):
-        """Returns the mutants that can cause a compiler error: those of the alternative around it, or else of the expression."""
+        """Returns the mutants that can cause a compiler error: those of the alternative around it, or else of the expression.
+        If there are none, the alternative around another place that the error names: a value can be moved in a mutant and
+        used after it."""
+        return self.blamed_at(error, primary=True) or self.blamed_at(error, primary=False)
+
+    def blamed_at(self, error, primary):
         found = set()
         for span in error["spans"]:
-            if not span["is_primary"]:
+            if span["is_primary"] != primary:
                 continue
             path = self.tree / span["file_name"]
             if not path.exists():
