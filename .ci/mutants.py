@@ -393,8 +393,8 @@ class Copy:
 
     def blamed(self, error):
         """Returns the mutants that can cause a compiler error: those of the alternative around it, or else of the expression.
-        If there are none, the alternative around another place that the error names: a value can be moved in a mutant and
-        used after it."""
+        If there are none, those around the other places that the error names: a value can be moved in a mutant and used
+        after it."""
         return self.blamed_at(error, primary=True) or self.blamed_at(error, primary=False)
 
     def blamed_at(self, error, primary):
@@ -415,9 +415,10 @@ class Copy:
 
     def arms(self, text, at):
         """Returns the mutants that delete an arm of the match expression around a position."""
-        node = PARSER.parse(text).root_node.descendant_for_byte_range(at, at)
-        while node.type != "match_expression":
-            node = node.parent
+        leaf = PARSER.parse(text).root_node.descendant_for_byte_range(at, at)
+        node = enclosing_node(leaf, {"match_expression"})
+        if node is None:
+            return set()
         inside = {int(number) for number in re.findall(rb"if !\w+::mutants::active\((\d+)\)", node.text)}
         return {number for number in inside if number in self.faults and self.faults[number].genre == "MatchArm"}
 
