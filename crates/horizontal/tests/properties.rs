@@ -31,3 +31,12 @@ fn tiny_piles_cover_all_verdicts() {
     // Three of four combinations: a pile that is stable without horizontal contacts is stable with them.
     assert_eq!(kinds.len(), 3, "{kinds:?}");
 }
+
+#[test]
+fn tiny_piles_have_at_most_the_given_layers() {
+    for most in 1..=5 {
+        let heights = census(|u| Ok((region::tiny(u, most)?.signs.len() + 1).to_string()));
+        let greatest = most.to_string();
+        assert_eq!(heights.keys().max(), Some(&greatest), "{heights:?}");
+    }
+}

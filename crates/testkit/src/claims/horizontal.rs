@@ -45,8 +45,8 @@ pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     agrees_with_the_programs(&drawn, u)
 }
 
-/// The claim of [`any_pile`], but only rarely on piles of spheres with four or five layers: their exact linear programs take
-/// most of the time. With many small piles a fuzz target reaches more code in the same time.
+/// The claim of [`any_pile`], but only rarely on piles of spheres with four or five layers. A fuzz target reaches more code in
+/// the same time with many small piles.
 pub fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     let layers = if !rarely(u, 10)? {
         3
@@ -123,7 +123,8 @@ pub fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
     up_to(u, 5)
 }
 
-/// The same with at most `layers` layers of spheres, or six of discs.
+/// Draws a pile of at most `layers` layers of spheres, or of at most six of discs, a bottom sphere of it and a stiffness
+/// ratio.
 fn up_to(u: &mut Unstructured<'_>, layers: usize) -> Result<Drawn, super::Failure> {
     let stiffness_ratio = ratio(u.int_in_range(1..=9)?, u.int_in_range(1..=9)?);
     let (pile, balance, solve): (_, _, fn(&Balance) -> _) = if rarely(u, 8)? {
