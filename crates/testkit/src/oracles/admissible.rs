@@ -5,7 +5,7 @@
 //! no duality, no certificate and no float.
 
 use core::iter::once;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -39,22 +39,14 @@ impl States {
         let contacts: Vec<Pair> = pairs
             .filter(|((k, j, i), [di, dj])| pile.has((*k, j + dj, i + di)))
             .collect();
-        let mut bare = pile.clone();
-        bare.ordinary.set_zero();
-        bare.weights.clear();
-        let pushed = contacts.iter().map(|(place, step)| {
-            let mut pushed = bare.clone();
-            pushed.add_horizontal_force(*place, *step, &ratio(1, 1));
-            forces(&pushed)
-        });
+        let pushed = contacts.iter().map(|pair| forces(&pushed(pile, *pair)));
         let all: Vec<Forces> = once(forces(pile)).chain(pushed).collect();
         let sloping = all[0].below.keys().flat_map(|place| {
-            let all = &all;
-            (0..3).map(move |m| all.iter().map(|one| one.below[place][m].clone()).collect())
+            [0, 1, 2].map(|m| affine(all.iter().map(|forces| &forces.below), place, m))
         });
         let normals = all[0].floor.keys().map(|place| {
-            let normals = all.iter().map(|one| one.floor[place][0].clone());
-            (*place, normals.collect())
+            let normal = affine(all.iter().map(|forces| &forces.floor), place, 0);
+            (*place, normal)
         });
         Self {
             sloping: sloping.collect(),
@@ -95,6 +87,39 @@ impl States {
         }
         slope
     }
+}
+
+/// The spheres that the force of a horizontal contact reaches, without weight and under a unit force in this contact.
+fn pushed(pile: &Balance, (place, [di, dj]): Pair) -> Balance {
+    let (k, j, i) = place;
+    let mut pushed = Balance {
+        signs: pile.signs.clone(),
+        layers: vec![[].into(); pile.layers.len()],
+        ordinary: ratio(0, 1),
+        weights: [].into(),
+        horizontal: [].into(),
+    };
+    pushed.add_horizontal_force(place, [di, dj], &ratio(1, 1));
+    let mut reached: BTreeSet<Place> = [place, (k, j + dj, i + di)].into();
+    while !reached.is_empty() {
+        for (k, j, i) in &reached {
+            pushed.layers[usize::try_from(*k).expect("a layer")].insert((*j, *i));
+        }
+        let below = |place: Place| (0..3).filter_map(move |m| pile.below(place, m));
+        let below = reached.into_iter().flat_map(below);
+        reached = below.filter(|place| pile.has(*place)).collect();
+    }
+    pushed
+}
+
+/// The coefficients of one force: its values in each of the solved piles. A pile without the sphere transmits no force.
+fn affine<'a>(
+    piles: impl Iterator<Item = &'a BTreeMap<Place, [BigRational; 3]>>,
+    place: &Place,
+    m: usize,
+) -> Affine {
+    let forces = piles.map(|forces| forces.get(place).map(|forces| forces[m].clone()));
+    forces.map(Option::unwrap_or_default).collect()
 }
 
 /// The value at x.
@@ -256,8 +281,12 @@ impl Corner {
         for other in self.rows.iter_mut().filter(|other| !other.is_empty()) {
             let factor = core::mem::take(&mut other[1 + column]);
             for (entry, what) in other.iter_mut().zip(&solved) {
+                let stays_zero = factor.is_zero() || what.is_zero();
+                if entry.is_zero() && stays_zero {
+                    continue;
+                }
                 *entry *= &pivot;
-                if !factor.is_zero() {
+                if !stays_zero {
                     *entry -= &factor * what;
                 }
                 // The division is exact because entries are minors of the first rows.
