@@ -225,13 +225,12 @@ impl<'p, T: Field> Network<'p, T> {
                 add(*site, &force);
             }
         }
-        let floor = self.pile.layers() - 1;
         let in_mg = |part: T| {
             let share = part.checked_div(&self.increment_sum);
             share.ok_or_else(|| bug("the increments have a sum"))
         };
         let mut directed = Vec::new();
-        for (site, Vector { x, y, z }) in loads.into_iter().filter(|(site, _)| site.k < floor) {
+        for (site, Vector { x, y, z }) in loads {
             let (down, x, y) = (in_mg(z)?, in_mg(x)?, in_mg(y)?);
             directed.push((site, Load { down, x, y }));
         }

@@ -241,7 +241,7 @@ impl Pile {
         let (Anchor::Top(top), true) = (self.shape().anchor(), self.is_uniform()) else {
             return Ok(None);
         };
-        if self.dimension() == Dimension::Two || !self.is_regular() || self.layers() < 3 {
+        if self.dimension() == Dimension::Two || !self.is_regular() {
             return Ok(None);
         }
         let mut runs: Vec<Run> = self.shape().stacking().runs().collect();
