@@ -64,6 +64,26 @@ fn small_tilts_of_all_stackings() {
     }
 }
 
+/// A load that ends the fall of forces along a line. The least force may be above the loaded sphere.
+#[test]
+fn a_load_on_a_line_of_falling_forces() {
+    let aims = [[1, 0], [-1, 0], [1, 1], [-1, -1], [1, -1], [-1, 1]];
+    for signs in ["++++", "----"] {
+        for [x, y] in aims.map(|aim| aim.map(BigRational::from_i128)) {
+            let along = [ratio!(3 / 4) * &x, ratio!(1 / 5) * &y];
+            let load = Load {
+                down: ratio!(4),
+                x: ratio!(-4) * x,
+                y: ratio!(-1) * y,
+            };
+            let case = Case::under(&Bounds::SITE, signs).with_tilt(along);
+            for (j, i) in case.balance.layers[3].clone() {
+                agrees(&case.clone().with_directed_load((3, j, i), &load)).unwrap();
+            }
+        }
+    }
+}
+
 #[test]
 fn weightless_piles_with_directed_loads() {
     let mut random = Random(34);
