@@ -67,7 +67,7 @@ pub(crate) use single::received;
 pub(crate) use slices::{fill_rows, split_front};
 pub(crate) use sweep::Descent;
 pub(crate) use table::Table;
-pub(crate) use tree::{Wanted, nodes};
+pub(crate) use tree::{MAX_NODES, Wanted, nodes, size_of_tree};
 
 // Re-exports for the other crates of the workspace.
 pub use crate::error::{bug, copies, refuse_beyond, refuse_beyond_memory};

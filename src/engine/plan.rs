@@ -9,7 +9,7 @@ use num_traits::Zero;
 use super::grid::Grid;
 use super::limbs::{Size, bound};
 use super::question::{Method, Quantity};
-use super::tree::{MAX_NODES, check_tree};
+use super::tree::{MAX_NODES, size_of_tree};
 use crate::Error;
 use crate::lattice::{Region, Site};
 use crate::pile::System;
@@ -275,7 +275,9 @@ impl System<'_> {
         if above > most {
             // This bound is not sharp, so the nodes of the trees are counted. No tree may have more than `most`.
             match rows.one() {
-                Some(Site { i, j, k }) => check_tree(self.shape, k, &[[i, j]])?,
+                Some(Site { i, j, k }) => {
+                    size_of_tree(self.shape, k, &[[i, j]])?;
+                }
                 None => self.sample_trees(last)?,
             }
             above = most;
@@ -290,8 +292,10 @@ impl System<'_> {
     /// Returns an error if a tree of layer `k` is too large, judged by four sample pieces. Other pieces may still be
     /// refused when they are computed.
     fn sample_trees(&self, k: i128) -> Result<(), Error> {
-        let mut pieces = samples(&self.shape.layer(k)?);
-        pieces.try_for_each(|piece| check_tree(self.shape, k, &piece))
+        for piece in samples(&self.shape.layer(k)?) {
+            size_of_tree(self.shape, k, &piece)?;
+        }
+        Ok(())
     }
 
     /// Plans one sweep, down to the last layer of `rows`.

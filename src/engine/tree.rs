@@ -86,9 +86,13 @@ impl Wanted {
     }
 }
 
-/// Returns an error if the tree of these spheres has too many nodes.
-pub(crate) fn check_tree(shape: &Shape, k: i128, sites: &[[i128; 2]]) -> Result<(), Error> {
-    levels(shape, k, sites, Wanted::All).map(|_| ())
+/// Returns the number of spheres at sign changes on which the forces on these spheres depend.
+///
+/// # Errors
+/// [`Error::TooLarge`] for more than 4 million.
+pub(crate) fn size_of_tree(shape: &Shape, k: i128, sites: &[[i128; 2]]) -> Result<usize, Error> {
+    let levels = levels(shape, k, sites, Wanted::All)?;
+    Ok(levels.iter().skip(1).map(|level| level.sites.len()).sum())
 }
 
 /// Returns the number of spheres at sign changes on which the force of a contact depends.
@@ -240,12 +244,12 @@ mod tests {
         let row = Region::new(0..=most, 0..=0, 0..=most).unwrap();
         let pile = Pile::under(row, "+".parse().unwrap()).unwrap();
         let mut sites: Vec<[i128; 2]> = (0..=most).map(|i| [i, 0]).collect();
-        let refused = check_tree(pile.shape(), 1, &sites);
+        let refused = size_of_tree(pile.shape(), 1, &sites);
         assert!(matches!(
             refused,
             Err(Error::TooLarge { needed, limit: 4_000_000, .. }) if needed == 4_000_001_u32.into()
         ));
         sites.pop();
-        assert_eq!(check_tree(pile.shape(), 1, &sites), Ok(()));
+        assert_eq!(size_of_tree(pile.shape(), 1, &sites), Ok(0));
     }
 }

@@ -1,13 +1,14 @@
 //! The bottom spheres at which functions of the force on the floor take their extremes.
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
 use super::Forces;
 use super::screen::Screen;
 use crate::Error;
 use crate::engine::{
-    Engine, Meter, Method, Quantity, Received, Wanted, shortest_exact_sweep, trees_are_cheaper,
+    Descent, Engine, MAX_NODES, Meter, Planes, Quantity, Received, Wanted, check_interrupt,
+    shortest_exact_sweep, size_of_tree, trees_are_cheaper,
 };
 use crate::error::refuse_beyond;
 use crate::geometry::Vector;
@@ -32,65 +33,61 @@ impl Forces<'_, BigRational> {
         const MOST: u64 = 100_000_000;
         let (terms, floor) = (&self.terms, self.floor());
         let (lines, shape) = (&terms.lines, terms.system.shape);
-        let changes = shape.changes_above(floor);
+        let unit = terms.floor_unit(shape.changes_above(floor));
         let mut visit = |site, above: &Received<BigRational>| {
             visit(&terms.floor_numerators(site, above).0);
         };
         let rows = self.pile.rows(Selection::Base)?;
-        let (sites, ends) = (rows.site_count(), lines.most_ends_of_pieces(floor)?);
         if self.pile.is_paper_pile() {
             for corner in rows.corners() {
                 visit(corner, &self.received(corner, Wanted::All)?);
             }
-            return Ok(terms.floor_unit(changes));
+            return Ok(unit);
         }
+        let (sites, ends) = (rows.site_count(), lines.most_ends_of_pieces(floor)?);
         refuse_beyond(
             "the extremes over this base",
             sites.clone().min(ends.clone()),
             MOST,
             "ask for single spheres",
         )?;
-        if trees_are_cheaper(&ends, &sites) {
-            for (_, row) in lines.ends_of_pieces(floor)? {
-                let above = lines.forces_above(floor, &row, Wanted::All)?;
-                let changes = above.changes;
-                for ([i, j], forces) in row.into_iter().zip(above.forces) {
-                    visit(Site { i, j, k: floor }, &Received { forces, changes });
+        // The bound of the number of ends is not sharp.
+        let are_few = &ends * 2_u32 < sites;
+        let by_trees = |row: &[[i128; 2]]| {
+            let above = lines.forces_above(floor, row, Wanted::All)?;
+            let changes = above.changes;
+            let received = |forces| Received { forces, changes };
+            Ok(above.forces.into_iter().map(received).collect())
+        };
+        if are_few && trees_are_cheaper(&(ends + self.trees_of_base()?), &sites) {
+            self.visit_ends(by_trees, &mut visit)?;
+            return Ok(unit);
+        }
+        let sweep = if terms.system.is_straight() {
+            None
+        } else {
+            match shortest_exact_sweep(lines, &terms.system, floor) {
+                Err(Error::TooLarge { .. }) => None,
+                sweep => Some(sweep?),
+            }
+        };
+        match sweep {
+            Some(mut sweep) => {
+                sweep.advance(floor, Meter::NONE)?;
+                if are_few {
+                    let received = |[i, j]: &[i128; 2]| {
+                        let (i, j, k) = (*i, *j, floor);
+                        sweep.received(Site { i, j, k })
+                    };
+                    let by_sweep = |row: &[[i128; 2]]| row.iter().map(received).collect();
+                    self.visit_ends(by_sweep, &mut visit)?;
+                } else {
+                    self.visit_candidates(&sweep, across, &mut visit)?;
                 }
             }
-        } else {
-            let plan = self.plan(&rows, Quantity::FloorMultiples)?;
-            if plan.method == Method::Sweep {
-                let mut sweep = shortest_exact_sweep(lines, &terms.system, floor)?;
-                sweep.advance(floor, Meter::NONE)?;
-                // Symmetric images have the same normal force and the same magnitude of shear, so one part is enough.
-                let part = sweep.part()?;
-                let mut screen = Screen::new((terms, &sweep), across);
-                if let Some(screen) = &mut screen {
-                    // The extremes of a sample of rows come first. Then few spheres of the other rows are candidates.
-                    for row in part.rows(floor).step_by(16) {
-                        screen.candidates(row)?;
-                    }
-                }
-                let mut last = None;
-                for row in part.rows(floor) {
-                    let sites = match &mut screen {
-                        Some(screen) => screen.candidates(row)?,
-                        None => row.into_iter().collect(),
-                    };
-                    for site in sites {
-                        // On a uniform base most spheres are extreme, so repeated values are skipped.
-                        let alike = match last {
-                            Some(last) => sweep.are_alike([last, site])?,
-                            None => false,
-                        };
-                        if !alike {
-                            visit(site, &sweep.received(site)?);
-                            last = Some(site);
-                        }
-                    }
-                }
-            } else {
+            None if are_few => self.visit_ends(by_trees, &mut visit)?,
+            None => {
+                let plan = self.plan(&rows, Quantity::FloorMultiples)?;
                 let engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
                 for row in rows {
                     let received = engine.received_in((lines, &terms.system), &row, Meter::NONE);
@@ -100,6 +97,82 @@ impl Forces<'_, BigRational> {
                 }
             }
         }
-        Ok(terms.floor_unit(changes))
+        Ok(unit)
+    }
+
+    /// Estimates the number of spheres in all trees, one for each row of the base. Most rows have a sphere below one at the
+    /// last sign change, so the tree of the middle sphere there stands for all of them.
+    fn trees_of_base(&self) -> Result<BigUint, Error> {
+        let shape = self.terms.system.shape;
+        let floor = self.floor();
+        let Some(run) = shape.stretch_to(floor) else {
+            return Ok(BigUint::ZERO);
+        };
+        let region = shape.layer(run.from)?;
+        let j = region.y().start().midpoint(*region.y().end());
+        let row = region.row(j);
+        let middle = [row.start.midpoint(row.end - 1), j];
+        let nodes = match size_of_tree(shape, run.from, &[middle]) {
+            // It counts as the largest possible tree.
+            Err(Error::TooLarge { .. }) => MAX_NODES,
+            nodes => nodes?,
+        };
+        let rows = shape.layer(floor)?.widths()[1].unsigned_abs();
+        Ok(BigUint::from(rows) * nodes)
+    }
+
+    /// Visits the spheres between which the forces are linear. The function `above` returns the forces from above on spheres
+    /// of a row.
+    fn visit_ends(
+        &self,
+        above: impl Fn(&[[i128; 2]]) -> Result<Vec<Received<BigRational>>, Error>,
+        visit: &mut impl FnMut(Site, &Received<BigRational>),
+    ) -> Result<(), Error> {
+        let k = self.floor();
+        for (_, row) in self.terms.lines.ends_of_pieces(k)? {
+            check_interrupt()?;
+            for ([i, j], above) in row.iter().zip(above(&row)?) {
+                visit(Site { i: *i, j: *j, k }, &above);
+            }
+        }
+        Ok(())
+    }
+
+    /// Visits the bottom spheres that floats do not exclude, with a sweep that has reached the base.
+    fn visit_candidates(
+        &self,
+        sweep: &Descent<'_, BigRational, Planes>,
+        across: &BigRational,
+        visit: &mut impl FnMut(Site, &Received<BigRational>),
+    ) -> Result<(), Error> {
+        let floor = self.floor();
+        // Symmetric images have the same normal force and the same magnitude of shear, so one part is enough.
+        let part = sweep.part()?;
+        let mut screen = Screen::new((&self.terms, sweep), across);
+        if let Some(screen) = &mut screen {
+            // The extremes of a sample of rows come first. Then few spheres of the other rows are candidates.
+            for row in part.rows(floor).step_by(16) {
+                screen.candidates(row)?;
+            }
+        }
+        let mut last = None;
+        for row in part.rows(floor) {
+            let sites = match &mut screen {
+                Some(screen) => screen.candidates(row)?,
+                None => row.into_iter().collect(),
+            };
+            for site in sites {
+                // On a uniform base most spheres are extreme, so repeated values are skipped.
+                let alike = match last {
+                    Some(last) => sweep.are_alike([last, site])?,
+                    None => false,
+                };
+                if !alike {
+                    visit(site, &sweep.received(site)?);
+                    last = Some(site);
+                }
+            }
+        }
+        Ok(())
     }
 }

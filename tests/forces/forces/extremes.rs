@@ -64,6 +64,18 @@ fn piles() -> Vec<Pile> {
     );
     let base = Region::hexagon(240, 300).unwrap();
     piles.push(Pile::on(base, "(20,3,200)".parse().unwrap()).unwrap());
+    // Trees through so many sign changes cost more than a sweep.
+    let changes = format!("({}220)", "1,".repeat(20));
+    for top in tops {
+        let pile = Pile::under(top, changes.parse().unwrap()).unwrap();
+        let inside = Site {
+            i: 31,
+            j: 12,
+            k: 100,
+        };
+        let loaded = pile.clone().with_load(inside, ratio(77, 3)).unwrap();
+        piles.extend([pile, loaded]);
+    }
     piles
 }
 
