@@ -37,7 +37,8 @@ mod _cannonpile {
     };
     #[pymodule_export]
     use crate::pile::arrays::{
-        base, contact_ids, contact_points, forces, multiples, positions, sites, stresses, vectors,
+        base, contact_ids, contact_points, forces, long_multiples, multiples, positions, sites,
+        stresses, vectors,
     };
     #[pymodule_export]
     use crate::pile::rough::{

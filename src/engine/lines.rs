@@ -290,8 +290,26 @@ impl<'p, T: Algebra> Lines<'p, T> {
         sites.map(|(site, _)| *site)
     }
 
+    /// Returns the increments of an ordinary sphere of layer `k`, over the denominator of the forces below it.
+    pub(crate) fn increments_below(&self, k: i128) -> [T::Numerator; 3] {
+        self.increments_after(self.shape.changes_above(k + 1))
+    }
+
     /// Returns the forces that a sphere transmits, by direction, from the forces that it receives.
     pub(crate) fn to_below(&self, site: Site, above: Received<T>, meter: Meter<'_>) -> Received<T> {
+        let increments = self.increments_below(site.k);
+        self.below_layer(&increments, site, above, meter)
+    }
+
+    /// Returns [`to_below`](Self::to_below) with the [increments](Self::increments_below) of the layer, which are the same for
+    /// all its spheres.
+    pub(crate) fn below_layer(
+        &self,
+        increments: &[T::Numerator; 3],
+        site: Site,
+        above: Received<T>,
+        meter: Meter<'_>,
+    ) -> Received<T> {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
             return above;
         };
@@ -301,18 +319,19 @@ impl<'p, T: Algebra> Lines<'p, T> {
         } else {
             above.forces
         };
-        self.with_own(site, received, run.index)
+        self.with_own(increments, site, received, run.index)
     }
 
     /// Returns the forces that a sphere transmits, from the forces that it receives. At a sign change the caller has
     /// already applied the half-turn to these.
     pub(crate) fn with_own(
         &self,
+        increments: &[T::Numerator; 3],
         site: Site,
         received: [T::Numerator; 3],
         changes: usize,
     ) -> Received<T> {
-        let mut forces = add(received, &self.increments_after(changes));
+        let mut forces = add(received, increments);
         if !self.extra_loads.is_empty() && self.extra_loads.contains_key(&site) {
             forces = add(forces, &self.extra(site));
         }

@@ -104,15 +104,19 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         meter: Meter<'_>,
     ) -> Vec<Result<Received<T>, Error>> {
         let sites = piece.clone().into_iter();
+        let lines = pile.0;
+        let increments = lines.increments_below(piece.k);
         if let Self::Sweep(sweep) = self {
             let one = |site| {
                 meter.visit(1);
-                sweep.transmitted(site, meter)
+                sweep.transmitted(&increments, site, meter)
             };
             return sites.map(one).collect();
         }
         let above = self.received_in(pile, piece, meter);
-        let below = |(site, above): (_, Result<_, _>)| Ok(pile.0.to_below(site, above?, meter));
+        let below = |(site, above): (_, Result<_, _>)| {
+            Ok(lines.below_layer(&increments, site, above?, meter))
+        };
         sites.zip(above).map(below).collect()
     }
 }

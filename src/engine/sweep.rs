@@ -179,17 +179,24 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         }
     }
 
-    /// Returns the forces that a sphere of the current layer transmits to its supports.
+    /// Returns the forces that a sphere of the current layer transmits to its supports. `increments` are those
+    /// [below](Lines::increments_below) the layer.
     ///
     /// # Errors
     /// [`Error::Bug`] if the sphere belongs to another layer.
-    pub(crate) fn transmitted(&self, site: Site, meter: Meter<'_>) -> Result<Received<T>, Error> {
+    pub(crate) fn transmitted(
+        &self,
+        increments: &[T::Numerator; 3],
+        site: Site,
+        meter: Meter<'_>,
+    ) -> Result<Received<T>, Error> {
         let Received { forces, changes } = self.received(site)?;
         Ok(match self.pass {
-            Some(pass) if pass.turns => self.lines.with_own(site, forces, changes + 1),
-            _ => self
-                .lines
-                .to_below(site, Received { forces, changes }, meter),
+            Some(pass) if pass.turns => self.lines.with_own(increments, site, forces, changes + 1),
+            _ => {
+                let above = Received { forces, changes };
+                self.lines.below_layer(increments, site, above, meter)
+            }
         })
     }
 }

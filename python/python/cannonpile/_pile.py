@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import struct
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -567,7 +568,13 @@ class Pile:
         >>> type(Pile(60, "hcp").multiples().numerators)
         <class 'list'>
         """
-        return Multiples(*native.multiples(self._native))
+        try:
+            return Multiples(*native.multiples(self._native))
+        except OverflowError:
+            data, width, denominator = native.long_multiples(self._native)
+        read = int.from_bytes
+        numerators = [read(number, "little", signed=True) for (number,) in struct.iter_unpack(f"{width}s", data)]
+        return Multiples(numerators, denominator)
 
     def base(self, units: Literal["si", "pile"] = "si") -> NDArray[np.float64]:
         """Return the forces of all bottom spheres on the floor, correctly rounded.

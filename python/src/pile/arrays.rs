@@ -1,11 +1,11 @@
 //! All spheres and contacts as NumPy arrays.
 
 use cannonpile_dem::PileArrays;
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use numpy::{PyArray1, PyArray2};
-use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use super::Pile;
 use crate::array::{column, rows};
@@ -116,40 +116,63 @@ pub(crate) fn base<'py>(
     rows(py, pile.base_places()?, |base| numbers.fill_base(base))
 }
 
-/// Returns a vector of zeros of any length. It raises MemoryError if the memory is too small, like NumPy.
-fn zeros(contacts: usize) -> PyResult<Vec<BigInt>> {
-    let mut zeros = Vec::new();
-    zeros.try_reserve_exact(contacts).map_err(|_| {
-        PyMemoryError::new_err(format!(
-            "not enough memory for {contacts} numerators; use fewer layers"
-        ))
-    })?;
-    zeros.resize(contacts, BigInt::ZERO);
-    Ok(zeros)
-}
-
-/// The numerators of the forces of all contacts, and their denominator.
+/// The numerators of the forces of all contacts, and their denominator. Raises OverflowError if some exceed int64.
 #[pyfunction]
 pub(crate) fn multiples<'py>(
     pile: &Pile,
     py: Python<'py>,
-) -> PyResult<(Bound<'py, PyAny>, BigInt)> {
+) -> PyResult<(Bound<'py, PyArray1<i64>>, BigInt)> {
     let numbers = pile.numbers(false)?;
     let mut denominator = BigInt::ZERO;
-    let narrow = column(py, numbers.contacts(), |numerators: &mut [i64]| {
+    let numerators = column(py, numbers.contacts(), |numerators: &mut [i64]| {
         denominator = numbers.fill_multiples(numerators)?;
         Ok::<_, Error>(())
-    });
-    match narrow {
-        Ok(numerators) => Ok((numerators.into_any(), denominator)),
-        Err(error) if error.is_instance_of::<pyo3::exceptions::PyOverflowError>(py) => {
-            let mut numerators = zeros(numbers.contacts())?;
-            let (numerators, denominator) = work(py, || {
-                let denominator = numbers.fill_multiples(&mut numerators)?;
-                Ok::<_, Error>((numerators, denominator))
-            })?;
-            Ok((numerators.into_bound_py_any(py)?, denominator))
-        }
-        Err(error) => Err(error),
+    })?;
+    Ok((numerators, denominator))
+}
+
+/// The same numerators of any length, as signed little-endian integers of equal width, with this width in bytes and their
+/// denominator.
+#[pyfunction]
+pub(crate) fn long_multiples<'py>(
+    pile: &Pile,
+    py: Python<'py>,
+) -> PyResult<(Bound<'py, PyBytes>, usize, BigInt)> {
+    let numbers = pile.numbers(false)?;
+    let mut numerators = reserved(numbers.contacts())?;
+    numerators.resize(numbers.contacts(), BigInt::ZERO);
+    let (numerators, denominator) = work(py, || {
+        let denominator = numbers.fill_multiples(&mut numerators)?;
+        Ok::<_, Error>((numerators, denominator))
+    })?;
+    // One more bit for the sign.
+    let bytes = numerators.iter().map(|n| n.bits() / 8 + 1).max();
+    let width = usize::try_from(bytes.unwrap_or(1))?;
+    let mut data = reserved(numerators.len().saturating_mul(width))?;
+    for numerator in numerators {
+        let sign = if numerator.sign() == Sign::Minus {
+            u8::MAX
+        } else {
+            0
+        };
+        let end = data.len() + width;
+        data.extend(numerator.to_signed_bytes_le());
+        data.resize(end, sign);
     }
+    let bytes = PyBytes::new_with(py, data.len(), |bytes| {
+        bytes.copy_from_slice(&data);
+        Ok(())
+    })?;
+    Ok((bytes, width, denominator))
+}
+
+/// Returns an empty vector with room for this many values. Raises MemoryError if the memory is too small, like NumPy.
+fn reserved<V>(values: usize) -> PyResult<Vec<V>> {
+    let mut reserved = Vec::new();
+    reserved.try_reserve_exact(values).map_err(|_| {
+        PyMemoryError::new_err(format!(
+            "not enough memory for {values} values; use fewer layers"
+        ))
+    })?;
+    Ok(reserved)
 }

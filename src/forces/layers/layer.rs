@@ -371,10 +371,8 @@ impl<T: Algebra> Layer<'_, '_, T> {
         // Spheres with loads or with a weight of their own are written once more.
         for site in lines.extras_in(self.k..self.k + 1) {
             check_interrupt()?;
-            let forces = self
-                .layers
-                .terms
-                .contacts(sweep.transmitted(site, Meter::NONE)?)?;
+            let below = sweep.transmitted(&below.own, site, Meter::NONE)?;
+            let forces = self.layers.terms.contacts(below)?;
             self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
         }
         if defined.into_inner() {
