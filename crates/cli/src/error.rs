@@ -29,18 +29,7 @@ impl fmt::Display for Error {
     }
 }
 
-impl core::error::Error for Error {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Core(error) => error.source(),
-            Self::Horizontal(error) => error.source(),
-            Self::Disorder(error) => error.source(),
-            Self::Dem(error) => error.source(),
-            Self::Figure(error) => error.source(),
-            Self::Proof(error) => error.source(),
-        }
-    }
-}
+impl core::error::Error for Error {}
 
 impl From<cannonpile::Error> for Error {
     fn from(error: cannonpile::Error) -> Self {

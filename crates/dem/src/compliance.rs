@@ -333,15 +333,7 @@ impl fmt::Display for NoCompliance {
     }
 }
 
-impl core::error::Error for NoCompliance {
-    /// Returns the cause of the inner error, whose own text is this message.
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Scene(error) => error.source(),
-            Self::Touching | Self::Slack { .. } => None,
-        }
-    }
-}
+impl core::error::Error for NoCompliance {}
 
 impl From<cannonpile::Error> for NoCompliance {
     fn from(error: cannonpile::Error) -> Self {

@@ -173,17 +173,7 @@ impl fmt::Display for Error {
     }
 }
 
-impl Cause for Error {
-    /// Returns the cause of a wrapped error, whose own text is part of this message.
-    fn source(&self) -> Option<&(dyn Cause + 'static)> {
-        match self {
-            Self::Core(error) => error.source(),
-            Self::Horizontal(error) => error.source(),
-            Self::InFile { error, .. } => error.source(),
-            _ => None,
-        }
-    }
-}
+impl Cause for Error {}
 
 impl From<cannonpile::Error> for Error {
     fn from(error: cannonpile::Error) -> Self {

@@ -63,13 +63,4 @@ impl fmt::Display for Error {
     }
 }
 
-impl core::error::Error for Error {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            // This variant prints the message of the inner error. So its source is the source of the inner error, or
-            // the chain would contain the same message twice.
-            Self::Core(error) => error.source(),
-            _ => None,
-        }
-    }
-}
+impl core::error::Error for Error {}

@@ -272,11 +272,4 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl core::error::Error for Refusal {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Pile(error) => error.source(),
-            _ => None,
-        }
-    }
-}
+impl core::error::Error for Refusal {}
