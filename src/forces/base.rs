@@ -114,6 +114,12 @@ mod tests {
             Pile::triangular(4).unwrap(),
             Pile::discs(4).unwrap(),
             Pile::under("hexagon:2".parse().unwrap(), "+-+".parse().unwrap()).unwrap(),
+            // A row is computed in several pieces.
+            Pile::under(
+                "region:0..99,0..0,0..99".parse().unwrap(),
+                "+-+".parse().unwrap(),
+            )
+            .unwrap(),
         ];
         for pile in &piles {
             for part in [Selection::Base, Selection::Layer(3)] {

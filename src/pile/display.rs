@@ -98,6 +98,7 @@ mod tests {
         let under = |top: &str, stacking: &str| {
             Pile::under(top.parse().unwrap(), stacking.parse().unwrap()).unwrap()
         };
+        let leaning = |tilt| Pile::triangular(2).unwrap().with_tilt(tilt).unwrap();
         let contact = HorizontalContact {
             site: Site::new(0, 0, 1),
             axis: Axis::AlphaBeta,
@@ -128,6 +129,14 @@ mod tests {
             (
                 loaded,
                 "4 layers of hcp under one sphere, 2 weights, 1 load",
+            ),
+            (
+                leaning([ratio!(1 / 4), ratio!(0)]),
+                "2 layers of fcc under one sphere, tilt 1/4,0",
+            ),
+            (
+                leaning([ratio!(0), ratio!(-1)]),
+                "2 layers of fcc under one sphere, tilt 0,-1",
             ),
         ] {
             assert_eq!(pile.to_string(), line);

@@ -234,3 +234,15 @@ fn unstable_and_weightless_piles_have_no_margin() {
     let one_layer = under(Region::hexagon(3, 3).unwrap(), "A");
     assert_eq!(one_layer.stability().unwrap_err(), Error::NoWeight);
 }
+
+/// The weights of bottom spheres do not matter.
+#[test]
+fn only_weights_above_the_floor_count() {
+    let weightless = |k, i| {
+        let pile = under(Region::SITE, "+");
+        pile.with_weight(Site { i, j: 0, k }, ratio!(0)).unwrap()
+    };
+    assert_eq!(weightless(0, 0).margin().unwrap_err(), Error::NoWeight);
+    let margin = weightless(1, 1).margin().unwrap().unwrap();
+    assert_eq!(margin.squared, ratio!(1 / 4));
+}

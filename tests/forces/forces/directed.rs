@@ -191,17 +191,25 @@ fn loaded<T: Algebra>(pile: &Pile) -> (Pile, Forces<'_, T>) {
         x: ratio!(-5 / 4),
         y: y(ratio!(7 / 8)),
     };
-    let site = pile.sites(Selection::Layer(1)).unwrap().next().unwrap();
     let own = |value: &BigRational| T::from_rational(value);
-    let forces = pile
+    let mut forces = pile
         .forces::<T>()
         .with_tilt(tilt.each_ref().map(own))
         .unwrap();
-    let forces = forces
-        .with_load(site, load.clone().map(|part| own(&part)))
-        .unwrap();
-    let rational = pile.clone().with_tilt(tilt).unwrap();
-    (rational.with_load(site, load).unwrap(), forces)
+    let mut rational = pile.clone().with_tilt(tilt).unwrap();
+    // Each of these spheres has two loads.
+    for part in [Selection::Layer(1), Selection::Base] {
+        let site = pile.sites(part).unwrap().next().unwrap();
+        for times in [1, 2] {
+            let load = load
+                .clone()
+                .map(|part| part * BigRational::from_i128(times));
+            let same = load.clone().map(|part| own(&part));
+            forces = forces.with_load(site, same).unwrap();
+            rational = rational.with_load(site, load).unwrap();
+        }
+    }
+    (rational, forces)
 }
 
 /// Compares every way to ask, in one scalar, with the exact forces.
