@@ -1,5 +1,5 @@
-//! Compares the time to compute contact forces with that of filling the same memory, of plain floats, of plain
-//! rationals and of a sparse solver.
+//! Compares the time to compute contact forces with that of filling the same memory, of hand-written loops with the same data
+//! flow, of plain floats, of plain rationals and of a sparse solver.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench throughput`
 //! ends its output with lines `ratio NAME VALUE`. Each value is the median of ratios of two times, measured
@@ -12,6 +12,7 @@ mod peers;
 
 mod fill;
 mod growth;
+mod limit;
 mod plain;
 mod solver;
 mod sweeps;
@@ -43,10 +44,12 @@ fn main() {
     on_one_thread(|| {
         fill::measure(extent, &mut results);
         sweeps::measure(extent, &mut results);
+        limit::measure(extent, &mut results);
         solver::measure(extent, &mut results);
         growth::measure(extent, &mut results);
     });
     sweeps::measure_threads(extent, &mut results);
+    limit::measure_threads(extent, &mut results);
     for (name, value) in results {
         println!("ratio {name} {value:.2}");
     }

@@ -73,7 +73,7 @@ pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
     results.push(("two_threads_speedup".into(), exact));
 }
 
-fn alternating(layers: i128) -> Pile {
+pub(crate) fn alternating(layers: i128) -> Pile {
     let stacking = Stacking::hcp(layers).expect("a stacking");
     Pile::under(Region::SITE, stacking).expect("a pile")
 }
@@ -90,7 +90,7 @@ fn without_symmetry(layers: i128) -> [Pile; 2] {
 }
 
 /// Returns a slice for each direction, with a number for each sphere above the floor.
-fn slices(pile: &Pile) -> [Vec<f64>; 3] {
+pub(crate) fn slices(pile: &Pile) -> [Vec<f64>; 3] {
     let layers = pile.forces::<f64>().layers(Selection::All);
     let spheres = layers.expect("room").slice_len().expect("as many as fit");
     [(); 3].map(|()| vec![1.5; spheres])
