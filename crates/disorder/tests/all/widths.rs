@@ -84,3 +84,28 @@ fn sums_are_correct_for_each_width() {
         }
     }
 }
+
+/// The sums of a recursion in floats may exceed the greatest float although no mean does.
+#[test]
+fn loads_near_the_greatest_float_have_means() {
+    let stackings = RandomStackings::new(6, FirstSign::Plus).unwrap();
+    let loaded = |load: BigRational| {
+        let plane = RandomPiles::plane(stackings).weightless();
+        plane.with_load(Site::APEX, load).unwrap()
+    };
+    let (one, great) = (loaded(ratio(1, 1)), loaded(power(1023)));
+    let (one, great) = (one.mean(&0.25).unwrap(), great.mean(&0.25).unwrap());
+    assert!(one.rows().len() > 20);
+    let scale = 2.0_f64.powi(1023);
+    for (one, great) in one.rows().iter().zip(great.rows()) {
+        let parts = [
+            (one.normal, great.normal),
+            (one.shear_x, great.shear_x),
+            (one.shear_y, great.shear_y),
+        ];
+        for (one, great) in parts {
+            assert!((one - great / scale).abs() < 1e-15, "{one} {great}");
+        }
+        assert_eq!(one.probability, great.probability);
+    }
+}
