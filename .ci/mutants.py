@@ -10,10 +10,10 @@ environment variable MUTANT is NUMBER. A first run of each test records the muta
 tests that reach a mutant, cheap and promising ones first, until one fails. A mutant that does not compile is left out
 ("unviable"), as in cargo-mutants.
 
-DIR contains the instrumented copy, its build and all results. A second run continues the first one. With a larger --most, a
-second run also tests the unlisted survivors further, with more tests. `.ci/mutants.survivors` lists the mutants that no test
-kills, one on each line with the reason. The script fails if an unlisted mutant survives, or if a listed one is killed. With
---least it fails only if too few mutants have the expected result.
+DIR contains the instrumented copy, its build and all results. A second run continues the first one. With a larger --most or
+--slowest, a second run also tests the unlisted survivors further, with more tests. `.ci/mutants.survivors` lists the mutants
+that no test kills, one on each line with the reason. The script fails if an unlisted mutant survives, or if a listed one is
+killed. With --least it fails only if too few mutants have the expected result.
 
 Examples in the documentation (doctests) are not run.
 
@@ -32,6 +32,7 @@ import resource
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -521,21 +522,23 @@ class Tests:
             listing = [binary[0], "--list", "--format", "terse"]
             listed = subprocess.run(listing, capture_output=True, text=True, check=True).stdout
             tests += [(binary, line.removesuffix(": test")) for line in listed.splitlines() if line.endswith(": test")]
-        reached = self.copy.folder / "reached"
-        reached.mkdir(exist_ok=True)
-
-        def one(numbered):
-            number, (binary, name) = numbered
-            path = reached / str(number)
-            path.unlink(missing_ok=True)
-            began = time.monotonic()
-            passed = self.run(binary, [name], slowest, MUTANTS_REACHED=str(path))
-            seconds = time.monotonic() - began
-            seen = sorted({int(line) for line in path.read_text().split()}) if path.exists() else []
-            return {"binary": binary, "name": name, "passed": passed, "seconds": seconds, "reached": seen}
-
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(one, enumerate(tests)))
+            return list(pool.map(lambda test: self.timed(*test, slowest), tests))
+
+    def record_slow_ones(self, recorded, jobs, slowest):
+        """Runs the tests again that took longer than an earlier limit."""
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            again = lambda test: self.timed(test["binary"], test["name"], slowest) if test["passed"] is None else test
+            return list(pool.map(again, recorded))
+
+    def timed(self, binary, name, slowest):
+        """Runs a test for at most `slowest` seconds. Returns its time and the mutants that it reaches."""
+        with tempfile.NamedTemporaryFile(dir=self.copy.folder) as reached:
+            began = time.monotonic()
+            passed = self.run(binary, [name], slowest, MUTANTS_REACHED=reached.name)
+            seconds = time.monotonic() - began
+            seen = sorted({int(line) for line in Path(reached.name).read_text().split()})
+        return {"binary": binary, "name": name, "passed": passed, "seconds": seconds, "reached": seen}
 
 
 class Attack:
@@ -680,10 +683,16 @@ def main():
         return 0
     if state.exists():
         known = json.loads(state.read_text())
-        copy.faults = {number: everything[number] for number in known["viable"]}
-        copy.unviable = {int(number): (everything[int(number)], why) for number, why in known["unviable"].items()}
+        copy.faults = {number: everything[number] for number in known["viable"] if number in everything}
+        unviable = {int(number): why for number, why in known["unviable"].items()}
+        copy.unviable = {number: (everything[number], why) for number, why in unviable.items() if number in everything}
         recorded = known["recorded"]
+        has_more_tests = arguments.slowest > known["slowest"]
+        if has_more_tests:
+            recorded = Tests(copy).record_slow_ones(recorded, arguments.jobs, arguments.slowest)
+            state.write_text(json.dumps(known | {"recorded": recorded, "slowest": arguments.slowest}))
     else:
+        has_more_tests = False
         copy.make()
         copy.settle()
         print(f"{len(copy.faults)} compile, {time.monotonic() - began:.0f} s", flush=True)
@@ -691,7 +700,8 @@ def main():
         print(f"built, {time.monotonic() - began:.0f} s", flush=True)
         recorded = Tests(copy).record(binaries, arguments.jobs, arguments.slowest)
         unviable = {number: why for number, (_, why) in copy.unviable.items()}
-        state.write_text(json.dumps({"viable": sorted(copy.faults), "unviable": unviable, "recorded": recorded}))
+        known = {"viable": sorted(copy.faults), "unviable": unviable, "recorded": recorded, "slowest": arguments.slowest}
+        state.write_text(json.dumps(known))
     failing = [test["name"] for test in recorded if test["passed"] is False]
     slow = [test["name"] for test in recorded if test["passed"] is None]
     print(f"{len(recorded)} tests, {sum(t['seconds'] for t in recorded):.0f} s of them, {time.monotonic() - began:.0f} s", flush=True)
@@ -708,11 +718,12 @@ def main():
     reasons = survivors()
 
     def is_to_be_shown(fault):
-        """Returns whether a mutant has no outcome yet, or more tests remain that a larger --most allows."""
+        """Returns whether a mutant has no outcome yet, or more tests remain that a larger --most or --slowest allows."""
         one = done.get(fault.number)
-        if one is None or one["outcome"] != "survives so far":
-            return one is None
-        return arguments.most > one["most"] and fault.key not in reasons
+        if one is None:
+            return True
+        has_rest = one["outcome"] == "survives so far" and arguments.most > one["most"]
+        return (has_rest or has_more_tests and one["outcome"] in UNNOTICED) and fault.key not in reasons
 
     # In random order, because then the mutants tested within --seconds are a random sample.
     todo = [fault for fault in copy.faults.values() if is_to_be_shown(fault)]

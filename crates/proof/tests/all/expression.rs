@@ -32,6 +32,8 @@ fn operations_evaluate() {
         (x.clone() + &y, ratio(11, 14)),
         (x.clone() - &y, ratio(31, 14)),
         (x.clone() * &y, ratio(-15, 14)),
+        (x.clone() + y.clone(), ratio(11, 14)),
+        (x.clone() * y.clone(), ratio(-15, 14)),
         (over(x.clone(), -4), ratio(-3, 8)),
         (over(x.clone() + &x, 3) - &(y.clone() * &y), ratio(24, 49)),
     ] {
