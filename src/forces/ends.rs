@@ -1,5 +1,7 @@
 //! The bottom spheres at which functions of the force on the floor take their extremes.
 
+use alloc::vec::Vec;
+
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
