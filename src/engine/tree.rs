@@ -91,16 +91,19 @@ impl Wanted {
 /// # Errors
 /// [`Error::TooLarge`] for more than 4 million.
 pub(crate) fn size_of_tree(shape: &Shape, k: i128, sites: &[[i128; 2]]) -> Result<usize, Error> {
-    let levels = levels(shape, k, sites, Wanted::All)?;
-    Ok(levels.iter().skip(1).map(|level| level.sites.len()).sum())
+    levels(shape, k, sites, Wanted::All).map(|levels| nodes_above(&levels))
 }
 
 /// Returns the number of spheres at sign changes on which the force of a contact depends.
 pub(crate) fn nodes(shape: &Shape, site: Site, direction: Direction) -> Result<usize, Error> {
     let wanted = Wanted::for_contact(shape, site, direction);
     let levels = levels(shape, site.k, &[[site.i, site.j]], wanted)?;
-    let above: usize = levels.iter().skip(1).map(|level| level.sites.len()).sum();
-    Ok(above + usize::from(wanted == Wanted::All))
+    Ok(nodes_above(&levels) + usize::from(wanted == Wanted::All))
+}
+
+/// Returns the number of nodes above the spheres of the question.
+fn nodes_above(levels: &[Level]) -> usize {
+    levels.iter().skip(1).map(|level| level.sites.len()).sum()
 }
 
 /// Returns the levels of the tree of some spheres, from the question upwards.
@@ -161,7 +164,7 @@ impl<T: Algebra> Lines<'_, T> {
         wanted: Wanted,
     ) -> Result<Above<T>, Error> {
         let levels = levels(self.shape, k, sites, wanted)?;
-        let nodes = levels.iter().skip(1).map(|level| level.sites.len()).sum();
+        let nodes = nodes_above(&levels);
         let mut levels = levels.into_iter().rev();
         let Some(first) = levels.next() else {
             let none = || core::array::from_fn(|_| T::Numerator::zero());
