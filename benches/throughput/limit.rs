@@ -13,7 +13,7 @@ use num_traits::ToPrimitive;
 use crate::fill::memset;
 use crate::sweeps::{alternating, slices};
 use crate::time::{ratio, seconds};
-use crate::{Extent, Results};
+use crate::{Extent, Results, pool};
 
 pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let pile = alternating(extent.size(200, 12));
@@ -42,17 +42,11 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
 
 /// Compares loops on one thread with the same loops on two: in memory, and within the first cache.
 pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
-    let pool = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build().expect("threads")
-    };
-    let (one, two) = (pool(1), pool(2));
     for (name, length, repeats) in [
         ("memory", extent.size(1 << 23, 1 << 10), 1),
         ("cache", 1 << 10, extent.size(1 << 13, 4)),
     ] {
         let length = length.to_usize().expect("a length");
-        let [mut a, mut b] = [(); 2].map(|()| vec![1.5; length]);
         let run = |numbers: &mut [f64]| {
             for _ in 0..repeats {
                 for number in black_box(&mut *numbers) {
@@ -60,17 +54,12 @@ pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
                 }
             }
         };
-        let speedup = {
-            let halves = std::sync::Mutex::new((&mut a, &mut b));
-            let both = || {
-                seconds(|| {
-                    let mut halves = halves.lock().expect("one at a time");
-                    let (a, b) = &mut *halves;
-                    rayon::join(|| run(a), || run(b));
-                })
-            };
-            ratio(extent.pairs, || one.install(both), || two.install(both))
+        let time = |threads| {
+            let pool = pool(threads);
+            let [mut a, mut b] = [(); 2].map(|()| vec![1.5; length]);
+            move || pool.install(|| seconds(|| drop(rayon::join(|| run(&mut a), || run(&mut b)))))
         };
+        let speedup = ratio(extent.pairs, time(1), time(2));
         results.push((format!("two_threads_speedup_of_loop_in_{name}"), speedup));
     }
 }
@@ -101,7 +90,7 @@ fn sweep_floats(layers: &[usize], slices: &mut [Vec<f64>; 3]) {
     }
 }
 
-/// Updates the state of a third of each layer, in limbs, and propagates carries once in eight layers.
+/// Updates the state of a third of each layer, in limbs, and propagates carries once in three layers, as the sweep does.
 fn sweep_limbs(layers: &[usize], planes: usize) {
     let most = layers.last().copied().unwrap_or(0) / 3 + 1;
     let mut limbs: Vec<[Vec<i64>; 3]> = (0..planes)
@@ -124,7 +113,7 @@ fn sweep_limbs(layers: &[usize], planes: usize) {
                 (*a, *b, *c) = (turned(*a), turned(*b), turned(*c));
             }
         }
-        if k % 8 == 7 {
+        if k % 3 == 2 {
             for p in 1..planes {
                 let (below, above) = limbs.split_at_mut(p);
                 for (lower, upper) in below[p - 1].iter_mut().zip(&mut above[0]) {

@@ -1,5 +1,5 @@
-//! Compares the time to compute contact forces with that of filling the same memory, of hand-written loops with the same data
-//! flow, of plain floats, of plain rationals and of a sparse solver.
+//! Compares the time to compute contact forces with other times: of filling the same memory, of hand-written loops, of plain
+//! floats, of plain rationals and of a sparse solver.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench throughput`
 //! ends its output with lines `ratio NAME VALUE`. Each value is the median of ratios of two times, measured
@@ -57,8 +57,13 @@ fn main() {
 
 /// Runs a measurement on one thread.
 fn on_one_thread(measure: impl FnOnce() + Send) {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    pool.expect("a thread").install(measure);
+    pool(1).install(measure);
+}
+
+/// Starts a pool of threads.
+pub(crate) fn pool(threads: usize) -> rayon::ThreadPool {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build().expect("threads")
 }
 
 /// The ratios, printed at the end.

@@ -13,7 +13,7 @@ use num_traits::ToPrimitive;
 use crate::fill::memset;
 use crate::plain::Plain;
 use crate::time::{ratio, seconds};
-use crate::{Extent, Results};
+use crate::{Extent, Results, pool};
 
 pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let pairs = extent.pairs;
@@ -59,10 +59,6 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
 /// Compares sweeps in floats and in the exact engine on one thread with those on two.
 pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
     let pile = alternating(extent.size(200, 30));
-    let pool = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build().expect("threads")
-    };
     let (one, two) = (pool(1), pool(2));
     let speedup = |time: &(dyn Fn() -> f64 + Sync)| {
         ratio(extent.pairs, || one.install(time), || two.install(time))
