@@ -79,11 +79,6 @@ def by_scipy(pile):
     return scipy.sparse.linalg.splu(matrix).solve(totals.astype(float))
 
 
-def by_multiples(pile):
-    numerators, denominator = pile.multiples()
-    return numerators, denominator
-
-
 def touching(pile):
     """Returns all contacts at a = R: the sloping ones, and those of neighbours above the floor."""
     upper, lower = sloping(pile)
@@ -157,7 +152,7 @@ def hcp(layers):
 
 QUESTIONS = [
     # The name, the argument, the sizes, the methods, and the comparison with the first method.
-    ("exact_forces", hcp, [4, 6, 8, 10, 12, 14, 16, 20, 30, 60, 100, 150], [("cannonpile", by_multiples), ("python-flint", by_flint)], same_multiples),
+    ("exact_forces", hcp, [4, 6, 8, 10, 12, 14, 16, 20, 30, 60, 100, 150], [("cannonpile", Pile.multiples), ("python-flint", by_flint)], same_multiples),
     ("float_forces", hcp, [10, 20, 30, 40, 60, 80, 100, 200, 300], [("cannonpile", lambda pile: pile.forces("pile")), ("SciPy LU", by_scipy)], same_floats),
     ("bounds", int, [4, 7, 10, 13, 16, 19, 22, 25, 31], [("cannonpile", by_bounds), ("QSopt_ex", by_qsopt), ("SciPy HiGHS", by_highs)], same_floats),
 ]

@@ -6,7 +6,7 @@
 It prints lines `seconds NAME VALUE`, and the three largest parts of each. The builds are those of the core as a dependency, of the
 binary, and of the extension module in the wheel, with all dependencies and without a cache. The sources of the dependencies must
 be there, as after `cargo fetch`. The time of a build depends on the number of cores, and the time of a part is that of its own
-process. The times of answers are medians, with the start of the process. The whole takes some ten minutes.
+compiler. The times of answers are medians, with the start of the process. The whole takes some ten minutes.
 
 Needs Rust and Python 3.10. """
 
