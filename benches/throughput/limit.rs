@@ -57,7 +57,13 @@ pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
         let time = |threads| {
             let pool = pool(threads);
             let [mut a, mut b] = [(); 2].map(|()| vec![1.5; length]);
-            move || pool.install(|| seconds(|| drop(rayon::join(|| run(&mut a), || run(&mut b)))))
+            move || {
+                pool.install(|| {
+                    seconds(|| {
+                        rayon::join(|| run(&mut a), || run(&mut b));
+                    })
+                })
+            }
         };
         let speedup = ratio(extent.pairs, time(1), time(2));
         results.push((format!("two_threads_speedup_of_loop_in_{name}"), speedup));
