@@ -23,7 +23,7 @@ mod sign;
 
 pub use axis::{Axis, ContactKind, HorizontalContact};
 pub use region::Region;
-pub(crate) use region::{Along, Counts, Slopes, Trapezoid};
+pub(crate) use region::{Along, Nearby, Slopes, Trapezoid, small};
 pub use row::{Row, Sites};
 pub use sign::Sign;
 

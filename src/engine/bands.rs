@@ -41,11 +41,15 @@ use num_traits::ToPrimitive;
 use super::grid::{Grid, Pass};
 use super::parallel;
 use super::plane::{Plane, Ramps, row};
-use crate::lattice::{Along, Counts};
+use crate::lattice::{Along, Nearby, Sign, Slopes, small};
 use crate::{Error, formula};
 
 /// The smallest number of updates that justifies a thread.
 const WORTH_A_THREAD: usize = 1 << 13;
+
+/// The number of rows of each pass that are processed in one plane before the next plane: few enough for the cache, and
+/// enough for long consecutive reads.
+const BLOCK: usize = 16;
 
 /// Consecutive passes, each with the values that it adds in every plane.
 pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];
@@ -53,7 +57,8 @@ pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];
 /// Makes consecutive passes in all planes. Each pass adds its increments, and applies `turn` where it ends at a sign
 /// change.
 ///
-/// After the last pass has processed a row, `finish` is called with the planes and the cells of that row.
+/// The planes are independent, except that `begin` is called before the first pass processes a row of a plane. It
+/// receives the planes up to this one, and the cells of the row. The planes above are processed before.
 ///
 /// # Errors
 /// [`Error::Bug`] if a line has no cell.
@@ -61,14 +66,14 @@ pub(super) fn make<V>(
     planes: &mut [Plane<V>],
     grid: &Grid<'_>,
     passes: &Passes<V>,
+    begin: impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
     turn: impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
-    finish: impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
 ) -> Result<(), Error>
 where
     V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
 {
     let number = bands_worth(passes, planes.len());
-    make_whole(number, planes, grid, passes, (turn, finish))
+    make_whole(number, planes, grid, passes, (begin, turn))
 }
 
 /// Makes the passes over whole layers, in at most `number` bands.
@@ -80,9 +85,9 @@ fn make_whole<V>(
     planes: &mut [Plane<V>],
     grid: &Grid<'_>,
     passes: &Passes<V>,
-    (turn, finish): (
-        impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
+    (begin, turn): (
         impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
+        impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
     ),
 ) -> Result<(), Error>
 where
@@ -93,13 +98,15 @@ where
         starts: [0; 3],
         planes: planes.iter_mut().map(Plane::slices_mut).collect(),
     };
-    whole.make_in_bands(number, grid, passes, (&turn, &finish))
+    whole.make_in_bands(number, grid, passes, (&begin, &turn))
 }
 
 /// Returns the number of bands for these passes: 1 where more threads would cost more than they save.
 fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
-    // This count decides only whether threads are used.
-    let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
+    let sites = |(Pass { stored, .. }, _): &(Pass, _)| {
+        // This count decides only whether threads are used.
+        stored.part.site_count().to_usize().unwrap_or(usize::MAX)
+    };
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
     // The order matters: a call of `threads` may start the thread pool, so the amount of work is compared first.
@@ -110,7 +117,7 @@ fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
         return 1;
     };
     // Around a border, each pass omits |o′ − o| more rows than the previous one.
-    let shifts = || passes.iter().map(|(pass, _)| pass.shift);
+    let shifts = || passes.iter().map(|(pass, _)| pass.stored.shift);
     let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
     let lost: i128 = steps.map(i128::abs).sum();
     let rows = first.rows();
@@ -136,11 +143,11 @@ impl<V> Band<'_, V> {
     fn border(&self, number: i128, passes: &Passes<V>) -> Option<[i128; 2]> {
         let ((pass, _), rows) = (passes.first()?, self.rows.first()?.clone());
         let sites = |j| {
-            let row = pass.part.row(j);
+            let row = pass.stored.part.row(j);
             row.end - row.start
         };
         let (border, _) = parallel::cut(rows, number, sites)?;
-        Some([border, border + pass.shift])
+        Some([border, border + pass.stored.shift])
     }
 
     /// Splits the band before a row of the first pass. In either part, each pass processes the rows that depend on that
@@ -154,7 +161,7 @@ impl<V> Band<'_, V> {
         grid: &Grid<'_>,
         passes: &Passes<V>,
     ) -> Result<([Band<'_, V>; 2], RowsByPass), Error> {
-        let shifts = || passes.iter().map(|(pass, _)| pass.shift);
+        let shifts = || passes.iter().map(|(pass, _)| pass.stored.shift);
         // Row j depends on the rows j and j + step of the previous pass.
         let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
         let around = steps.scan(border..border, |around, step| {
@@ -202,9 +209,9 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         number: i128,
         grid: &Grid<'_>,
         passes: &Passes<V>,
-        (turn, finish): (
-            &(impl Fn(&[V; 3]) -> [V; 3] + Send + Sync),
+        (begin, turn): (
             &(impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync),
+            &(impl Fn(&[V; 3]) -> [V; 3] + Send + Sync),
         ),
     ) -> Result<(), Error> {
         let several = number > 1;
@@ -212,12 +219,66 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             let ([before, behind], omitted) = self.split_before(border, grid, passes)?;
             let half = number / 2;
             parallel::share(
-                || before.make_in_bands(half, grid, passes, (turn, finish)),
-                || behind.make_in_bands(number - half, grid, passes, (turn, finish)),
+                || before.make_in_bands(half, grid, passes, (begin, turn)),
+                || behind.make_in_bands(number - half, grid, passes, (begin, turn)),
             )?;
             self.rows = omitted;
         }
-        self.make(grid, passes, turn, finish)
+        self.make(grid, passes, begin, turn)
+    }
+}
+
+/// One row of a pass.
+struct Step {
+    /// The position of the pass among the passes.
+    place: usize,
+    /// The cells of the lines of the row, by direction.
+    cells: [Range<usize>; 3],
+    /// The counts of the spheres of the pass on these lines.
+    counts: [Slopes; 3],
+}
+
+/// The geometry of a pass, in machine integers relative to the origin of the grid.
+struct NearbyPass {
+    /// The times at which the rows are processed. Row j is processed at the time j + `delay`.
+    times: Range<i64>,
+    delay: i64,
+    region: Nearby,
+    /// The stored spheres of the region.
+    part: Nearby,
+    shift: i64,
+    sign: Sign,
+    steps: i64,
+}
+
+impl NearbyPass {
+    /// # Errors
+    /// [`Error::Bug`] for a pass that does not fit in memory.
+    fn new(pass: &Pass, delay: i128, rows: &Range<i128>, grid: &Grid<'_>) -> Result<Self, Error> {
+        let time = |row| small(row - grid.origin[1] + delay);
+        Ok(Self {
+            times: time(rows.start)?..time(rows.end)?,
+            delay: small(delay)?,
+            region: pass.region.relative_to(grid.origin)?,
+            part: pass.stored.part.relative_to(grid.origin)?,
+            shift: small(pass.stored.shift)?,
+            sign: pass.run.sign,
+            steps: small(pass.k - pass.from)?,
+        })
+    }
+
+    /// Returns the cells and the counts of the row that is processed at a time.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if a line has no cell.
+    #[inline]
+    fn row(&self, time: i64, grid: &Grid<'_>) -> Result<([Range<usize>; 3], [Slopes; 3]), Error> {
+        let j = time - self.delay;
+        let i = self.part.row(j);
+        let cells = grid.nearby_row(j, &i, self.shift)?;
+        let run = (self.sign, self.steps);
+        let counts = self.region.counts_in_row([i.start, j], cells[0].len(), run);
+        Ok((cells, counts))
     }
 }
 
@@ -231,8 +292,8 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         mut self,
         grid: &Grid<'_>,
         passes: &Passes<V>,
+        begin: &impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]),
         turn: &impl Fn(&[V; 3]) -> [V; 3],
-        finish: &impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]),
     ) -> Result<(), Error> {
         let mut delay = 0;
         let mut delays = Vec::with_capacity(passes.len());
@@ -240,73 +301,75 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             let before = place.checked_sub(1).and_then(|before| passes.get(before));
             // The first pass depends on no other.
             delay += match before {
-                Some((before, _)) => (pass.shift - before.shift).max(0),
+                Some((before, _)) => (pass.stored.shift - before.stored.shift).max(0),
                 None => 0,
             };
             delays.push(delay);
         }
-        let counts = |(pass, _): &(Pass, _)| pass.region.counts(pass.run.sign, pass.k - pass.from);
-        let counts = passes
-            .iter()
-            .map(counts)
-            .collect::<Result<Vec<Counts>, _>>()?;
-        let filled = || {
-            self.rows
-                .iter()
-                .zip(&delays)
-                .filter(|(rows, _)| !rows.is_empty())
-        };
-        let start = filled().map(|(rows, delay)| rows.start + delay).min();
-        let end = filled().map(|(rows, delay)| rows.end + delay).max();
+        let nearby = passes.iter().zip(&delays).zip(&self.rows);
+        let nearby =
+            nearby.map(|(((pass, _), delay), rows)| NearbyPass::new(pass, *delay, rows, grid));
+        let nearby = nearby.collect::<Result<Vec<NearbyPass>, _>>()?;
+        let filled = || nearby.iter().filter(|pass| !pass.times.is_empty());
+        let start = filled().map(|pass| pass.times.start).min();
+        let end = filled().map(|pass| pass.times.end).max();
         let (Some(start), Some(end)) = (start, end) else {
             return Ok(());
         };
+        let block = BLOCK * passes.len();
+        let mut steps = Vec::with_capacity(block);
         for time in start..end {
-            for (place, (pass, ramps)) in passes.iter().enumerate() {
-                // `delays`, `rows` and `counts` have one entry for each pass.
-                let j = time - delays[place];
-                if self.rows[place].contains(&j) {
-                    let cells = self.pass(grid, pass, ramps, (j, &counts[place]), turn)?;
-                    if place + 1 == passes.len() {
-                        finish(&mut self.planes, &cells);
+            for (place, pass) in nearby.iter().enumerate() {
+                if pass.times.contains(&time) {
+                    let (mut cells, counts) = pass.row(time, grid)?;
+                    for (cells, start) in cells.iter_mut().zip(self.starts) {
+                        *cells = cells.start - start..cells.end - start;
+                    }
+                    steps.push(Step {
+                        place,
+                        cells,
+                        counts,
+                    });
+                    if steps.len() == block {
+                        self.make_steps(&steps, passes, begin, turn)?;
+                        steps.clear();
+                    }
+                }
+            }
+        }
+        self.make_steps(&steps, passes, begin, turn)
+    }
+
+    /// Makes consecutive steps in every plane, from the top plane down.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a count without a value.
+    fn make_steps(
+        &mut self,
+        steps: &[Step],
+        passes: &Passes<V>,
+        begin: &impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]),
+        turn: &impl Fn(&[V; 3]) -> [V; 3],
+    ) -> Result<(), Error> {
+        for p in (0..self.planes.len()).rev() {
+            for step in steps {
+                let (pass, ramps) = &passes[step.place];
+                if step.place == 0 {
+                    begin(&mut self.planes[..=p], &step.cells);
+                }
+                let (Ramps([a, b, c]), [alpha, beta, gamma]) = (&ramps[p], &step.counts);
+                let along = [alpha.along(a)?, beta.along(b)?, gamma.along(c)?];
+                let rows = row(&mut self.planes[p], step.cells.clone());
+                if pass.turns {
+                    add_and_turn(rows, &along, turn);
+                } else {
+                    for (row, along) in rows.into_iter().zip(&along) {
+                        add(row, along);
                     }
                 }
             }
         }
         Ok(())
-    }
-
-    /// Makes a pass over row j, and returns the cells of the row.
-    ///
-    /// # Errors
-    /// As for [`make`](Self::make).
-    fn pass(
-        &mut self,
-        grid: &Grid<'_>,
-        pass: &Pass,
-        ramps: &[Ramps<V>],
-        (j, counts): (i128, &Counts),
-        turn: &impl Fn(&[V; 3]) -> [V; 3],
-    ) -> Result<[Range<usize>; 3], Error> {
-        let i = pass.part.row(j);
-        let mut cells = grid.row(j, &i, pass.shift)?;
-        for (cells, start) in cells.iter_mut().zip(self.starts) {
-            *cells = cells.start - start..cells.end - start;
-        }
-        let n = cells[0].len();
-        let [alpha, beta, gamma] = counts.in_row([i.start, j], n)?;
-        for (plane, Ramps([a, b, c])) in self.planes.iter_mut().zip(ramps) {
-            let rows = row(plane, cells.clone());
-            let along = [alpha.along(a)?, beta.along(b)?, gamma.along(c)?];
-            if pass.turns {
-                add_and_turn(rows, &along, turn);
-            } else {
-                for (row, along) in rows.into_iter().zip(&along) {
-                    add(row, along);
-                }
-            }
-        }
-        Ok(cells)
     }
 }
 
@@ -421,33 +484,35 @@ mod tests {
         passes
     }
 
-    /// Makes all passes of a pile in groups of `at_a_time`, in at most `number` bands. Adds `finished` to each finished
-    /// row. The numbers stay small, and `turn` is asymmetric.
-    fn swept(shape: &Shape, at_a_time: usize, number: i128, finished: i64) -> Plane<i64> {
+    /// Makes all passes of a pile in groups of `at_a_time`, in two planes and in at most `number` bands. Each group first
+    /// moves `carried` times the lower number to the upper plane. The numbers stay small, and `turn` is asymmetric.
+    fn swept(shape: &Shape, at_a_time: usize, number: i128, carried: i64) -> [[Vec<i64>; 3]; 2] {
+        const SMALL: i64 = 10_007;
         let last = shape.layers() - 1;
         let grid = Grid::new(shape, last, 1).unwrap();
-        let mut plane = [Plane::new(&grid, &0)];
+        let mut planes = [Plane::new(&grid, &0), Plane::new(&grid, &0)];
         let mut passes = passes_of(shape, &grid);
         for (pass, ramps) in &mut passes {
             let times = |w: &i64, n: i128| w * i64::try_from(n).unwrap();
-            ramps.push(Ramps::new(pass, &[1, 2, 5], times));
+            let increments = [[1, 2, 5], [3, 1, 4]];
+            ramps.extend(increments.map(|increments| Ramps::new(pass, &increments, times)));
         }
         let turn = |[a, b, c]: &[i64; 3]| {
-            [2 * b + 3 * c - a, a + 7 * b - c, 5 * a - b + c].map(|x| x.rem_euclid(10_007))
+            [2 * b + 3 * c - a, a + 7 * b - c, 5 * a - b + c].map(|x| x.rem_euclid(SMALL))
         };
-        let finish = |planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]| {
-            for plane in planes {
-                row(plane, cells.clone())
-                    .into_iter()
-                    .flatten()
-                    .for_each(|x| *x += finished);
+        let begin = |up_to: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]| {
+            if let [lower, upper] = up_to {
+                let lower = row(lower, cells.clone()).into_iter().flatten();
+                for (lower, upper) in lower.zip(row(upper, cells.clone()).into_iter().flatten()) {
+                    *upper = (*upper + carried * *lower) % SMALL;
+                    *lower -= carried * *lower;
+                }
             }
         };
         for passes in passes.chunks(at_a_time) {
-            make_whole(number, &mut plane, &grid, passes, (turn, finish)).unwrap();
+            make_whole(number, &mut planes, &grid, passes, (begin, turn)).unwrap();
         }
-        let [plane] = plane;
-        plane
+        planes.map(|Plane(lines)| lines)
     }
 
     #[test]
@@ -467,15 +532,15 @@ mod tests {
             ] {
                 let shape = Shape::under(top.unwrap(), stacking.parse().unwrap()).unwrap();
                 for at_a_time in [1, 2, 5, 8] {
-                    let Plane(plain) = swept(&shape, 1, 1, 0);
+                    let plain = swept(&shape, 1, 1, 0);
                     assert_eq!(
-                        swept(&shape, at_a_time, 1, 0).0,
+                        swept(&shape, at_a_time, 1, 0),
                         plain,
                         "{stacking} {at_a_time}"
                     );
-                    let Plane(whole) = swept(&shape, at_a_time, 1, 1);
+                    let whole = swept(&shape, at_a_time, 1, 1);
                     for number in [2, 3, 7] {
-                        let Plane(bands) = swept(&shape, at_a_time, number, 1);
+                        let bands = swept(&shape, at_a_time, number, 1);
                         assert_eq!(bands, whole, "{stacking} {at_a_time} {number}");
                         compared += 1;
                     }
@@ -491,9 +556,9 @@ mod tests {
         for (side, stacking) in [(12, "+-+-+-+-"), (20, "-++-+--+"), (31, "+++---+-")] {
             let top = Region::triangle(side).unwrap();
             let shape = Shape::under(top, stacking.parse().unwrap()).unwrap();
-            let Plane(whole) = swept(&shape, 8, 1, 1);
+            let whole = swept(&shape, 8, 1, 1);
             for number in 2..=9 {
-                let Plane(bands) = swept(&shape, 8, number, 1);
+                let bands = swept(&shape, 8, number, 1);
                 assert_eq!(bands, whole, "{stacking} {number}");
             }
         }
@@ -505,8 +570,8 @@ mod tests {
     fn rows_are_not_cut_for_less_than_a_band() {
         let column = Region::new(0..=0, 0..=99_999, 0..=99_999).unwrap();
         let shape = Shape::under(column, "+-".parse().unwrap()).unwrap();
-        let Plane(whole) = swept(&shape, 2, 1, 1);
-        let Plane(bands) = swept(&shape, 2, 2, 1);
+        let whole = swept(&shape, 2, 1, 1);
+        let bands = swept(&shape, 2, 2, 1);
         assert_eq!(bands, whole);
     }
 
@@ -529,7 +594,7 @@ mod tests {
             let (pass, _) = &passes[0];
             let rows = pass.rows();
             let before = |border| {
-                let sites = (rows.start..border).map(|j| pass.part.row(j).count());
+                let sites = (rows.start..border).map(|j| pass.stored.part.row(j).count());
                 i128::try_from(sites.sum::<usize>()).unwrap()
             };
             for number in 2..8 {
@@ -553,7 +618,7 @@ mod tests {
                     is_first || before(border - 1) * number < share,
                     "{top} {number}"
                 );
-                assert_eq!(gamma, border + pass.shift);
+                assert_eq!(gamma, border + pass.stored.shift);
                 borders += 1;
             }
         }
@@ -578,12 +643,14 @@ mod tests {
             let grid = Grid::new(&shape, shape.layers() - 1, 1).unwrap();
             let passes = passes_of(&shape, &grid);
             let sites = |(pass, _): &(Pass, _)| {
-                pass.rows().map(|j| pass.part.row(j).count()).sum::<usize>()
+                pass.rows()
+                    .map(|j| pass.stored.part.row(j).count())
+                    .sum::<usize>()
             };
             let sites: usize = passes.iter().map(sites).sum();
             let lost = passes
                 .windows(2)
-                .map(|two| (two[1].0.shift - two[0].0.shift).abs())
+                .map(|two| (two[1].0.stored.shift - two[0].0.stored.shift).abs())
                 .sum::<i128>();
             let rows = i128::try_from(passes[0].0.rows().count()).unwrap();
             for planes in [1, 4] {

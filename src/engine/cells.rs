@@ -59,7 +59,7 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
         let passes = deferred.iter().map(|(pass, w)| (*pass, ramps(pass, w)));
         let passes: Vec<_> = passes.collect();
         let plane = core::slice::from_mut(&mut self.plane);
-        make(plane, grid, &passes, formula::half_turn::<T>, |_, _| ())
+        make(plane, grid, &passes, |_, _| (), formula::half_turn::<T>)
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error> {

@@ -21,7 +21,7 @@ use num_bigint::BigUint;
 
 use crate::Error;
 use crate::error::{bug, refuse_beyond_memory};
-use crate::lattice::Region;
+use crate::lattice::{Region, small};
 use crate::scalar::Algebra;
 use crate::shape::{Shape, Stretch};
 
@@ -41,9 +41,11 @@ pub(crate) struct Grid<'p> {
     pub(super) end: i128,
     /// The lower bounds of i and i+j in layer `last`, if only a third of each layer is stored.
     pub(super) corner: Option<[i128; 2]>,
-    first_row: i128,
-    /// For each row of the last layer: its first site, and the cell of that site.
-    rows: Vec<(i128, usize)>,
+    /// A site near all cells. Positions in `rows` are relative to it.
+    pub(super) origin: [i128; 2],
+    /// For each row of the last layer: the i of its first site, and the cell of that site. The row after the last one
+    /// begins where the cells end.
+    rows: Vec<(i64, usize)>,
     pub(super) cells: usize,
 }
 
@@ -60,15 +62,24 @@ pub(crate) struct Pass {
     pub(crate) k: i128,
     pub(crate) region: Region,
     /// The stored spheres of `region`.
+    pub(super) stored: Stored,
+}
+
+/// The spheres of a layer that a sweep stores, and the position of their cells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stored {
+    /// All spheres of the layer, or a third whose images are the rest.
     pub(crate) part: Region,
-    /// The net number of + steps from layer `k` to the last one.
+    /// The sum i+j+a of the layer, if only a third of it is stored.
+    pub(super) sum: Option<i128>,
+    /// The net number of + steps from the layer to the last one.
     pub(super) shift: i128,
 }
 
 impl Pass {
     /// Returns the stored rows.
     pub(super) fn rows(&self) -> Range<i128> {
-        let rows = self.part.y();
+        let rows = self.stored.part.y();
         *rows.start()..rows.end() + 1
     }
 
@@ -100,18 +111,20 @@ impl<'p> Grid<'p> {
         corner: Option<[i128; 2]>,
         region: &Region,
     ) -> Result<Self, Error> {
+        let origin = [*region.x().start(), *region.y().start()];
         let mut rows = Vec::new();
         let mut cells = 0;
         for row in region.rows(last) {
-            rows.push((row.i.start, cells));
-            cells += length(&row.i)?;
+            rows.push((small(row.i.start - origin[0])?, cells));
+            cells += length(small(row.i.end - row.i.start)?)?;
         }
+        rows.push((0, cells));
         Ok(Self {
             shape,
             last,
             end,
             corner,
-            first_row: *region.y().start(),
+            origin,
             rows,
             cells,
         })
@@ -151,16 +164,11 @@ impl<'p> Grid<'p> {
             from,
             k,
             region: self.shape.layer(k)?,
-            part: self.part(k)?,
-            shift: self.shift(k),
+            stored: self.stored(k)?,
         };
         // Layers are convex, and so are the sets of cells of their lines. So a check of the corners suffices.
-        let places = pass.part.corners().into_iter().flat_map(|[i, j]| {
-            let shift = pass.shift;
-            [[i, j], [i + shift, j], [i, j + shift]]
-        });
-        for [i, j] in places {
-            self.cells(i, j, 1)?;
+        for site in pass.stored.part.corners() {
+            self.site(site, pass.stored.shift)?;
         }
         Ok(Some(pass))
     }
@@ -169,15 +177,25 @@ impl<'p> Grid<'p> {
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
-    pub(crate) fn part(&self, k: i128) -> Result<Region, Error> {
+    pub(crate) fn stored(&self, k: i128) -> Result<Stored, Error> {
         let layer = self.shape.layer(k)?;
-        match self.corner {
+        let shift = self.shift(k);
+        Ok(match self.corner {
             // The corner is lower by one for each + step between the layers.
-            Some(corner) => cut(&layer, corner, (self.last - k).midpoint(self.shift(k))),
-            None => Ok(layer),
-        }
+            Some(corner) => Stored {
+                part: cut(&layer, corner, (self.last - k).midpoint(shift))?,
+                sum: Some(sum(&layer)?),
+                shift,
+            },
+            None => Stored {
+                part: layer,
+                sum: None,
+                shift,
+            },
+        })
     }
 
+    /// Returns the net number of + steps from layer `k` to the last one.
     pub(super) fn shift(&self, k: i128) -> i128 {
         self.shape.shift(self.last) - self.shape.shift(k)
     }
@@ -186,19 +204,19 @@ impl<'p> Grid<'p> {
     ///
     /// # Errors
     /// [`Error::Bug`] if one of the cells does not exist.
-    fn cells(&self, i: i128, j: i128, length: usize) -> Result<Range<usize>, Error> {
+    #[inline]
+    fn cells(&self, i: i64, j: i64, length: usize) -> Result<Range<usize>, Error> {
         let cells = self.cells_in_row(i, j, length);
         cells.ok_or_else(|| bug("every line of a layer continues to the last one"))
     }
 
-    fn cells_in_row(&self, i: i128, j: i128, length: usize) -> Option<Range<usize>> {
-        let row = usize::try_from(j.checked_sub(self.first_row)?).ok()?;
-        let (first, cell) = self.rows.get(row)?;
-        let along = usize::try_from(i.checked_sub(*first)?).ok()?;
-        let start = cell.checked_add(along)?;
+    #[inline]
+    fn cells_in_row(&self, i: i64, j: i64, length: usize) -> Option<Range<usize>> {
+        let row = usize::try_from(j).ok()?;
+        let [(first, cell), (_, next)] = self.rows.get(row..)?.first_chunk()?;
+        let start = cell.checked_add(usize::try_from(i - first).ok()?)?;
         let cells = start..start.checked_add(length)?;
-        let end = self.rows.get(row + 1).map_or(self.cells, |(_, next)| *next);
-        (cells.end <= end).then_some(cells)
+        (cells.end <= *next).then_some(cells)
     }
 
     /// Returns the first cell of row j of the last layer.
@@ -206,7 +224,7 @@ impl<'p> Grid<'p> {
     /// # Errors
     /// [`Error::Bug`] if the layer does not have this row.
     pub(super) fn row_start(&self, j: i128) -> Result<usize, Error> {
-        let row = usize::try_from(j - self.first_row).ok();
+        let row = usize::try_from(j - self.origin[1]).ok();
         let row = row.and_then(|row| self.rows.get(row));
         row.map(|(_, cell)| *cell)
             .ok_or_else(|| bug("every row of a layer continues to the last one"))
@@ -222,7 +240,26 @@ impl<'p> Grid<'p> {
         i: &Range<i128>,
         shift: i128,
     ) -> Result<[Range<usize>; 3], Error> {
-        let n = length(i)?;
+        let [x, y] = self.origin;
+        self.nearby_row(
+            small(j - y)?,
+            &(small(i.start - x)?..small(i.end - x)?),
+            small(shift)?,
+        )
+    }
+
+    /// Returns [`row`](Self::row) for a row whose position is relative to the origin.
+    ///
+    /// # Errors
+    /// As for [`row`](Self::row).
+    #[inline]
+    pub(super) fn nearby_row(
+        &self,
+        j: i64,
+        i: &Range<i64>,
+        shift: i64,
+    ) -> Result<[Range<usize>; 3], Error> {
+        let n = length(i.end - i.start)?;
         Ok([
             self.cells(i.start, j, n)?,
             self.cells(i.start + shift, j, n)?,
@@ -230,12 +267,12 @@ impl<'p> Grid<'p> {
         ])
     }
 
-    /// Returns the cells of a sphere of layer `k`, by direction.
+    /// Returns the cells of a sphere, by direction.
     ///
     /// # Errors
     /// As for [`row`](Self::row).
-    pub(crate) fn site(&self, i: i128, j: i128, k: i128) -> Result<[usize; 3], Error> {
-        let cells = self.row(j, &(i..i + 1), self.shift(k))?;
+    pub(crate) fn site(&self, [i, j]: [i128; 2], shift: i128) -> Result<[usize; 3], Error> {
+        let cells = self.row(j, &(i..i + 1), shift)?;
         Ok(cells.map(|cells| cells.start))
     }
 }
@@ -304,13 +341,19 @@ pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Reg
     part.ok_or_else(|| bug("a third of a layer has a sphere"))
 }
 
-/// Returns the number of sites in a range.
+/// Returns s = i+j+a for a layer that the rotation maps onto itself.
+pub(super) fn sum(region: &Region) -> Result<i128, Error> {
+    let sum = region.sum_of_turn();
+    sum.ok_or_else(|| bug("every layer of a pile is mapped onto itself if its base is"))
+}
+
+/// Returns the number of sites in a row.
 ///
 /// # Errors
 /// [`Error::Bug`] if the number exceeds the address space.
-fn length(i: &Range<i128>) -> Result<usize, Error> {
-    let sites = usize::try_from(i.end - i.start);
-    sites.map_err(|_| bug("a row of a sweep fits in memory"))
+#[inline]
+fn length(sites: i64) -> Result<usize, Error> {
+    usize::try_from(sites).map_err(|_| bug("a row of a sweep fits in memory"))
 }
 
 #[cfg(test)]
@@ -327,7 +370,7 @@ mod tests {
     fn a_sphere_past_the_end_of_its_row_is_a_bug() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
         let grid = Grid::new(&shape, 1, 1).unwrap();
-        assert_eq!(grid.site(1, 0, 1), Ok([1, 1, 1]));
-        assert!(matches!(grid.site(2, 0, 1), Err(Error::Bug { .. })));
+        assert_eq!(grid.site([1, 0], 0), Ok([1, 1, 1]));
+        assert!(matches!(grid.site([2, 0], 0), Err(Error::Bug { .. })));
     }
 }

@@ -28,16 +28,18 @@
 //! the value 13, which is valid in the low position until the carry. The carry then writes 3 there, and adds one to the
 //! next digit.
 //!
-//! *Lemma.* Immediately after a carry the lower limbs lie in [−2^54, 2^54). Let M·2^55 bound their magnitudes after
-//! some passes, with M = 1/2 at first. A pass adds a limb of an increment, at most 2^54, and may apply 2(b + c) − a.
+//! *Lemma.* A carry reduces the lower limbs to [−2^54, 2^54), and then adds the carries from below, at most 2^8. Let
+//! M·2^55 bound the magnitudes of the lower limbs after some passes, with M = 1/2 + ε and ε = 2^−47 at first. A pass adds
+//! a limb of an increment, at most 2^54, and may apply 2(b + c) − a.
 //!
 //! | after | M | reason |
 //! |---|---|---|
 //! | t + 1 passes | 5(M + 1/2), with M after t passes | \|2(b + c) − a\| ≤ 5 max(\|a\|, \|b\|, \|c\|), and no intermediate sum is greater |
-//! | 1, 2, 3 passes | 5, 27.5, 140 | |
-//! | 3 passes | 140 | 140·2^55 + 2^54 < 2^8·2^55 = 2^63; a fourth pass would give 702.5 |
+//! | 1, 2, 3 passes | 5 + 5ε, 27.5 + 25ε, 140 + 125ε | |
+//! | 3 passes | < 140.1 | 140.1·2^55 + 2^54 < 2^8·2^55 = 2^63; a fourth pass would give 702.5 |
 //!
-//! So the lower limbs are carried after every third pass.
+//! So the lower limbs are carried before every fourth pass. A former top limb below a new plane is carried at once: its
+//! magnitude is less than 2^62 + 2^8.
 //!
 //! The top limb equals the number divided by 2^(55(P−1)), less the carries still deferred, which are below 2^8. P is
 //! the least integer with 2√3·B·D·3^(d−1) < 2^62·2^(55(P−1)). Since 2^62 + 2^8 < 2^63, the top limb fits in 64 bits.
@@ -51,8 +53,8 @@
 //!
 //! # Deferred passes
 //! Between carries the planes are independent. Passes are therefore deferred until a carry is required or a number is
-//! read. Then they are made together, row after row ([`make`]). Each row is carried when the last pass has processed
-//! it.
+//! read. Then they are made together, row after row ([`make`]), first in the top plane. Before the first pass processes a
+//! row of a plane, it receives the carries from the plane below, which has not changed yet.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering::{Equal, Less};
@@ -75,7 +77,7 @@ use crate::lattice::Direction;
 pub(super) const LIMB: u32 = 55;
 
 /// The number of passes that the lower limbs allow between two carries.
-const PASSES_PER_CARRY: u32 = 3;
+const PASSES_PER_CARRY: usize = 3;
 
 /// The invariant behind the width of the numbers.
 const WIDE_ENOUGH: &str = "no force is wider than the bound on all forces";
@@ -129,8 +131,8 @@ pub(crate) struct Planes {
     bound: BigInt,
     /// The deferred passes, with their increments.
     deferred: Vec<(Pass, [BigInt; 3])>,
-    /// The passes since the last carry, deferred ones included.
-    passes: u32,
+    /// The passes since the last carry, without deferred ones.
+    passes: usize,
     /// The number of sign changes so far.
     changes: usize,
 }
@@ -149,56 +151,31 @@ impl Planes {
         }
     }
 
-    /// Adds the planes that the deferred passes require.
-    ///
-    /// The former top limb becomes a lower one. It is carried on all lines of the first deferred pass. The former lower
-    /// limbs allow as many passes as before.
-    fn grow(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
-        let available = self.limbs.len();
-        let planes = Size::new(&self.bound, self.changes).planes;
-        let Some((pass, _)) = self.deferred.first().filter(|_| planes > available) else {
-            return Ok(());
-        };
-        self.limbs.resize(planes, Plane::new(grid, &0));
-        let top_and_next = self.limbs[available - 1..=available].iter_mut();
-        let mut top_and_next: Vec<_> = top_and_next.map(Plane::slices_mut).collect();
-        for row in pass.part.rows(pass.k) {
-            let cells = grid.row(row.j, &row.i, pass.shift)?;
-            check(carry_rows(&mut top_and_next, &cells))?;
-        }
-        Ok(())
-    }
-
-    /// Makes the deferred passes. Then carries the lower limbs if they allow no further pass.
+    /// Makes the deferred passes. Before them, carries the lower limbs if they do not allow so many passes, or if a
+    /// new plane makes the former top limbs lower ones.
     fn make_deferred(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
-        self.grow(grid)?;
-        let planes = self.limbs.len();
+        let planes = Size::new(&self.bound, self.changes)
+            .planes
+            .max(self.limbs.len());
         let deferred = core::mem::take(&mut self.deferred);
+        let carries = planes > self.limbs.len() || self.passes + deferred.len() > PASSES_PER_CARRY;
+        self.passes = deferred.len() + if carries { 0 } else { self.passes };
+        self.limbs.resize(planes, Plane::new(grid, &0));
         let mut passes = Vec::with_capacity(deferred.len());
         for (pass, increments) in deferred {
-            let ramps = Ramps::new(&pass, &increments, |w, n| {
-                limbs(&force(n.into(), w), planes)
-            });
-            let of_plane = |p: usize| ramps.try_map(|limbs| limbs.as_ref().map(|limbs| limbs[p]));
-            let ramps: Option<Vec<_>> = (0..planes).map(of_plane).collect();
+            let ramps = ramps_of_planes(&pass, &increments, planes);
             passes.push((pass, ramps.ok_or_else(|| bug(WIDE_ENOUGH))?));
         }
-        if self.passes < PASSES_PER_CARRY {
-            return make(&mut self.limbs, grid, &passes, tripled_apart, |_, _| ());
-        }
         let fits = AtomicBool::new(true);
-        make(
-            &mut self.limbs,
-            grid,
-            &passes,
-            tripled_apart,
-            |planes, cells| {
-                if !carry_rows(planes, cells) {
+        let begin = |up_to: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]| {
+            if carries {
+                carry_into_last(up_to, cells);
+                if up_to.len() == planes && !are_last_within_2_62(up_to, cells) {
                     fits.store(false, Ordering::Relaxed);
                 }
-            },
-        )?;
-        self.passes = 0;
+            }
+        };
+        make(&mut self.limbs, grid, &passes, begin, tripled_apart)?;
         check(fits.into_inner())
     }
 
@@ -207,6 +184,19 @@ impl Planes {
         assert_none_deferred(&self.deferred);
         let top_down = self.limbs.iter().rev();
         top_down.map(|plane| plane.slices(cells.clone())).collect()
+    }
+
+    /// Returns the limbs of some lines, for three columns of lines. The top limbs come first. Each line is given by its
+    /// direction and its cell.
+    pub(super) fn gathered(&self, columns: &[Vec<(usize, usize)>; 3]) -> Vec<[Vec<i64>; 3]> {
+        assert_none_deferred(&self.deferred);
+        let limbs = |Plane(lines): &Plane<i64>, column: &Vec<(usize, usize)>| {
+            let cells = column.iter();
+            cells.map(|(line, cell)| lines[*line][*cell]).collect()
+        };
+        let top_down = self.limbs.iter().rev();
+        let of_plane = |plane| columns.each_ref().map(|column| limbs(plane, column));
+        top_down.map(of_plane).collect()
     }
 
     /// Returns whether the lines of two spheres have equal limbs. If so, their forces are equal.
@@ -244,8 +234,8 @@ impl Planes {
         assert_none_deferred(&self.deferred);
         self.carry()?;
         let mut least: [Option<(Vec<i64>, Place)>; 3] = [None, None, None];
-        for row in pass.part.rows(pass.k) {
-            let cells = grid.row(row.j, &row.i, pass.shift)?;
+        for row in pass.stored.part.rows(pass.k) {
+            let cells = grid.row(row.j, &row.i, pass.stored.shift)?;
             let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
                 for (direction, least) in Direction::ALL.into_iter().zip(&mut least) {
@@ -259,7 +249,7 @@ impl Planes {
                     // In a whole layer, row order finds the first position first. If only a third is stored, images may
                     // precede the stored line.
                     if order == Less || order == Equal && grid.corner.is_some() {
-                        let first = grid.first_image([i, row.j], direction, pass.k)?;
+                        let first = pass.stored.first_image([i, row.j], direction)?;
                         match least {
                             Some((_, place)) if order == Equal => *place = first.min(*place),
                             _ => *least = Some((limbs.collect(), first)),
@@ -305,8 +295,7 @@ impl Layer<BigRational> for Planes {
     ) -> Result<(), Error> {
         self.changes = pass.run.index + usize::from(pass.turns);
         self.deferred.push((*pass, increments.clone()));
-        self.passes += 1;
-        if self.passes == PASSES_PER_CARRY {
+        if self.deferred.len() == PASSES_PER_CARRY {
             return self.make_deferred(grid);
         }
         Ok(())
@@ -348,19 +337,57 @@ impl Layer<BigRational> for Planes {
     }
 }
 
-/// Reduces the lower limbs of some cells to [−2^54, 2^54). Returns whether the top limbs are within the proved width.
-fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool {
-    for p in 1..planes.len() {
-        let (below, above) = planes.split_at_mut(p);
-        if let (Some(lower), Some(upper)) = (below.last_mut(), above.first_mut()) {
-            let (lower, upper) = (row(lower, cells.clone()), row(upper, cells.clone()));
-            for (lower, upper) in lower.into_iter().zip(upper) {
-                carry(lower, upper);
+/// Returns the ramps of a pass in every plane. Returns `None` if a value exceeds the planes.
+fn ramps_of_planes(
+    pass: &Pass,
+    increments: &[BigInt; 3],
+    planes: usize,
+) -> Option<Vec<Ramps<i64>>> {
+    let mut by_plane = Vec::with_capacity(planes);
+    by_plane.resize_with(planes, || Ramps([const { Vec::new() }; 3]));
+    for (line, w) in increments.iter().enumerate() {
+        if let Some(same) = increments[..line].iter().position(|other| other == w) {
+            for Ramps(lines) in &mut by_plane {
+                let copied = lines[same].clone();
+                lines[line] = copied;
+            }
+            continue;
+        }
+        for n in 0..=pass.greatest_count() {
+            let limbs = limbs(&force(n.into(), w), planes)?;
+            for (Ramps(lines), limb) in by_plane.iter_mut().zip(limbs) {
+                lines[line].push(limb);
             }
         }
     }
-    let top = planes.last_mut().map(|top| row(top, cells.clone()));
-    top.into_iter().flatten().all(|top| are_within_2_62(top))
+    Some(by_plane)
+}
+
+/// Reduces the lower limbs of some cells to [−2^54, 2^54). Returns whether the top limbs are within the proved width.
+fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool {
+    for p in 1..planes.len() {
+        carry_into_last(&mut planes[..=p], cells);
+    }
+    are_last_within_2_62(planes, cells)
+}
+
+/// Reduces the limbs of some cells in the last plane but one, and adds the carries to the last plane.
+fn carry_into_last(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) {
+    if let [.., lower, upper] = planes {
+        let (lower, upper) = (row(lower, cells.clone()), row(upper, cells.clone()));
+        for (lower, upper) in lower.into_iter().zip(upper) {
+            carry(lower, upper);
+        }
+    }
+}
+
+/// Returns whether all limbs of some cells in the last plane are at least −2^62 and below 2^62. Then their two highest
+/// bits are equal.
+fn are_last_within_2_62(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool {
+    let rows = planes.last_mut().map(|last| row(last, cells.clone()));
+    let limbs = rows.iter().flatten();
+    let unlike = |row: &[i64]| row.iter().fold(0, |unlike, x| unlike | (x ^ (x << 1)));
+    limbs.fold(0, |all, row| all | unlike(row)) >= 0
 }
 
 /// Reduces limbs to [−2^54, 2^54), and adds the carries to the next limbs.
@@ -375,11 +402,6 @@ fn carry(lower: &mut [i64], upper: &mut [i64]) {
         *next += ((moved ^ OFFSET) >> LIMB).cast_signed() - (OFFSET >> LIMB).cast_signed();
         *x = (moved & ((1 << LIMB) - 1)).cast_signed() - HALF;
     }
-}
-
-/// Returns whether all limbs are at least −2^62 and below 2^62. Then their two highest bits are equal.
-fn are_within_2_62(limbs: &[i64]) -> bool {
-    limbs.iter().fold(0, |unlike, x| unlike | (x ^ (x << 1))) >= 0
 }
 
 /// Returns the number with these limbs, the top one first.
@@ -438,7 +460,7 @@ mod tests {
     fn loads_that_follow_each_other_do_not_fill_a_limb() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
         let grid = Grid::new(&shape, 1, 2).unwrap();
-        let (mut planes, cells) = (two_planes(&grid), grid.site(0, 0, 0).unwrap());
+        let (mut planes, cells) = (two_planes(&grid), grid.site([0, 0], 1).unwrap());
         let load = BigInt::from((1_u64 << (LIMB - 1)) - 1);
         let loads = 1_u32 << 16;
         for _ in 0..loads {
@@ -463,7 +485,7 @@ mod tests {
             (1, 0, [[0, 5, 0], [2, 1, 2]]),
             (0, 1, [[0; 3], [2; 3]]),
         ] {
-            let cells = grid.site(i, j, 1).unwrap();
+            let cells = grid.site([i, j], 0).unwrap();
             planes.limbs[0].add_to(cells, &lower);
             planes.limbs[1].add_to(cells, &top);
         }
@@ -508,14 +530,16 @@ mod tests {
         }
     }
 
-    /// Checks the table of the lemma, with M in halves, and that a fourth pass would overflow.
+    /// Checks the table of the lemma, and that a fourth pass would overflow.
     #[test]
     fn lower_limbs_allow_three_passes_and_no_more() {
         let half = 1_i128 << (LIMB - 1);
-        let bounds = |passes| (0..passes).fold(1, |halves, _| 5 * (halves + 1));
-        assert_eq!(bounds(PASSES_PER_CARRY), 280);
-        assert!((bounds(PASSES_PER_CARRY) + 1) * half < 1 << 63);
-        assert!(bounds(PASSES_PER_CARRY + 1) * half >= 1 << 63);
+        let carried = half + (1 << 8);
+        let bound = |passes| (0..passes).fold(carried, |bound, _| 5 * (bound + half));
+        assert_eq!(bound(PASSES_PER_CARRY), 280 * half + 125 * (1 << 8));
+        assert!(bound(PASSES_PER_CARRY) + half < 1 << 63);
+        assert!((bound(PASSES_PER_CARRY) + half) >> LIMB < 1 << 8);
+        assert!(bound(PASSES_PER_CARRY + 1) >= 1 << 63);
     }
 
     /// Turns the largest limbs three times, each time after adding increments of the same size. The largest limb grows
@@ -539,10 +563,23 @@ mod tests {
     #[test]
     fn a_top_limb_that_is_too_great_is_noticed() {
         let within = 1_i64 << 62;
-        assert!(are_within_2_62(&[0, -1, within - 1, -within]));
-        assert!(!are_within_2_62(&[0, within]));
-        assert!(!are_within_2_62(&[-within - 1, 0]));
-        assert!(!are_within_2_62(&[within, within, 0]));
+        // The lower plane, and numbers outside the cells, do not count.
+        let is_within = |limbs: [i64; 4]| {
+            [0, 1, 2].map(|line| {
+                let (mut lower, mut top) = ([[i64::MIN; 5]; 3], [[0, 0, 0, 0, i64::MAX]; 3]);
+                top[line][..4].copy_from_slice(&limbs);
+                let mut planes = [&mut lower, &mut top].map(|p| p.each_mut().map(|p| &mut p[..]));
+                are_last_within_2_62(&mut planes, &[0..4, 0..4, 0..4])
+            })
+        };
+        assert_eq!(is_within([0, -1, within - 1, -within]), [true; 3]);
+        for limbs in [
+            [0, within, 0, 0],
+            [-within - 1, 0, 0, 0],
+            [within, within, 0, 0],
+        ] {
+            assert_eq!(is_within(limbs), [false; 3], "{limbs:?}");
+        }
     }
 
     /// Compares the forces on all lines of some layers, in limbs and in big integers.
@@ -603,7 +640,20 @@ mod tests {
             let pass = grid.pass(k, k + 1).unwrap().unwrap();
             planes.pass(&grid, &pass, &one).unwrap();
             assert_eq!(planes.deferred.len(), deferred, "{k}");
-            assert_eq!(planes.passes as usize, deferred, "{k}");
+        }
+    }
+
+    #[test]
+    fn limbs_are_carried_before_every_fourth_pass() {
+        let shape = Shape::under(Region::SITE, "+-+-+-+-".parse().unwrap()).unwrap();
+        let grid = Grid::new(&shape, 8, 2).unwrap();
+        let mut planes = two_planes(&grid);
+        let one = [1, 1, 1].map(BigInt::from);
+        for (k, passes) in (0..8).zip([1, 2, 3, 1, 2, 3, 1, 2]) {
+            let pass = grid.pass(k, k + 1).unwrap().unwrap();
+            planes.pass(&grid, &pass, &one).unwrap();
+            planes.catch_up(&grid).unwrap();
+            assert_eq!(planes.passes, passes, "{k}");
         }
     }
 
@@ -628,7 +678,7 @@ mod tests {
     fn a_number_wider_than_its_bound_is_a_bug() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
         let grid = Grid::new(&shape, 1, 1).unwrap();
-        let (mut planes, cells) = (Planes::new(&grid, 1.into()), grid.site(0, 0, 0).unwrap());
+        let (mut planes, cells) = (Planes::new(&grid, 1.into()), grid.site([0, 0], 1).unwrap());
         let wide = [1, 0, 0].map(|n| BigInt::from(n) << 62);
         let added = planes.add_at(cells, &wide);
         assert!(matches!(added, Err(Error::Bug { .. })));

@@ -246,8 +246,9 @@ impl<'p, T: Algebra> Lines<'p, T> {
     /// Returns the increments of an ordinary sphere above which the sign changes `changes` times, over the denominator
     /// after these changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
+        let one = self.scaled(T::Numerator::one(), changes);
         let ordinary = self.ordinary[changes % 2].each_ref();
-        ordinary.map(|w| self.scaled(w.clone(), changes))
+        ordinary.map(|w| w.clone() * &one)
     }
 
     /// Returns the increments of a sphere in the run below it, less those of an ordinary weight.

@@ -30,13 +30,6 @@ impl<V: Clone + PartialEq> Ramps<V> {
         let gamma = if a == c { alpha.clone() } else { ramp(c) };
         Self([alpha, beta, gamma])
     }
-
-    /// Applies `part` to each value. Returns `None` if `part` does so for a value.
-    pub(super) fn try_map<U>(&self, part: impl Fn(&V) -> Option<U>) -> Option<Ramps<U>> {
-        let of_line = |ramp: &Vec<V>| ramp.iter().map(&part).collect::<Option<Vec<U>>>();
-        let [a, b, c] = self.0.each_ref().map(of_line);
-        Some(Ramps([a?, b?, c?]))
-    }
 }
 
 impl<V: Clone> Plane<V> {

@@ -145,7 +145,7 @@ impl<'p> Engine<'p, BigRational, Planes> {
         rows: &Rows<'_>,
         (lines, system): (&Lines<'p, BigRational>, &System<'p>),
     ) -> Result<Self, Error> {
-        Self::new(plan, rows, |last| exact_sweep(lines, system, last))
+        Self::new(plan, rows, |last| shortest_exact_sweep(lines, system, last))
     }
 }
 
@@ -161,7 +161,7 @@ pub(crate) fn exact_sweep<'p>(
     let size = system.size_of_sweep(last);
     let grid = Grid::new(lines.shape, last, size.planes)?;
     let layer = Planes::new(&grid, system.bound_of_sweep(last));
-    Ok(Descent::new(lines.clone(), grid, layer))
+    Descent::new(lines.clone(), grid, layer)
 }
 
 /// Returns the forces from above on consecutive spheres of a row, with one tree for each piece of it.
@@ -199,5 +199,5 @@ pub(crate) fn shortest_exact_sweep<'p>(
     }
     let grid = Grid::of_thirds(lines.shape, last, system.size_of_sweep(last).planes)?;
     let layer = Planes::new(&grid, system.bound_of_sweep(last));
-    Ok(Descent::new(lines.clone(), grid, layer))
+    Descent::new(lines.clone(), grid, layer)
 }

@@ -97,5 +97,5 @@ pub(crate) fn plain_sweep<'p, T: Algebra>(
     }
     let grid = Grid::new(lines.shape, last, words)?;
     let layer = Cells::new(&grid, &T::Numerator::zero());
-    Ok(Descent::new(lines.clone(), grid, layer))
+    Descent::new(lines.clone(), grid, layer)
 }

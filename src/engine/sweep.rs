@@ -26,17 +26,18 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use super::cells::Cells;
-use super::grid::{Grid, Layer, Pass};
+use super::grid::{Grid, Layer, Pass, Stored};
 use super::interrupt::check as check_interrupt;
 use super::limbs::{Least, Planes};
 use super::lines::{Lines, Received};
 use super::meter::Meter;
 use super::nearest::{Readout, Unit};
+use super::slices::split_front;
 use super::thirds::turned;
 use crate::Error;
 use crate::error::bug;
 use crate::formula::half_turn;
-use crate::lattice::{Region, Row, Site};
+use crate::lattice::{Region, Row, Site, small};
 use crate::scalar::{Algebra, CorrectlyRounded};
 
 /// The state of a sweep: the forces on all lines of one layer.
@@ -48,20 +49,27 @@ pub(crate) struct Descent<'p, T: Algebra, S> {
     /// The last pass, or `None` at the top.
     pass: Option<Pass>,
     k: i128,
+    /// The stored spheres of layer `k`.
+    stored: Stored,
     /// Whether the lines already contain the extra weights and loads of layer `k`.
     extras_added: bool,
 }
 
 impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
-    pub(crate) fn new(lines: Lines<'p, T>, grid: Grid<'p>, layer: S) -> Self {
-        Self {
+    /// Returns a sweep that starts at the top.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(crate) fn new(lines: Lines<'p, T>, grid: Grid<'p>, layer: S) -> Result<Self, Error> {
+        Ok(Self {
             lines,
+            stored: grid.stored(0)?,
             grid,
             layer,
             pass: None,
             k: 0,
             extras_added: false,
-        }
+        })
     }
 
     /// Returns the current layer.
@@ -70,11 +78,8 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     }
 
     /// Returns the stored spheres of the current layer: all of them, or a third whose images are the rest.
-    ///
-    /// # Errors
-    /// [`Error::Bug`].
-    pub(crate) fn part(&self) -> Result<Region, Error> {
-        self.grid.part(self.k)
+    pub(crate) fn part(&self) -> Region {
+        self.stored.part
     }
 
     /// Advances to layer `k`. Does nothing if the sweep is already at this layer or below.
@@ -89,6 +94,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
                 let (next, moves) = self.grid.next_window()?;
                 self.layer.move_to(&next, &moves);
                 self.grid = next;
+                self.stored = self.grid.stored(self.k)?;
             }
             let pass = self.grid.pass(self.k, k)?;
             let pass = pass.ok_or_else(|| bug("a pass leads further down"))?;
@@ -98,11 +104,12 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             self.layer.pass(&self.grid, &pass, &increments)?;
             meter.pass();
             if meter.counts() && pass.turns {
-                let sites = pass.part.site_count().to_usize();
+                let sites = pass.stored.part.site_count().to_usize();
                 // A count beyond `usize` is reported as its maximum.
                 meter.turn(sites.unwrap_or(usize::MAX));
             }
-            (self.k, self.pass, self.extras_added) = (pass.k, Some(pass), false);
+            (self.k, self.stored) = (pass.k, pass.stored);
+            (self.pass, self.extras_added) = (Some(pass), false);
         }
         self.layer.catch_up(&self.grid)
     }
@@ -125,7 +132,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             self.layer.catch_up(&self.grid)?;
         }
         for site in sites {
-            let cells = self.grid.site(site.i, site.j, site.k)?;
+            let cells = self.grid.site([site.i, site.j], self.grid.shift(site.k))?;
             self.layer.add_at(cells, &self.lines.extra(site))?;
         }
         Ok(())
@@ -139,8 +146,8 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         if site.k != self.k {
             return Err(bug("a sweep is queried only at its current layer"));
         }
-        let ([i, j], turns) = self.grid.kept([site.i, site.j], site.k)?;
-        let mut forces = self.layer.at(self.grid.site(i, j, site.k)?);
+        let (image, turns) = self.stored.kept([site.i, site.j])?;
+        let mut forces = self.layer.at(self.grid.site(image, self.stored.shift)?);
         // After the rotations, the force along each direction is on the line of the rotated direction.
         forces.rotate_left(turned(0, turns));
         Ok(Received {
@@ -207,7 +214,7 @@ impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
     pub(crate) fn carried_by_rows<'s>(
         &'s self,
     ) -> impl Fn(&Row) -> Result<[&'s [T::Numerator]; 3], Error> + use<'s, 'p, T> {
-        let shift = self.grid.shift(self.k);
+        let shift = self.stored.shift;
         move |row| Ok(self.layer.slices(self.grid.row(row.j, &row.i, shift)?))
     }
 }
@@ -217,19 +224,71 @@ impl Descent<'_, BigRational, Planes> {
     /// a float.
     ///
     /// # Errors
-    /// [`Error::Bug`] if the row belongs to another layer, or exceeds the stored part of it.
+    /// [`Error::Bug`] if the row belongs to another layer, or exceeds its layer.
     pub(crate) fn nearest_row<F: CorrectlyRounded>(
         &self,
         row: &Row,
         (readout, units): (&Readout, &[Unit; 3]),
         out: [&mut [F]; 3],
     ) -> Result<bool, Error> {
-        let kept = self.part()?.row_within(row.j);
-        if row.k != self.k || row.i.start < kept.start || row.i.end > kept.end {
-            return Err(bug("a sweep is queried only for rows that it stores"));
+        if row.k != self.k {
+            return Err(bug("a sweep is queried only for rows of its layer"));
         }
-        let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k))?;
-        readout.write(units, &self.layer.slices(&cells), out)
+        if row.i.is_empty() {
+            return Ok(true);
+        }
+        let kept = self.stored.part.row_within(row.j);
+        if kept.start <= row.i.start && row.i.end <= kept.end {
+            let cells = self.grid.row(row.j, &row.i, self.stored.shift)?;
+            return readout.write(units, &self.layer.slices(&cells), out);
+        }
+        let mut columns = [(); 3].map(|()| Vec::with_capacity(out[0].len()));
+        let shift = small(self.stored.shift)?;
+        for ([i, j], turns) in self.stored.kept_in_row(row, self.grid.origin)? {
+            let cells = self.grid.nearby_row(j, &(i..i + 1), shift)?;
+            for (line, column) in columns.iter_mut().enumerate() {
+                let image = turned(line, turns);
+                column.push((image, cells[image].start));
+            }
+        }
+        let limbs = self.layer.gathered(&columns);
+        let limbs: Vec<_> = limbs
+            .iter()
+            .map(|limbs| limbs.each_ref().map(Vec::as_slice))
+            .collect();
+        readout.write(units, &limbs, out)
+    }
+
+    /// Returns the stored piece of a row of the current layer, and the values that belong to it.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a row of another length.
+    pub(crate) fn stored_piece<'v, V>(
+        &self,
+        row: &Row,
+        mut values: [&'v mut [V]; 3],
+    ) -> Result<(Row, [&'v mut [V]; 3]), Error> {
+        let kept = self.stored.part.row_within(row.j);
+        // The piece is empty if nothing of the row is stored.
+        let start = kept.start.clamp(row.i.start, row.i.end);
+        let piece = |i| Row { i, ..row.clone() };
+        // It ends with the row at the latest.
+        let stored = piece(start..kept.end.clamp(start, row.i.end));
+        split_front(&mut values, piece(row.i.start..start).length()?)?;
+        let values = split_front(&mut values, stored.length()?)?;
+        Ok((stored, values))
+    }
+
+    /// Copies values of the stored lines of the current layer to the lines of their images. The slices have one value for
+    /// each sphere of the layer, by direction.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(crate) fn copy_to_images<V: Copy>(&self, slices: &mut [&mut [V]; 3]) -> Result<(), Error> {
+        if self.grid.corner.is_none() {
+            return Ok(());
+        }
+        self.stored.copy_to_images(self.grid.shape, self.k, slices)
     }
 
     /// Returns whether two stored spheres of the current layer have equal forces and equal weights.
@@ -241,7 +300,7 @@ impl Descent<'_, BigRational, Planes> {
     /// [`Error::Bug`] for a sphere that is not stored.
     pub(crate) fn are_alike(&self, [one, other]: [Site; 2]) -> Result<bool, Error> {
         let extra = |site| self.lines.extra_loads.contains_key(&site);
-        let cells = |Site { i, j, k }| self.grid.site(i, j, k);
+        let cells = |Site { i, j, .. }| self.grid.site([i, j], self.stored.shift);
         let alike = self.layer.are_alike([cells(one)?, cells(other)?]);
         Ok(alike && !extra(one) && !extra(other))
     }
@@ -316,19 +375,19 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it stores"))]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows of its layer"))]
     fn a_row_of_another_layer_is_a_bug() {
         assert!(matches!(write(&row(3, [0, 0])), Err(Error::Bug { .. })));
     }
 
     #[test]
-    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it stores"))]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows of its layer"))]
     fn a_row_that_begins_too_soon_is_a_bug() {
         assert!(matches!(write(&row(4, [1, 0])), Err(Error::Bug { .. })));
     }
 
     #[test]
-    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it stores"))]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows of its layer"))]
     fn a_row_that_ends_too_late_is_a_bug() {
         assert!(matches!(write(&row(4, [0, 1])), Err(Error::Bug { .. })));
     }

@@ -31,11 +31,17 @@
 //! window are named by its last layer. They cover the stored part of that layer, widened by the distance that lines
 //! move in the window. The next window begins with the same layer, and stores a larger part of it. The additional
 //! numbers are copied from their images.
+//!
+//! # Reading
+//! A sphere that is not stored has the forces of its image, each along the rotated direction. So floats of contact
+//! forces are computed for the stored spheres alone, and copied to their images.
 
-use super::grid::{Grid, Moves, Piece, cut};
+use alloc::vec::Vec;
+
+use super::grid::{Grid, Moves, Piece, Stored, cut, sum};
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::{Direction, Region};
+use crate::lattice::{Direction, Row, small};
 use crate::pile::System;
 use crate::shape::Shape;
 
@@ -95,70 +101,22 @@ impl<'p> Grid<'p> {
         Self::over(shape, [last, end], Some(corner), &cells)
     }
 
-    /// Returns the images of a sphere under 0, 1 and 2 rotations, or only the sphere if whole layers are stored.
-    ///
-    /// # Errors
-    /// [`Error::LayerOutside`].
-    pub(super) fn images(
-        &self,
-        place: [i128; 2],
-        k: i128,
-    ) -> Result<impl Iterator<Item = [i128; 2]> + use<>, Error> {
-        let s = match self.corner {
-            Some(_) => Some(sum(&self.shape.layer(k)?)?),
-            None => None,
-        };
-        let next = move |[i, j]: &[i128; 2]| s.map(|s| [*j, s - i - j]);
-        Ok(core::iter::successors(Some(place), next).take(3))
-    }
-
-    /// Returns the stored image of a sphere, and the number of rotations that lead to it.
-    ///
-    /// # Errors
-    /// [`Error::Bug`].
-    pub(super) fn kept(&self, place: [i128; 2], k: i128) -> Result<([i128; 2], usize), Error> {
-        if self.corner.is_none() {
-            return Ok((place, 0));
-        }
-        let part = self.part(k)?;
-        let mut images = self.images(place, k)?.zip(0..);
-        let kept = images.find(|([i, j], _)| part.contains(*i, *j));
-        kept.ok_or_else(|| bug("one of three images is kept"))
-    }
-
-    /// Returns the first image of a line of layer `k` in row order, as (j, i, direction).
-    ///
-    /// # Errors
-    /// [`Error::LayerOutside`].
-    pub(super) fn first_image(
-        &self,
-        place: [i128; 2],
-        direction: Direction,
-        k: i128,
-    ) -> Result<(i128, i128, Direction), Error> {
-        let images = self.images(place, k)?.zip(0..);
-        let images =
-            images.map(|([i, j], turns)| (j, i, Direction::ALL[turned(direction.index(), turns)]));
-        images
-            .min()
-            .ok_or_else(|| bug("a line is an image of itself"))
-    }
-
     /// Returns the moves of the numbers to the next window.
     fn moves_to(&self, next: &Self) -> Result<Moves, Error> {
         let k = self.last;
-        let (available, needed) = (self.part(k)?, next.part(k)?);
+        let (available, needed) = (self.stored(k)?, next.stored(k)?);
         let mut moves = Moves::default();
-        for row in needed.rows(k) {
-            let same = available.row_within(row.j);
+        for row in needed.part.rows(k) {
+            let same = available.part.row_within(row.j);
             let same = if same.is_empty() {
                 row.i.start..row.i.start
             } else {
                 same
             };
-            let cells = |grid: &Self| grid.row(row.j, &same, grid.shift(k));
             if !same.is_empty() {
-                let lines = cells(self)?.into_iter().zip(cells(next)?).enumerate();
+                let from = self.row(row.j, &same, available.shift)?;
+                let to = next.row(row.j, &same, needed.shift)?;
+                let lines = from.into_iter().zip(to).enumerate();
                 moves.rows.extend(lines.map(|(line, (from, to))| Piece {
                     from: (line, from.start),
                     to: (line, to.start),
@@ -166,8 +124,9 @@ impl<'p> Grid<'p> {
                 }));
             }
             for i in (row.i.start..same.start).chain(same.end..row.i.end) {
-                let ([x, y], turns) = self.kept([i, row.j], k)?;
-                let (from, to) = (self.site(x, y, k)?, next.site(i, row.j, k)?);
+                let (image, turns) = available.kept([i, row.j])?;
+                let from = self.site(image, available.shift)?;
+                let to = next.site([i, row.j], needed.shift)?;
                 moves.images.extend((0..3).map(|line| {
                     let image = turned(line, turns);
                     Piece {
@@ -182,21 +141,114 @@ impl<'p> Grid<'p> {
     }
 }
 
+impl Stored {
+    /// Returns the images of a sphere under 0, 1 and 2 rotations, or only the sphere if whole layers are stored.
+    pub(super) fn images(&self, place: [i128; 2]) -> impl Iterator<Item = [i128; 2]> + use<> {
+        let sum = self.sum;
+        let next = move |[i, j]: &[i128; 2]| sum.map(|s| [*j, s - i - j]);
+        core::iter::successors(Some(place), next).take(3)
+    }
+
+    /// Returns the stored image of a sphere, and the number of rotations that lead to it.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn kept(&self, place: [i128; 2]) -> Result<([i128; 2], usize), Error> {
+        if self.sum.is_none() {
+            return Ok((place, 0));
+        }
+        let mut images = self.images(place).zip(0..);
+        let kept = images.find(|([i, j], _)| self.part.contains(*i, *j));
+        kept.ok_or_else(|| bug("one of three images is kept"))
+    }
+
+    /// Returns the stored image of each sphere of a row, relative to `origin`, and the number of rotations that lead to it.
+    /// Only a third of the layer is stored.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn kept_in_row(
+        &self,
+        row: &Row,
+        origin @ [x, y]: [i128; 2],
+    ) -> Result<Vec<([i64; 2], usize)>, Error> {
+        let part = self.part.relative_to(origin)?;
+        let sum = self
+            .sum
+            .ok_or_else(|| bug("a sweep is queried only for rows of its layer"))?;
+        // The rotation (i, j) → (j, s−i−j), relative to the origin.
+        let [across, sum] = [small(y - x)?, small(sum - x - 2 * y)?];
+        let next = |[i, j]: [i64; 2]| [j + across, sum - i - j];
+        let [first, end, j] = [
+            small(row.i.start - x)?,
+            small(row.i.end - x)?,
+            small(row.j - y)?,
+        ];
+        let kept = (first..end).map(|i| {
+            let images = [[i, j], next([i, j]), next(next([i, j]))];
+            let turns = images.iter().position(|image| part.contains(*image));
+            let turns =
+                turns.ok_or_else(|| bug("a sweep is queried only for rows of its layer"))?;
+            Ok((images[turns], turns))
+        });
+        kept.collect()
+    }
+
+    /// Copies values that belong to the lines of the stored spheres to the lines of their images. The slices have one
+    /// value for each sphere of the layer, by direction.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(crate) fn copy_to_images<V: Copy>(
+        &self,
+        shape: &Shape,
+        k: i128,
+        slices: &mut [&mut [V]; 3],
+    ) -> Result<(), Error> {
+        let layer = shape.layer(k)?;
+        let cells = Grid::over(shape, [k, k], None, &layer)?;
+        for row in layer.rows(k) {
+            let own = cells.row(row.j, &row.i, 0)?;
+            for (place, ([i, j], turns)) in
+                own[0].clone().zip(self.kept_in_row(&row, cells.origin)?)
+            {
+                if turns > 0 {
+                    let [from, ..] = cells.nearby_row(j, &(i..i + 1), 0)?;
+                    let values = slices.each_ref().map(|slice| slice[from.start]);
+                    for line in 0..3 {
+                        slices[line][place] = values[turned(line, turns)];
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the first image of a line in row order, as (j, i, direction).
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn first_image(
+        &self,
+        place: [i128; 2],
+        direction: Direction,
+    ) -> Result<(i128, i128, Direction), Error> {
+        let images = self.images(place).zip(0..);
+        let images =
+            images.map(|([i, j], turns)| (j, i, Direction::ALL[turned(direction.index(), turns)]));
+        images
+            .min()
+            .ok_or_else(|| bug("a line is an image of itself"))
+    }
+}
+
 /// Returns the direction after `turns` rotations: α becomes γ, γ becomes β, and β becomes α.
 pub(super) fn turned(line: usize, turns: usize) -> usize {
     (line + 2 * turns) % 3
 }
 
-/// Returns s = i+j+a for a layer that the rotation maps onto itself.
-fn sum(region: &Region) -> Result<i128, Error> {
-    let sum = region.sum_of_turn();
-    sum.ok_or_else(|| bug("every layer of a pile is mapped onto itself if its base is"))
-}
-
 #[cfg(test)]
 mod tests {
-    use alloc::vec::Vec;
-
     use num_bigint::BigInt;
     use num_rational::BigRational;
 
@@ -204,7 +256,9 @@ mod tests {
     use crate::Pile;
     use crate::engine::limbs::Least;
     use crate::engine::rows::{exact_sweep, shortest_exact_sweep};
-    use crate::engine::{Cells, Descent, Lines};
+    use crate::engine::{Cells, Descent, Lines, Planes, Readout, Unit};
+    use crate::lattice::Region;
+    use crate::scalar::Surd;
 
     /// Returns piles under tops of one sphere, with six sides, with three sides, and away from the origin, and one pile
     /// on a base. The sign changes at every step, seldom, or irregularly.
@@ -233,7 +287,21 @@ mod tests {
         piles
     }
 
-    /// Compares all spheres, and the smallest numbers, in every `stops`-th layer.
+    /// Returns the numbers on the lines of a row as floats.
+    fn floats(sweep: &Descent<'_, BigRational, Planes>, row: &Row) -> [Vec<f64>; 3] {
+        let readout = Readout {
+            combination: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+            own: [(); 3].map(|()| BigInt::ZERO),
+        };
+        let unit = || Unit::new(Surd::from(BigRational::from(BigInt::from(1))), 1.into());
+        let mut floats = [(); 3].map(|()| alloc::vec![0.0; row.length().unwrap()]);
+        let out = floats.each_mut().map(Vec::as_mut_slice);
+        let units = [unit(), unit(), unit()];
+        assert_eq!(sweep.nearest_row(row, (&readout, &units), out), Ok(true));
+        floats
+    }
+
+    /// Compares all spheres, as integers and as floats, and the smallest numbers, in every `stops`-th layer.
     fn compare(pile: &Pile, stops: i128) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         assert!(has_threefold_symmetry(&system));
@@ -251,6 +319,9 @@ mod tests {
                     third.unwrap().forces,
                     "{what} {site}"
                 );
+            }
+            for row in pile.shape().layer(k).unwrap().rows(k) {
+                assert_eq!(floats(&whole, &row), floats(&third, &row), "{what} {row:?}");
             }
             if k > 0 {
                 // Of the smallest numbers, whichever line is stored, the first in row order is the same.
@@ -293,7 +364,7 @@ mod tests {
         let grid = Grid::of_thirds(pile.shape(), last, 1).unwrap();
         assert!(grid.last < last);
         let cells = Cells::new(&grid, &BigInt::ZERO);
-        let mut third = Descent::<BigRational, Cells<BigInt>>::new(lines, grid, cells);
+        let mut third = Descent::<BigRational, Cells<BigInt>>::new(lines, grid, cells).unwrap();
         whole.advance(last, crate::engine::Meter::NONE).unwrap();
         third.advance(last, crate::engine::Meter::NONE).unwrap();
         for site in pile.shape().layer(last).unwrap().rows(last).flatten() {
@@ -328,14 +399,14 @@ mod tests {
             if 3 < k && k < grid.last {
                 grid.corner = grid.corner.map(|corner| corner.map(|c| c + higher));
             }
-            grid.part(k).unwrap()
+            grid.stored(k).unwrap()
         };
         loop {
             let kept = part(&grid, k);
             let layer = shape.layer(k).unwrap();
-            let has = |[i, j]: [i128; 2]| kept.contains(i, j);
+            let has = |[i, j]: [i128; 2]| kept.part.contains(i, j);
             let sites = layer.rows(k).flatten();
-            let mut sites = sites.map(|site| grid.images([site.i, site.j], k).unwrap());
+            let mut sites = sites.map(|site| kept.images([site.i, site.j]));
             if !sites.all(|mut images| images.any(has)) {
                 return false;
             }
@@ -346,7 +417,7 @@ mod tests {
                 grid = grid.next_window().unwrap().0;
                 continue;
             }
-            for site in part(&grid, k + 1).rows(k + 1).flatten() {
+            for site in part(&grid, k + 1).part.rows(k + 1).flatten() {
                 let lines = Direction::ALL.map(|direction| shape.above(site, direction));
                 if !lines
                     .into_iter()

@@ -149,7 +149,7 @@ impl Forces<'_, BigRational> {
     ) -> Result<(), Error> {
         let floor = self.floor();
         // Symmetric images have the same normal force and the same magnitude of shear, so one part is enough.
-        let part = sweep.part()?;
+        let part = sweep.part();
         let mut screen = Screen::new((&self.terms, sweep), across);
         if let Some(screen) = &mut screen {
             // The extremes of a sample of rows come first. Then few spheres of the other rows are candidates.

@@ -2,7 +2,7 @@
 
 mod lines;
 
-pub(crate) use lines::{Along, Counts, Slopes, Trapezoid};
+pub(crate) use lines::{Along, Nearby, Slopes, Trapezoid, small};
 
 use alloc::boxed::Box;
 use core::fmt;

@@ -227,12 +227,22 @@ impl Layer<'_, '_, BigRational> {
             && let Some(sweep) = layers.exact_sweep()
         {
             let defined = AtomicBool::new(true);
+            // The images of a contact force are equal to it, so the stored spheres are enough.
+            let by_images = asked == Asked::Contacts;
             fill_rows(&self.region, k, [&mut *a, &mut *b, &mut *c], |row, out| {
-                if !sweep.nearest_row(row, (readout, units), out)? {
+                let (row, out) = if by_images {
+                    sweep.stored_piece(row, out)?
+                } else {
+                    (row.clone(), out)
+                };
+                if !sweep.nearest_row(&row, (readout, units), out)? {
                     defined.store(false, Ordering::Relaxed);
                 }
                 Ok(())
             })?;
+            if by_images {
+                sweep.copy_to_images(&mut [&mut *a, &mut *b, &mut *c])?;
+            }
             if defined.into_inner() {
                 for site in layers.terms.lines.extras_in(k..k + 1) {
                     check_interrupt()?;

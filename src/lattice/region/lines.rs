@@ -41,63 +41,70 @@ impl Region {
         Trapezoid::between(bounds(i), bounds(i + 1))
     }
 
-    /// Returns [`spheres_above`](Self::spheres_above) for the rows of a region that fits in memory.
+    /// Returns a region that fits in memory, with coordinates relative to `origin`.
     ///
     /// # Errors
-    /// [`Error::Bug`] if the region does not fit in memory.
-    pub(crate) fn counts(&self, sign: Sign, steps: i128) -> Result<Counts, Error> {
-        let ([x0, y0, _], [x1, y1, s1]) = (self.lower, self.upper);
-        let [x, y] = [small(x1 - x0)?, small(y1 - y0)?];
-        Ok(Counts {
-            first: [x0, y0],
-            // The bounds of i − x₀, of j − y₀ and of their sum.
-            lower: [0, 0, small(self.lower[2] - x0 - y0)?],
-            upper: [x, y, small(s1 - x0 - y0)?],
-            steps: small(steps)?,
-            sign,
+    /// [`Error::Bug`] if the region is too large, or too far from the origin.
+    pub(crate) fn relative_to(&self, [x, y]: [i128; 2]) -> Result<Nearby, Error> {
+        let relative = |[i, j, s]: [i128; 3]| -> Result<_, Error> {
+            Ok([small(i - x)?, small(j - y)?, small(s - x - y)?])
+        };
+        Ok(Nearby {
+            lower: relative(self.lower)?,
+            upper: relative(self.upper)?,
         })
     }
 }
 
 /// Returns `n` as an `i64` if |n| ≤ [`LONG`].
-fn small(n: i128) -> Result<i64, Error> {
+///
+/// # Errors
+/// [`Error::Bug`] for another number.
+pub(crate) fn small(n: i128) -> Result<i64, Error> {
     let small = i64::try_from(n).ok();
     let small = small.filter(|n| (-LONG..=LONG).contains(n));
     small.ok_or_else(|| bug("a layer that is swept fits in memory"))
 }
 
-/// The bounds of the counts above the sites of a region that fits in memory.
-pub(crate) struct Counts {
-    /// The least i and j. All other fields are relative to them.
-    first: [i128; 2],
+/// A region that fits in memory, in machine integers relative to a nearby site.
+pub(crate) struct Nearby {
     lower: [i64; 3],
     upper: [i64; 3],
-    steps: i64,
-    sign: Sign,
 }
 
-impl Counts {
-    /// Returns the counts along the row from the site (i, j) on, for `n` positions.
-    ///
-    /// # Errors
-    /// [`Error::Bug`] for a site that is too far from the region.
+impl Nearby {
+    /// Returns whether the region contains the site (i, j).
     #[inline]
-    pub(crate) fn in_row(&self, [i, j]: [i128; 2], n: usize) -> Result<[Slopes; 3], Error> {
-        let [i, j] = [small(i - self.first[0])?, small(j - self.first[1])?];
-        let Self {
-            lower,
-            upper,
-            steps,
-            ..
-        } = self;
-        let bounds = |i, sign| count::bounds_above(&i, &j, lower, upper, steps, sign);
+    pub(crate) fn contains(&self, [i, j]: [i64; 2]) -> bool {
+        let mut bounds = self.lower.iter().zip(&self.upper).zip([i, j, i + j]);
+        bounds.all(|((lower, upper), n)| (*lower..=*upper).contains(&n))
+    }
+
+    /// Returns the range of i in row `j` of the region.
+    #[inline]
+    pub(crate) fn row(&self, j: i64) -> Range<i64> {
+        let ([x0, _, s0], [x1, _, s1]) = (self.lower, self.upper);
+        x0.max(s0 - j)..x1.min(s1 - j) + 1
+    }
+
+    /// Returns [`spheres_above`](Region::spheres_above) along the row from the site (i, j) on, for `n` positions within
+    /// the region. The site and `steps` must be within [`LONG`].
+    #[inline]
+    pub(crate) fn counts_in_row(
+        &self,
+        [i, j]: [i64; 2],
+        n: usize,
+        (sign, steps): (Sign, i64),
+    ) -> [Slopes; 3] {
+        let Self { lower, upper } = self;
+        let bounds = |i, sign| count::bounds_above(&i, &j, lower, upper, &steps, sign);
         let counts = |sign| Trapezoid::between(bounds(i, sign), bounds(i + 1, sign));
         // With a constant sign, the compiler can determine which bounds rise and which fall.
-        let [a, b, c] = match self.sign {
+        let [a, b, c] = match sign {
             Sign::Plus => counts(Sign::Plus),
             Sign::Minus => counts(Sign::Minus),
         };
-        Ok([Slopes::new(a, n), Slopes::new(b, n), Slopes::new(c, n)])
+        [Slopes::new(a, n), Slopes::new(b, n), Slopes::new(c, n)]
     }
 }
 
@@ -294,11 +301,12 @@ mod tests {
                     let length = usize::try_from(row.i.end - row.i.start).unwrap();
                     let along = counts
                         .map(|count| counts_along(&Slopes::new(count.near(), length), length));
-                    let slopes = region.counts(sign, steps).unwrap().in_row(start, length);
-                    let in_memory = slopes
-                        .unwrap()
-                        .each_ref()
-                        .map(|slopes| counts_along(slopes, length));
+                    let nearby = region.relative_to([1, -2]).unwrap();
+                    let [i, j] = [start[0] - 1, start[1] + 2].map(|n| small(n).unwrap());
+                    assert_eq!((nearby.row(j).start, nearby.row(j).count()), (i, length));
+                    let run = (sign, small(steps).unwrap());
+                    let slopes = nearby.counts_in_row([i, j], length, run);
+                    let in_memory = slopes.each_ref().map(|slopes| counts_along(slopes, length));
                     assert_eq!(in_memory, along);
                     for (p, i) in (0..).zip(row.i.clone()) {
                         let of_site = region.spheres_above(i, row.j, sign, steps);

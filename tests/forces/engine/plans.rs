@@ -48,9 +48,10 @@ fn a_sweep_to_the_floor_of_six_layers() {
     let forces = pile.forces::<BigRational>().with_counters(&counters);
     assert_eq!(forces.base(Selection::Base).unwrap().plan(), &plan);
     assert_eq!(forces.base(Selection::Base).unwrap().count(), 27);
-    assert_eq!((counters.passes(), counters.turned()), (5, 41));
+    // The pile has threefold symmetry. So 27 of the 41 spheres are enough.
+    assert_eq!((counters.passes(), counters.turned()), (5, 27));
     assert_eq!((counters.visited(), counters.rows()), (27, 27));
-    let printed = "27 visited, 41 turned, 5 passes, 27 rows";
+    let printed = "27 visited, 27 turned, 5 passes, 27 rows";
     assert_eq!(counters.to_string(), printed);
 }
 
