@@ -299,7 +299,10 @@ fn row_of(top: &Region, b: i128) -> Range<i128> {
 }
 
 /// Rejects stackings that are too high for the base. The base must fit in memory.
-fn check_height(base: &Region, stackings: RandomStackings) -> Result<(), Error> {
+///
+/// # Errors
+/// [`Error::NoStacking`].
+pub(super) fn check_height(base: &Region, stackings: RandomStackings) -> Result<(), Error> {
     // The first step of a stacking has the given sign.
     let begins = |plus: i128, minus: i128| match stackings.first() {
         FirstSign::Plus => plus > 0,

@@ -1,15 +1,22 @@
 //! Enumeration and sampling of stackings, for quantities that are not linear in the stackings.
 //!
 //! Mean forces obey one recursion over all stackings. Stability, the least force and the distribution of forces do not,
-//! so the forces of each stacking are computed. An [`Ensemble`] is a top layer with every stacking below it. A
-//! [`Choice`] selects all stackings or random samples, and a [`Shard`] selects a part of them. The result is a
-//! [`Tally`] of exact integers and rationals, sorted by the number of faults. So the fault probability can be chosen
-//! afterwards. The tallies of all shards [merge](Tally::merge) into the tally of the whole, bit for bit, in any order.
+//! so the forces of each stacking are computed. An [`Ensemble`] is a top layer with every stacking below it, or a base
+//! with every stacking above it. A [`Choice`] selects all stackings or random samples, and a [`Shard`] selects a part of
+//! them. The result is a [`Tally`] of exact integers and rationals, sorted by the number of faults. So the fault
+//! probability can be chosen afterwards. The tallies of all shards [merge](Tally::merge) into the tally of the whole, bit
+//! for bit, in any order.
 //!
 //! # Stackings in the counts
 //! The distribution `all` includes unstable stackings, in which some contact is in tension. Their forces are those of a
 //! prestressed pile. The distribution `standing` covers the stackings without tension. Loose spheres can form these
 //! piles.
+//!
+//! # On a base
+//! A layer above a base has all sites whose three supports exist. It depends on the numbers of + and − steps between the
+//! base and the layer, but not on their order. So all stackings with equally many + steps have the same top layer. Once
+//! this number is given, each layer follows from the steps above it. If the top layer is empty, the base does not support
+//! these stackings. Only [`WithFaults::left_out`] counts them. Means and probabilities are over the other stackings.
 //!
 //! # Why it is exact
 //! A force below a layer is an integer over 3^d times the common denominator of the loads, with d sign changes above
@@ -19,8 +26,9 @@
 //!
 //! # Why it is fast
 //! Stackings that begin with the same signs have the same forces in the layers of this beginning. So all stackings of n
-//! steps are computed as a tree, which has at most 2ⁿ⁺¹ layers instead of n 2ⁿ. If the top layer with its loads is its
-//! own mirror image, one stacking of each mirror pair is computed.
+//! steps are computed as a tree, which has at most 2ⁿ⁺¹ layers instead of n 2ⁿ. On a base there is a tree for each number
+//! of + steps. If the top layer with its loads, or the base, is its own mirror image, one stacking of each mirror pair is
+//! computed.
 //!
 //! # With horizontal contacts
 //! At a = R a stacking with contacts in tension can be stable too. All beginnings of a stable stacking are stable, and
@@ -67,9 +75,10 @@ use crate::RandomStackings;
 use cannonpile::Pile;
 use cannonpile::formula;
 use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Anchor;
 use cannonpile::stacking::Stacking;
 
-/// All stackings below one top layer.
+/// All stackings below one top layer, or above one base.
 ///
 /// # Examples
 /// ```
@@ -87,8 +96,8 @@ use cannonpile::stacking::Stacking;
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(try_from = "written::EnsembleParts", into = "written::EnsembleParts")]
 pub struct Ensemble {
-    /// The top layer, as a pile of one layer.
-    top: Pile,
+    /// The top layer or the base, as a pile of one layer.
+    layer: Pile,
     stackings: RandomStackings,
     has_horizontal_contacts: bool,
     bins: BigRational,
@@ -103,19 +112,51 @@ impl Ensemble {
     /// # Examples
     /// See [`Ensemble`].
     pub fn under(top: Region, stackings: RandomStackings) -> Result<Self, Error> {
-        Ok(Self {
-            top: Pile::under(top, Stacking::single_layer())?,
+        let top = Pile::under(top, Stacking::single_layer())?;
+        Ok(Self::of(top, stackings))
+    }
+
+    /// Returns the ensemble of these stackings on a base, with bins of width 1/3. Each layer consists of all sites whose
+    /// three supports exist.
+    ///
+    /// As everywhere, signs are listed from the top. A stacking whose top layer would be empty is left out. The tally
+    /// says [how many](Tally::left_out) there are.
+    ///
+    /// # Errors
+    /// The errors of [`Pile::on`] for a single layer. A [run](Self::run) fails if the base supports no stacking of this
+    /// height.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(3, FirstSign::Random)?;
+    /// let tally = Ensemble::on(Region::triangle(3)?, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+    /// // Of four stackings the triangle supports ++ only.
+    /// assert_eq!((tally.stackings(), tally.left_out()), (1_u32.into(), Some(3_u32.into())));
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn on(base: Region, stackings: RandomStackings) -> Result<Self, Error> {
+        let base = Pile::on(base, Stacking::single_layer())?;
+        Ok(Self::of(base, stackings))
+    }
+
+    fn of(layer: Pile, stackings: RandomStackings) -> Self {
+        Self {
+            layer,
             stackings,
             has_horizontal_contacts: false,
             bins: BigRational::new(1.into(), 3.into()),
-        })
+        }
     }
 
     /// Returns the ensemble with an additional vertical load on a sphere (i, j) of the top layer, in mg. Spheres of
     /// other layers cannot carry a load, because their positions depend on the stacking.
     ///
     /// # Errors
-    /// [`SiteOutside`](cannonpile::Error::SiteOutside), [`NegativeLoad`](cannonpile::Error::NegativeLoad).
+    /// * [`Error::PlaceOfLoad`] for an ensemble on a base.
+    /// * [`SiteOutside`](cannonpile::Error::SiteOutside), [`NegativeLoad`](cannonpile::Error::NegativeLoad).
     ///
     /// # Examples
     /// ```
@@ -131,7 +172,14 @@ impl Ensemble {
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     pub fn with_load(mut self, [i, j]: [i128; 2], load: BigRational) -> Result<Self, Error> {
-        self.top = self.top.with_load(Site { i, j, k: 0 }, load)?;
+        let site = Site { i, j, k: 0 };
+        if matches!(self.anchor(), Anchor::Base(_)) {
+            return Err(Error::PlaceOfLoad {
+                site,
+                on_base: true,
+            });
+        }
+        self.layer = self.layer.with_load(site, load)?;
         Ok(self)
     }
 
@@ -142,7 +190,7 @@ impl Ensemble {
     /// See [`with_load`](Self::with_load).
     #[must_use]
     pub fn weightless(mut self) -> Self {
-        self.top = self.top.weightless();
+        self.layer = self.layer.weightless();
         self
     }
 
@@ -157,7 +205,7 @@ impl Ensemble {
     /// # Examples
     /// See [`run_judged`](Self::run_judged).
     pub fn with_horizontal_contacts(mut self) -> Result<Self, Error> {
-        if self.top.is_weightless() {
+        if self.layer.is_weightless() {
             return Err(Error::Weightless);
         }
         self.has_horizontal_contacts = true;
@@ -207,21 +255,23 @@ impl Ensemble {
         self.stackings
     }
 
-    /// Returns the top layer as a pile of one layer, with its loads.
+    /// Returns the layer that all piles share: the top layer, or the base.
     ///
     /// # Examples
     /// ```
     /// use cannonpile_disorder::{Ensemble, FirstSign, RandomStackings};
     /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Anchor;
     ///
-    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
-    /// let ensemble = Ensemble::under(Region::hexagon(2, 2)?, stackings)?;
-    /// assert_eq!(ensemble.top().sphere_count(), 7_u32.into());
+    /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
+    /// let hexagon = Region::hexagon(4, 4)?;
+    /// assert_eq!(Ensemble::under(hexagon, stackings)?.anchor(), Anchor::Top(hexagon));
+    /// assert_eq!(Ensemble::on(hexagon, stackings)?.anchor(), Anchor::Base(hexagon));
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     #[must_use]
-    pub const fn top(&self) -> &Pile {
-        &self.top
+    pub fn anchor(&self) -> Anchor {
+        self.layer.shape().anchor()
     }
 
     /// Returns the width of the bins, in f₀ for contact forces and in mg for normal forces.
@@ -252,7 +302,7 @@ impl Ensemble {
     /// Returns the pile of one stacking, which may have any number of layers.
     ///
     /// # Errors
-    /// The errors of [`Pile::under`].
+    /// The errors of [`Pile::under`], or of [`Pile::on`] for an ensemble on a base.
     ///
     /// # Examples
     /// ```
@@ -265,11 +315,14 @@ impl Ensemble {
     /// # Ok::<(), cannonpile_disorder::Error>(())
     /// ```
     pub fn pile(&self, stacking: Stacking) -> Result<Pile, Error> {
-        let mut pile = Pile::under(self.region(), stacking)?;
-        for (site, load) in self.top.loads() {
+        let mut pile = match self.anchor() {
+            Anchor::Top(top) => Pile::under(top, stacking)?,
+            Anchor::Base(base) => Pile::on(base, stacking)?,
+        };
+        for (site, load) in self.layer.loads() {
             pile = pile.with_load(site, load.clone())?;
         }
-        Ok(if self.top.is_weightless() {
+        Ok(if self.layer.is_weightless() {
             pile.weightless()
         } else {
             pile
@@ -283,6 +336,7 @@ impl Ensemble {
     /// * [`TooLarge`](cannonpile::Error::TooLarge) for layers that do not fit in memory, for more than 10⁵ bins, and
     ///   for more than 2⁶² contact forces.
     /// * [`Error::NoJudge`] with horizontal contacts.
+    /// * [`Error::NoStacking`] for a base that supports no stacking of this height.
     ///
     /// # Examples
     /// ```
@@ -391,7 +445,8 @@ impl Ensemble {
         .tally()
     }
 
-    /// Returns the number of stackings or samples of a shard. Two mirror images with the same forces count as one.
+    /// Returns the number of stackings or samples of a shard. Two mirror images with the same forces count as one. On a
+    /// base the number includes the stackings that are left out.
     ///
     /// # Errors
     /// As for [`run`](Self::run), except [`Error::NoJudge`].
@@ -411,14 +466,14 @@ impl Ensemble {
         Ok(end - start)
     }
 
-    /// Returns the sites of the top layer.
+    /// Returns the sites of the top layer, or of the base.
     fn region(&self) -> Region {
-        self.top.shape().base()
+        self.layer.shape().base()
     }
 
     /// Returns the weight of a sphere without a load, in mg: 0 or 1.
     fn weight(&self) -> BigRational {
-        if self.top.is_weightless() {
+        if self.layer.is_weightless() {
             BigRational::zero()
         } else {
             BigRational::one()
@@ -429,14 +484,14 @@ impl Ensemble {
     fn own_of_top(&self, increment: &BigRational) -> Result<Vec<BigRational>, Error> {
         let weight = self.weight();
         let own = |site| -> Result<_, Error> {
-            let total = weight.clone() + self.top.load(site)?.down;
+            let total = weight.clone() + self.layer.load(site)?.down;
             Ok(formula::force(total, increment))
         };
-        self.top.shape().sites().map(own).collect()
+        self.layer.shape().sites().map(own).collect()
     }
 
-    /// Returns whether the top layer with its loads is its own mirror image. Then mirror images of stackings have the
-    /// same forces.
+    /// Returns whether the top layer with its loads, or the base, is its own mirror image. Then mirror images of stackings
+    /// have the same forces.
     fn is_its_own_mirror_image(&self) -> bool {
         let region = self.region();
         let [sum_of_i, sum_of_j] =
@@ -447,8 +502,8 @@ impl Ensemble {
             ..site
         };
         let has_same = |(site, load): (Site, &cannonpile::Load)| {
-            self.top.load(image(site)).as_ref() == Ok(load)
+            self.layer.load(image(site)).as_ref() == Ok(load)
         };
-        region.is_its_own_mirror_image() && self.top.loads().all(has_same)
+        region.is_its_own_mirror_image() && self.layer.loads().all(has_same)
     }
 }

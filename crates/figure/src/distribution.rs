@@ -1,5 +1,6 @@
 //! The force distribution over random stackings.
 
+use cannonpile::shape::Anchor;
 use cannonpile_disorder::ForceKind;
 use cannonpile_disorder::{Choice, Tally};
 use num_bigint::BigInt;
@@ -16,7 +17,8 @@ use crate::Error;
 ///
 /// One curve is for all stackings, the other for the stable ones. The vertical axis is log₁₀ P; empty bins are left
 /// out. Enumerated stackings are weighted by their probability at the fault probability `q`. For samples `q` has no
-/// effect. The result is `None` if the tally covers only a part of an ensemble.
+/// effect. The result is `None` if the stackings have no [weights](Tally::weights): the tally covers only a part of an
+/// ensemble, or the base supports no stacking that occurs at `q`.
 ///
 /// # Errors
 /// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Error::TooManyGlyphs`] for more than 20 000 bins.
@@ -120,7 +122,8 @@ pub fn distribution(
     };
     let stackings = counted(&tally.stackings().into(), "stacking");
     let layers = counted(&tally.ensemble.stackings().layers().into(), "layer");
-    let top = tally.ensemble.top().shape().base();
+    let anchor = tally.ensemble.anchor();
+    let (Anchor::Top(layer) | Anchor::Base(layer)) = anchor;
     let drawn = match &tally.choice {
         Choice::All => format!("q = {q}"),
         Choice::Drawn(_) => "drawn at random".into(),
@@ -129,7 +132,10 @@ pub fn distribution(
         axes: Some(chart.axes([format!("{name} in {unit}"), format!("log₁₀ P({name})")])),
         ..Figure::new(
             title.into(),
-            format!("{layers}, top {top:#}, {stackings}, {drawn}"),
+            format!(
+                "{layers}, {} {layer:#}, {stackings}, {drawn}",
+                anchor.name()
+            ),
             chart.panel,
             glyphs,
         )

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use cannonpile::Pile;
-use cannonpile::lattice::{Region, Sign, Site};
-use cannonpile::shape::Selection;
+use cannonpile::lattice::{Sign, Site};
+use cannonpile::shape::{Anchor, Selection};
 use cannonpile::stacking::Stacking;
 use cannonpile_disorder::{
     Distribution, Ensemble, Error, Extreme, FirstSign, Histogram, RandomStackings, Tally,
@@ -18,6 +18,8 @@ type Found = Option<(BigRational, String)>;
 /// The contents of a distribution, from a plain enumeration.
 #[derive(Debug, Default, PartialEq)]
 pub struct Counted {
+    /// The number of stackings that the base does not support.
+    left_out: u64,
     stackings: u64,
     contacts: u64,
     sum: BigRational,
@@ -68,6 +70,7 @@ impl Counted {
             found.map(|found| (found.force.clone(), text(found.stacking.signs())))
         };
         Self {
+            left_out: 0,
             stackings: distribution.stackings.to_u64().unwrap(),
             contacts: distribution.contacts.to_u64().unwrap(),
             sum: distribution.sum.clone(),
@@ -115,11 +118,11 @@ pub fn all_signs(steps: u32, first: FirstSign) -> Vec<Vec<Sign>> {
     all.filter(begins).collect()
 }
 
-/// A scene: the top layer, its loads, and the weight.
+/// A scene: the top layer with its loads or the base, and the weight.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The top layer.
-    pub top: Region,
+    /// The top layer, or the base.
+    pub anchor: Anchor,
     /// Loads on sites of the top layer.
     pub loads: Vec<([i128; 2], BigRational)>,
     /// True if the spheres are weightless.
@@ -131,10 +134,10 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A scene with weight, without loads, and with bins of width 1/3.
+    /// A scene under a top layer, with weight, without loads, and with bins of width 1/3.
     pub fn of(top: &str, first: FirstSign) -> Self {
         Self {
-            top: top.parse().unwrap(),
+            anchor: Anchor::Top(top.parse().unwrap()),
             loads: Vec::new(),
             weightless: false,
             first,
@@ -142,11 +145,22 @@ impl Scene {
         }
     }
 
+    /// The same on a base.
+    pub fn on(base: &str, first: FirstSign) -> Self {
+        Self {
+            anchor: Anchor::Base(base.parse().unwrap()),
+            ..Self::of("hexagon:1", first)
+        }
+    }
+
     /// The ensemble in the library's type.
     pub fn ensemble(&self, steps: u32) -> Result<Ensemble, Error> {
         let stackings = RandomStackings::new(i128::from(steps) + 1, self.first)?;
-        let mut ensemble =
-            Ensemble::under(self.top, stackings)?.with_bin_width(self.width.clone())?;
+        let ensemble = match self.anchor {
+            Anchor::Top(top) => Ensemble::under(top, stackings)?,
+            Anchor::Base(base) => Ensemble::on(base, stackings)?,
+        };
+        let mut ensemble = ensemble.with_bin_width(self.width.clone())?;
         for (at, load) in &self.loads {
             ensemble = ensemble.with_load(*at, load.clone())?;
         }
@@ -160,7 +174,10 @@ impl Scene {
     /// The pile of one stacking.
     pub fn pile(&self, signs: &[Sign]) -> Result<Pile, Error> {
         let stacking = Stacking::from_signs(signs.iter().copied())?;
-        let mut pile = Pile::under(self.top, stacking)?;
+        let mut pile = match self.anchor {
+            Anchor::Top(top) => Pile::under(top, stacking)?,
+            Anchor::Base(base) => Pile::on(base, stacking)?,
+        };
         for ([i, j], load) in &self.loads {
             let site = Site { i: *i, j: *j, k: 0 };
             pile = pile.with_load(site, load.clone())?;
@@ -190,9 +207,15 @@ impl Scene {
         counted.resize_with(steps.max(1) as usize, <[Counted; 2]>::default);
         for signs in stackings {
             let faults = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
-            let pile = self.pile(&signs)?;
-            let signs = text(signs.into_iter());
             let [all, standing] = &mut counted[faults];
+            let pile = match self.pile(&signs) {
+                Err(Error::Core(cannonpile::Error::TooHigh { .. })) => {
+                    all.left_out += 1;
+                    continue;
+                }
+                pile => pile?,
+            };
+            let signs = text(signs.into_iter());
             all.add(&pile, &signs, &self.width)?;
             let mut contacts = pile.forces::<BigRational>().contacts(Selection::All)?;
             if contacts.all(|contact| !contact.unwrap().force.is_negative()) {
@@ -208,7 +231,9 @@ pub fn counted(tally: &Tally) -> Vec<[Counted; 2]> {
     let faults = tally.faults.iter().enumerate();
     let both = faults.map(|(d, with)| {
         assert_eq!(with.faults as usize, d);
-        [&with.all, &with.standing].map(Counted::of)
+        let [mut all, standing] = [&with.all, &with.standing].map(Counted::of);
+        all.left_out = with.left_out.as_ref().map_or(0, |n| n.to_u64().unwrap());
+        [all, standing]
     });
     both.collect()
 }

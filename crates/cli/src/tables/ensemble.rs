@@ -1,5 +1,6 @@
 //! The tables of an ensemble of random stackings.
 
+use cannonpile::shape::Anchor;
 use cannonpile_dem::table::{Cell, Column, Row, Table};
 use cannonpile_disorder::{ContactSet, Error, Extreme, ForceKind, Tally, WithFaults};
 use num_bigint::BigInt;
@@ -12,14 +13,21 @@ use num_traits::Zero;
 /// last four again over the stable ones, with the prefix `standing_`, and `stacking`, the first one with the smallest
 /// contact force. The column `held` counts the stackings that are stable with horizontal contacts. It exists only if the
 /// ensemble includes horizontal contacts.
+///
+/// With a base the column `left_out` after `stackings` counts those that the base does not support, and `stacking` is read
+/// from the base up.
 #[must_use]
 pub(crate) fn ensemble(tally: &Tally) -> Table<'_> {
     let has_held = tally.ensemble.has_horizontal_contacts();
-    let held = has_held.then_some("held");
-    let counts = ["stackings", "stand"].into_iter().chain(held);
-    let counts = counts.map(Column::plain);
+    let on_base = matches!(tally.ensemble.anchor(), Anchor::Base(_));
+    let counts = [
+        Some("stackings"),
+        on_base.then_some("left_out"),
+        Some("stand"),
+        has_held.then_some("held"),
+    ];
     let mut columns = vec![Column::plain("faults")];
-    columns.extend(counts);
+    columns.extend(counts.into_iter().flatten().map(Column::plain));
     for [contacts, normals] in [
         [["min_contact", "max_contact"], ["normal_min", "normal_max"]],
         [
@@ -33,8 +41,13 @@ pub(crate) fn ensemble(tally: &Tally) -> Table<'_> {
     columns.push(Column::plain("stacking"));
     let row = move |with: &WithFaults| -> Row {
         let mut cells = vec![Cell::Index(with.faults.into())];
-        let counts = [Some(&with.all.stackings), Some(&with.standing.stackings)];
-        let counts = counts.into_iter().chain([with.held.as_ref()]).flatten();
+        let counts = [
+            Some(&with.all.stackings),
+            with.left_out.as_ref(),
+            Some(&with.standing.stackings),
+            with.held.as_ref(),
+        ];
+        let counts = counts.into_iter().flatten();
         cells.extend(counts.map(|count| Cell::Integer(count.clone().into())));
         for of in [&with.all, &with.standing] {
             let extremes = [
@@ -47,7 +60,13 @@ pub(crate) fn ensemble(tally: &Tally) -> Table<'_> {
         }
         let least = with.all.least.as_ref();
         cells.push(least.map_or(Cell::Missing, |least| {
-            Cell::Word(least.stacking.to_string().into())
+            let stacking = &least.stacking;
+            let read = if on_base {
+                stacking.reversed().to_string()
+            } else {
+                stacking.to_string()
+            };
+            Cell::Word(read.into())
         }));
         Ok(cells)
     };
@@ -61,19 +80,20 @@ fn force(extreme: Option<&Extreme>) -> Cell {
 /// Returns one row with the options of the ensemble and the number of stable stackings.
 ///
 /// The columns are `layers, first, top, part, fault_probability, stackings, stand`, and `standing_probability` at the fault
-/// probability q. For samples, Wilson's interval `standing_lo, standing_hi` replaces the probability. With horizontal
+/// probability q. With a base they are `base` instead of `top`, and `left_out` after `stackings`. For samples, Wilson's interval `standing_lo, standing_hi` replaces the probability. With horizontal
 /// contacts the same columns follow with `held`.
 ///
 /// # Errors
 /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
 pub(crate) fn ensemble_summary(tally: &Tally, q: &BigRational) -> Result<Table<'static>, Error> {
     let stackings = tally.ensemble.stackings();
-    let top = tally.ensemble.top().shape().base();
+    let anchor = tally.ensemble.anchor();
+    let (Anchor::Top(layer) | Anchor::Base(layer)) = anchor;
     let word = |text: String| Cell::Word(text.into());
     let mut entries = vec![
         (Column::plain("layers"), stackings.layers().into()),
         (Column::plain("first"), stackings.first().name().into()),
-        (Column::plain("top"), word(format!("{top:#}"))),
+        (Column::plain(anchor.name()), word(format!("{layer:#}"))),
         (Column::plain("part"), word(tally.shard.to_string())),
         (Column::plain("fault_probability"), word(q.to_string())),
         (
@@ -81,6 +101,9 @@ pub(crate) fn ensemble_summary(tally: &Tally, q: &BigRational) -> Result<Table<'
             Cell::Integer(tally.stackings().into()),
         ),
     ];
+    if let Some(left_out) = tally.left_out() {
+        entries.push((Column::plain("left_out"), Cell::Integer(left_out.into())));
+    }
     for (by, [count, probability, lower, upper]) in [
         (
             ContactSet::Sloping,
@@ -114,7 +137,8 @@ pub(crate) fn ensemble_summary(tally: &Tally, q: &BigRational) -> Result<Table<'
 /// Returns the histogram of forces at the fault probability q, a row for each bin: `from, to, all, standing`.
 ///
 /// `all` is the mean number of forces f of a pile with from ≤ f < to, over all stackings. `standing` is the mean over the
-/// stable ones. For samples both are means over the samples and do not depend on q. A part of an ensemble gives `None`.
+/// stable ones. For samples both are means over the samples and do not depend on q. The result is `None` for a part of an
+/// ensemble, and if the base supports no stacking that occurs at q.
 ///
 /// # Errors
 /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.

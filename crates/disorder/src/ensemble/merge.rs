@@ -4,6 +4,7 @@ use core::fmt;
 
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Ring;
+use cannonpile::shape::Anchor;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -174,11 +175,15 @@ impl Tally {
                 shard,
                 ..
             } = tally;
-            let (stackings, top) = (ensemble.stackings(), ensemble.top());
+            let (stackings, layer) = (ensemble.stackings(), &ensemble.layer);
             let none = || "none".to_owned();
+            let [top, base] = match ensemble.anchor() {
+                Anchor::Top(top) => [format!("{top:#}"), none()],
+                Anchor::Base(base) => [none(), format!("{base:#}")],
+            };
             let load =
                 |(site, load): (Site, &cannonpile::Load)| format!("{},{}={load}", site.i, site.j);
-            let loads: Vec<_> = top.loads().map(load).collect();
+            let loads: Vec<_> = layer.loads().map(load).collect();
             let loads = if loads.is_empty() {
                 none()
             } else {
@@ -192,12 +197,13 @@ impl Tally {
                     samples.fault_probability().to_string(),
                 ],
             };
-            let weight = u8::from(!top.is_weightless());
+            let weight = u8::from(!layer.is_weightless());
             let spacing = ["above 1", "1"][usize::from(ensemble.has_horizontal_contacts())];
             [
                 ("number of layers", stackings.layers().to_string()),
                 ("first sign", stackings.first().to_string()),
-                ("top", format!("{:#}", top.shape().base())),
+                ("top", top),
+                ("base", base),
                 ("load", loads),
                 ("weight of spheres", weight.to_string()),
                 ("spacing", spacing.to_owned()),
@@ -222,9 +228,11 @@ impl Tally {
             return false;
         }
         let has_held = self.ensemble.has_horizontal_contacts();
+        let on_base = matches!(self.ensemble.anchor(), Anchor::Base(_));
         let is_row = |(d, with): (usize, &WithFaults)| {
             let WithFaults {
                 faults,
+                left_out,
                 all,
                 standing,
                 held,
@@ -234,20 +242,31 @@ impl Tally {
                 |held: &BigUint| (&standing.stackings..=&all.stackings).contains(&held);
             *faults as usize == d
                 && held.is_some() == has_held
+                && left_out.is_some() == on_base
                 && held.as_ref().is_none_or(is_between)
                 && standing.stackings <= all.stackings
                 && standing.is_part_of(all, self.ensemble.bin_width())
                 && (self.choice != Choice::All
                     || stackings
                         .count_with(*faults)
-                        .is_ok_and(|count| all.stackings <= count))
+                        .is_ok_and(|count| listed(with) <= count))
                 && [all, standing]
                     .iter()
                     .all(|of| of.is_possible(&self.ensemble, d))
         };
         let expected = stackings_of(&self.ensemble, &self.choice, self.shard);
-        expected == Some(self.stackings()) && self.faults.iter().enumerate().all(is_row)
+        let found = self.faults.iter().map(listed).sum();
+        expected == Some(found) && self.faults.iter().enumerate().all(is_row)
     }
+}
+
+/// Returns the number of stackings with one number of faults, including those that are left out.
+fn listed(with: &WithFaults) -> BigUint {
+    let left_out = with.left_out.as_ref();
+    left_out.map_or_else(
+        || with.all.stackings.clone(),
+        |left_out| left_out + &with.all.stackings,
+    )
 }
 
 impl Distribution {

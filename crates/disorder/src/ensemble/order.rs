@@ -29,7 +29,9 @@ impl Order {
         // Of two mirror images one is enumerated.
         let halves = both && ensemble.is_its_own_mirror_image();
         let first = if halves { Some(Sign::Plus) } else { given };
-        let free = steps.saturating_sub(usize::from(first.is_some()));
+        // A single layer has no sign.
+        let first = first.filter(|_| steps > 0);
+        let free = steps - usize::from(first.is_some());
         Ok(Self {
             first,
             free: u32::try_from(free).map_err(|_| bug("layers that fit in memory are few"))?,

@@ -24,6 +24,7 @@ struct Count(#[serde(with = "number")] BigUint);
 #[derive(PartialEq)]
 struct Derived {
     stackings: Count,
+    left_out: Option<Count>,
     /// The stable stackings, and those that are stable with horizontal contacts.
     stable: [Stable; 2],
 }
@@ -90,6 +91,7 @@ struct Parts {
     #[serde(with = "number")]
     fault_probability: BigRational,
     stackings: Count,
+    left_out: Option<Count>,
     standing: Count,
     standing_probability: Option<String>,
     standing_interval: Option<[Number; 2]>,
@@ -206,6 +208,9 @@ impl TallyRecord {
         object.entry("fault_probability", &self.fault_probability.to_string())?;
         let derived = self.derived().map_err(io::Error::other)?;
         object.entry("stackings", &derived.stackings)?;
+        if let Some(left_out) = &derived.left_out {
+            object.entry("left_out", left_out)?;
+        }
         for (stable, [count, probability, interval]) in derived.stable.iter().zip(STABLE) {
             if let Some(found) = &stable.count {
                 object.entry(count, found)?;
@@ -237,6 +242,7 @@ impl TallyRecord {
         };
         Ok(Derived {
             stackings: Count(tally.stackings()),
+            left_out: tally.left_out().map(Count),
             stable: [
                 stable(ContactSet::Sloping)?,
                 stable(ContactSet::WithHorizontal)?,
@@ -271,6 +277,7 @@ impl TallyRecord {
             shard,
             fault_probability,
             stackings,
+            left_out,
             standing,
             standing_probability,
             standing_interval,
@@ -287,6 +294,7 @@ impl TallyRecord {
         };
         let derived = Derived {
             stackings,
+            left_out,
             stable: [
                 stable(Some(standing), standing_probability, standing_interval),
                 stable(held, held_probability, held_interval),

@@ -3,15 +3,17 @@
 use core::ops::Range;
 
 use cannonpile::engine::try_for_each;
+use cannonpile::lattice::Sign;
 use num_bigint::BigInt;
 
 use super::draw::Sampler;
 use super::layer::Numerator;
-use super::setup::{Setup, Task};
+use super::setup::{Setup, Task, class_of, too_many_faults};
 use super::verdicts::{Judge, Verdicts};
 use super::walk::walk;
 use super::{Choice, Ensemble, Shard, Tally, WithFaults};
 use crate::Error;
+use crate::error::bug;
 
 /// A run over the stackings or samples of one shard.
 pub(super) struct Run<'r, E> {
@@ -22,6 +24,12 @@ pub(super) struct Run<'r, E> {
     pub(super) observer: &'r (dyn Fn(u64) + Sync),
     /// The function that decides stability with horizontal contacts, if the ensemble counts it.
     pub(super) judge: Option<&'r Judge<'r, E>>,
+}
+
+/// The constants and the verdicts of the stackings that are walked together.
+struct Class<'r, T, E> {
+    setup: Setup<T>,
+    verdicts: Option<Verdicts<'r, E>>,
 }
 
 /// The number of samples that are sorted and walked together.
@@ -46,12 +54,17 @@ impl<E: From<Error> + Send> Run<'_, E> {
     }
 
     fn in_numbers<T: Numerator>(&self) -> Result<Tally, E> {
-        let verdicts = match (self.ensemble.has_horizontal_contacts, self.judge) {
-            (false, _) => None,
-            (true, Some(judge)) => Some(Verdicts::new(self.ensemble, judge)),
-            (true, None) => return Err(Error::NoJudge.into()),
+        let has_held = self.ensemble.has_horizontal_contacts;
+        let judge = self.judge.filter(|_| has_held);
+        if has_held && judge.is_none() {
+            return Err(Error::NoJudge.into());
+        }
+        let class = |setup| Class {
+            setup,
+            verdicts: judge.map(|judge| Verdicts::new(self.ensemble, judge)),
         };
-        let setup = self.task.setup::<T>(self.ensemble)?;
+        let setups = self.task.setups::<T>(self.ensemble)?;
+        let classes: Vec<_> = setups.into_iter().map(|setup| setup.map(class)).collect();
         let nothing = || Tally::nothing(self.ensemble.clone(), self.choice.clone(), self.shard);
         let mut tally = nothing()?;
         let mut pieces = self.pieces();
@@ -66,7 +79,7 @@ impl<E: From<Error> + Send> Run<'_, E> {
                 .collect::<Result<Vec<_>, _>>()?;
             try_for_each(
                 ranges.into_iter().zip(&mut counted).collect(),
-                |(range, counted)| self.count(&setup, verdicts.as_ref(), range, counted),
+                |(range, counted)| self.count(&classes, range, counted),
             )?;
             for counted in &counted {
                 tally.add(counted);
@@ -96,30 +109,60 @@ impl<E: From<Error> + Send> Run<'_, E> {
     /// Counts one piece.
     fn count<T: Numerator>(
         &self,
-        setup: &Setup<T>,
-        verdicts: Option<&Verdicts<'_, E>>,
+        classes: &[Option<Class<'_, T, E>>],
         range: Range<u64>,
         tally: &mut Tally,
     ) -> Result<(), E> {
         let length = range.end - range.start;
-        let list: Vec<_> = match self.choice {
+        let mut list: Vec<_> = match self.choice {
             Choice::All => range.map(|index| self.task.order.signs(index)).collect(),
             Choice::Drawn(samples) => {
                 let first = self.ensemble.stackings.first();
-                let sampler = Sampler::new(samples, first, setup.steps)?;
+                let sampler = Sampler::new(samples, first, self.task.steps)?;
                 let mut drawn: Vec<_> = range.map(|n| sampler.sample(n)).collect();
                 drawn.sort_unstable();
                 drawn
             }
         };
-        let counted = walk(setup, verdicts, &list)?;
-        let has_held = self.ensemble.has_horizontal_contacts;
-        let kinds = counted.all.iter().zip(&counted.standing).zip(&counted.held);
-        for (faults, (((all, standing), held), with)) in kinds.zip(&mut tally.faults).enumerate() {
-            let held = has_held.then_some(*held);
-            *with = WithFaults::of([all, standing], held, setup, faults)?;
+        let class = |signs: &Vec<Sign>| class_of(self.ensemble, signs);
+        // This sort is stable, so the stackings of each class stay sorted.
+        list.sort_by_key(class);
+        for list in list.chunk_by(|one, other| class(one) == class(other)) {
+            let found = list.first().and_then(|signs| classes.get(class(signs)));
+            match found.ok_or_else(|| bug("every stacking has a class"))? {
+                Some(class) => Self::count_class(class, list, tally)?,
+                None => self.leave_out(list, tally)?,
+            }
         }
         (self.observer)(length);
+        Ok(())
+    }
+
+    /// Counts stackings of one class.
+    fn count_class<T: Numerator>(
+        Class { setup, verdicts }: &Class<'_, T, E>,
+        list: &[Vec<Sign>],
+        tally: &mut Tally,
+    ) -> Result<(), E> {
+        let counted = walk(setup, verdicts.as_ref(), list)?;
+        let kinds = counted.all.iter().zip(&counted.standing).zip(&counted.held);
+        for (faults, (((all, standing), held), with)) in kinds.zip(&mut tally.faults).enumerate() {
+            let held = verdicts.is_some().then_some(*held);
+            with.add(&WithFaults::of([all, standing], held, setup, faults)?);
+        }
+        Ok(())
+    }
+
+    /// Counts stackings that the base does not support.
+    fn leave_out(&self, list: &[Vec<Sign>], tally: &mut Tally) -> Result<(), Error> {
+        for signs in list {
+            let changes = signs.windows(2).filter(|pair| pair.first() != pair.last());
+            let with = tally.faults.get_mut(changes.count());
+            let with = with.ok_or_else(too_many_faults)?;
+            if let Some(left_out) = &mut with.left_out {
+                *left_out += self.task.order.factor;
+            }
+        }
         Ok(())
     }
 }

@@ -5,7 +5,8 @@ use core::ops::Range;
 use cannonpile::engine::common_denominator;
 use cannonpile::engine::{refuse_beyond, refuse_beyond_memory, threads};
 use cannonpile::formula;
-use cannonpile::lattice::Region;
+use cannonpile::lattice::{Region, Sign};
+use cannonpile::shape::Anchor;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
@@ -16,6 +17,7 @@ use super::order::Order;
 use super::sums::Sums;
 use super::{Choice, Ensemble, Shard};
 use crate::Error;
+use crate::domain::check_height;
 use crate::error::bug;
 use crate::width::words_of_big;
 
@@ -30,13 +32,14 @@ const MAX_STACKINGS: u64 = 1 << 24;
 
 /// A run that is within the limits, with its bounds and common denominator.
 pub(super) struct Task {
-    steps: usize,
+    pub(super) steps: usize,
     pub(super) order: Order,
     /// The indices of the stackings or samples of the shard.
     pub(super) range: Range<u64>,
     /// The common denominator of all forces and the width of the bins, without the factor 3^faults.
     scale: BigInt,
-    /// The forces below the top layer, in f₀, one for each sphere.
+    /// The forces below the top layer, in f₀, one for each sphere. On a base they are all equal, and as many as the
+    /// greatest top layer needs.
     top_own: Vec<BigRational>,
     /// The force that a sphere of another layer adds to each of its contacts, times the scale.
     own: BigInt,
@@ -73,8 +76,15 @@ impl Task {
         let half = BigRational::new(1.into(), 2.into());
         // On an equilateral base all three increments are 1.
         let [increment, ..] = formula::increments(&half);
-        let top_own = ensemble.own_of_top(&increment)?;
         let weight = ensemble.weight();
+        let own = formula::force(weight.clone(), &increment);
+        let top_own = match ensemble.anchor() {
+            Anchor::Top(_) => ensemble.own_of_top(&increment)?,
+            Anchor::Base(_) => {
+                let most = spheres.first().and_then(ToPrimitive::to_usize);
+                vec![own.clone(); most.ok_or_else(|| bug("the limit fits the memory"))?]
+            }
+        };
         let sums = Sums::of(&top_own, &weight);
         let below = spheres.iter().skip(1);
         let level = below.fold(Level::top(0), |level, spheres| level.next(*spheres));
@@ -91,7 +101,6 @@ impl Task {
             MAX_BINS,
             "use wider bins, or fewer layers",
         )?;
-        let own = formula::force(weight, &increment);
         let scale = common_denominator(top_own.iter().chain([&own, ensemble.bin_width()]));
         let times = |number: &BigRational| (number * &scale).to_integer();
         let width = times(ensemble.bin_width());
@@ -104,7 +113,10 @@ impl Task {
             64..128 => 2,
             bits => words_of_big(bits),
         };
-        refuse_too_many(&(BigUint::from(total * NUMBERS) * words))?;
+        refuse_too_many(
+            &(BigUint::from(total * NUMBERS) * words),
+            &ensemble.anchor(),
+        )?;
         Ok(Self {
             steps,
             order,
@@ -122,8 +134,31 @@ impl Task {
         self.bound.bits() < bits
     }
 
-    /// Converts the numerators to integers that are wide enough.
-    pub(super) fn setup<T: Numerator>(&self, ensemble: &Ensemble) -> Result<Setup<T>, Error> {
+    /// Returns the constants of the walks, by [class](class_of). `None` for stackings that the base does not support.
+    pub(super) fn setups<T: Numerator>(
+        &self,
+        ensemble: &Ensemble,
+    ) -> Result<Vec<Option<Setup<T>>>, Error> {
+        let base = match ensemble.anchor() {
+            Anchor::Top(top) => return Ok(vec![Some(self.setup(ensemble, top, None)?)]),
+            Anchor::Base(base) => base,
+        };
+        let setup = |plus: usize| {
+            let steps = [plus, self.steps - plus].map(|steps| steps as i128);
+            let top = base.shrunk(steps[0], steps[1]);
+            let setup = top.map(|top| self.setup(ensemble, top, Some((base, steps))));
+            setup.transpose()
+        };
+        (0..=self.steps).map(setup).collect()
+    }
+
+    /// Converts the numerators to integers that are wide enough. `base` is the base with the numbers of + and − steps.
+    fn setup<T: Numerator>(
+        &self,
+        ensemble: &Ensemble,
+        top: Region,
+        base: Option<(Region, [i128; 2])>,
+    ) -> Result<Setup<T>, Error> {
         let number =
             |big: BigInt| T::try_from(big).map_err(|_| bug("the bound holds for all numerators"));
         let units = |faults: usize| {
@@ -136,17 +171,22 @@ impl Task {
             })
         };
         let by_faults = (0..self.steps.max(1)).map(units);
-        let top_own = self.top_own.iter();
-        let top_own = top_own.map(|own| number((own * &self.scale).to_integer()));
+        let spheres = top.site_count().to_usize();
+        let own = spheres.and_then(|spheres| self.top_own.get(..spheres));
+        let own = own.ok_or_else(|| bug("no top layer exceeds the greatest one"))?;
+        let top_own = own
+            .iter()
+            .map(|own| number((own * &self.scale).to_integer()));
         let top_own: Vec<T> = top_own.collect::<Result<_, Error>>()?;
         Ok(Setup {
             steps: self.steps,
-            top: ensemble.region(),
+            top,
+            base,
             top_own: [top_own.clone(), top_own.clone(), top_own],
             by_faults: by_faults.collect::<Result<_, Error>>()?,
             factor: self.order.factor,
             scale: self.scale.clone(),
-            sums: Sums::of(&self.top_own, &ensemble.weight()),
+            sums: Sums::of(own, &ensemble.weight()),
         })
     }
 }
@@ -155,6 +195,8 @@ impl Task {
 pub(super) struct Setup<T> {
     pub(super) steps: usize,
     pub(super) top: Region,
+    /// The base, if it is given, with the numbers of + and − steps of all stackings of the walk.
+    base: Option<(Region, [i128; 2])>,
     /// The forces below the top layer.
     pub(super) top_own: Planes<T>,
     pub(super) by_faults: Vec<Units<T>>,
@@ -180,6 +222,31 @@ impl<T> Setup<T> {
     pub(super) fn units(&self, faults: usize) -> Result<&Units<T>, Error> {
         self.by_faults.get(faults).ok_or_else(too_many_faults)
     }
+
+    /// Returns the layer below a beginning with these signs, whose last step leads down from `above`.
+    pub(super) fn layer_below(&self, above: &Region, signs: &[Sign]) -> Result<Region, Error> {
+        let last = signs.last().ok_or_else(|| bug("a step has a sign"))?;
+        let Some((base, [plus, minus])) = self.base else {
+            return Ok(above.dilated(*last)?);
+        };
+        let taken = count_plus(signs);
+        let [taken_plus, taken_minus] = [taken, signs.len() - taken].map(|steps| steps as i128);
+        let layer = base.shrunk(plus - taken_plus, minus - taken_minus);
+        layer.ok_or_else(|| bug("the layers below the top layer have spheres"))
+    }
+}
+
+/// Returns the class of a stacking. The stackings of a class have the same top layer. On a base the class is the number of
+/// + steps.
+pub(super) fn class_of(ensemble: &Ensemble, signs: &[Sign]) -> usize {
+    match ensemble.anchor() {
+        Anchor::Top(_) => 0,
+        Anchor::Base(_) => count_plus(signs),
+    }
+}
+
+fn count_plus(signs: &[Sign]) -> usize {
+    signs.iter().filter(|sign| **sign == Sign::Plus).count()
 }
 
 pub(super) fn too_many_faults() -> Error {
@@ -193,27 +260,42 @@ fn power_of_three(exponent: usize) -> BigInt {
 /// The numbers stored for each sphere of each layer: three forces from above, and three below.
 const NUMBERS: u128 = 6;
 
-fn refuse_too_many(words: &BigUint) -> Result<(), Error> {
+fn refuse_too_many(words: &BigUint, anchor: &Anchor) -> Result<(), Error> {
     refuse_beyond_memory(
         "the layers of one stacking",
         words,
         // Each thread analyses a stacking.
         (MAX_WORDS, size_of::<u64>() * threads()),
-        "use fewer layers, or a smaller top",
+        match anchor {
+            Anchor::Top(_) => "use fewer layers, or a smaller top",
+            Anchor::Base(_) => "use fewer layers, or a smaller base",
+        },
     )?;
     Ok(())
 }
 
 /// Returns the greatest number of spheres that each layer has in any stacking.
 fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
-    let top = ensemble.region();
+    let (anchor, stackings) = (ensemble.anchor(), ensemble.stackings());
+    if let Anchor::Base(base) = anchor {
+        refuse_too_many(&(base.site_count() * NUMBERS), &anchor)?;
+        check_height(&base, stackings)?;
+    }
     let mut sizes = Vec::new();
     let mut numbers = BigUint::zero();
-    for k in 0..ensemble.stackings().layers() {
-        let layers = (0..=k).map(|plus| top.grown(plus, k - plus).site_count());
-        let most = layers.max().ok_or_else(|| bug("a layer has a region"))?;
+    for k in 0..stackings.layers() {
+        let steps = match anchor {
+            Anchor::Top(_) => k,
+            Anchor::Base(_) => stackings.steps() - k,
+        };
+        let layers = (0..=steps).filter_map(|plus| match anchor {
+            Anchor::Top(top) => Some(top.grown(plus, steps - plus)),
+            Anchor::Base(base) => base.shrunk(plus, steps - plus),
+        });
+        let most = layers.map(|layer| layer.site_count()).max();
+        let most = most.ok_or_else(|| bug("a layer has a region"))?;
         numbers += &most * NUMBERS;
-        refuse_too_many(&numbers)?;
+        refuse_too_many(&numbers, &anchor)?;
         sizes.push(
             most.to_u128()
                 .ok_or_else(|| bug("the limit fits 128 bits"))?,

@@ -4,6 +4,8 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
+use cannonpile::shape::Anchor;
+
 use super::count::Counted;
 use super::distribution::Distribution;
 use super::layer::Numerator;
@@ -51,6 +53,14 @@ pub struct Tally {
 pub struct WithFaults {
     /// The number d of sign changes.
     pub faults: u32,
+    /// The number of stackings that the base does not support. All other counts leave them out. `None` for an ensemble
+    /// under a top layer.
+    #[serde(
+        with = "cannonpile::data::number",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub left_out: Option<BigUint>,
     /// All these stackings. The unstable ones need a prestressed pile.
     pub all: Distribution,
     /// The standing stackings: no contact is in tension.
@@ -70,6 +80,7 @@ impl WithFaults {
     ) -> Result<Self, Error> {
         Ok(Self {
             faults: u32::try_from(faults).map_err(|_| bug("layers that fit in memory are few"))?,
+            left_out: None,
             all: Distribution::of(all, setup, faults)?,
             standing: Distribution::of(standing, setup, faults)?,
             held: held.map(|held| BigUint::from(held) * setup.factor),
@@ -79,8 +90,14 @@ impl WithFaults {
     pub(super) fn add(&mut self, other: &Self) {
         self.all.add(&other.all);
         self.standing.add(&other.standing);
-        if let (Some(ours), Some(theirs)) = (&mut self.held, &other.held) {
-            *ours += theirs;
+        let optional = [
+            (&mut self.held, &other.held),
+            (&mut self.left_out, &other.left_out),
+        ];
+        for counts in optional {
+            if let (Some(ours), Some(theirs)) = counts {
+                *ours += theirs;
+            }
         }
     }
 }
@@ -103,8 +120,10 @@ impl Tally {
         let most = ensemble.stackings().most_faults();
         let most = u32::try_from(most).map_err(|_| bug("layers that fit in memory are few"))?;
         let has_held = ensemble.has_horizontal_contacts();
+        let on_base = matches!(ensemble.anchor(), Anchor::Base(_));
         let faults = (0..=most).map(|faults| WithFaults {
             faults,
+            left_out: on_base.then(BigUint::zero),
             all: Distribution::default(),
             standing: Distribution::default(),
             held: has_held.then(BigUint::zero),
@@ -117,13 +136,32 @@ impl Tally {
         })
     }
 
-    /// Returns the number of stackings. Repeated samples count repeatedly.
+    /// Returns the number of stackings. Repeated samples count repeatedly. On a base it is the number of stackings that the
+    /// base supports.
     ///
     /// # Examples
     /// See [`standing`](Self::standing).
     #[must_use]
     pub fn stackings(&self) -> BigUint {
         self.faults.iter().map(|with| &with.all.stackings).sum()
+    }
+
+    /// Returns the number of stackings that the base does not support. `None` for an ensemble under a top layer.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(4, FirstSign::Plus)?;
+    /// let tally = Ensemble::on(Region::hexagon(3, 2)?, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+    /// // Four layers on this base need two + steps and a − step: ++- and +-+ fit, +++ and +-- do not.
+    /// assert_eq!((tally.stackings(), tally.left_out()), (2_u32.into(), Some(2_u32.into())));
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    #[must_use]
+    pub fn left_out(&self) -> Option<BigUint> {
+        self.faults.iter().map(|with| with.left_out.clone()).sum()
     }
 
     /// Returns the number of standing stackings. `None` with horizontal contacts, if the run did not count them.
@@ -151,6 +189,9 @@ impl Tally {
     /// For all stackings the weight is the probability of a stacking with d faults: q^d (1−q)^(n−1−d) with n steps, and
     /// half of it for a random first sign. For samples the weight is one over their number, for every `q`.
     ///
+    /// On a base the mean is over the stackings that the base supports. So these weights are divided by their sum over those
+    /// stackings, or by their number among the samples. `None` also if the sum is 0.
+    ///
     /// For example, the mean number of contacts of one pile in a bin is the sum over d of the weight times the count.
     ///
     /// # Errors
@@ -176,13 +217,16 @@ impl Tally {
         let most = self.faults.len().saturating_sub(1);
         let stay = BigRational::one() - q;
         let weight = |d: usize| match &self.choice {
-            Choice::Drawn(samples) => BigRational::new(BigInt::one(), samples.count().into()),
-            Choice::All => {
-                let first_signs = self.ensemble.stackings().first_signs().len();
-                pow(q.clone(), d) * pow(stay.clone(), most - d) / BigInt::from(first_signs)
-            }
+            Choice::Drawn(_) => BigRational::one(),
+            Choice::All => pow(q.clone(), d) * pow(stay.clone(), most - d),
         };
-        Ok(Some((0..self.faults.len()).map(weight).collect()))
+        let weights: Vec<_> = (0..self.faults.len()).map(weight).collect();
+        // Under a top layer the sum is the number of first signs, or the number of samples.
+        let terms = weights.iter().zip(&self.faults);
+        let terms = terms.map(|(weight, with)| weight * BigInt::from(with.all.stackings.clone()));
+        let sum: BigRational = terms.sum();
+        let is_defined = !sum.is_zero();
+        Ok(is_defined.then(|| weights.into_iter().map(|weight| weight / &sum).collect()))
     }
 
     /// Returns the probability that a random stacking stands, at the fault probability `q`. The result is `None` for
@@ -190,6 +234,9 @@ impl Tally {
     ///
     /// The value is exact: Σ_d c_d q^d (1−q)^(n−1−d), and half of it for a random first sign. Here c_d is the number of
     /// standing stackings with d faults, and n is the number of steps.
+    ///
+    /// On a base it is the probability that a stacking stands, given that the base supports it. So the sum is divided by the
+    /// same sum over the supported stackings. The result is `None` if that sum is 0.
     ///
     /// # Errors
     /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.

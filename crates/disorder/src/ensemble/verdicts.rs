@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use cannonpile::Pile;
-use cannonpile::lattice::Sign;
+use cannonpile::lattice::{Region, Sign};
+use cannonpile::shape::Anchor;
 use cannonpile::stacking::Stacking;
 
 use super::Ensemble;
@@ -13,8 +14,8 @@ use crate::Error;
 /// A function that decides whether a pile is stable with horizontal contacts.
 pub(super) type Judge<'j, E> = dyn Fn(&Pile) -> Result<bool, E> + Sync + 'j;
 
-/// A cache of verdicts, by the signs from the top. The judge is called once for each stacking, unless two threads need
-/// the same verdict at the same time.
+/// A cache of verdicts on the stackings of one class, by the signs from the top. The judge is called once for each
+/// stacking, unless two threads need the same verdict at the same time.
 pub(super) struct Verdicts<'j, E> {
     ensemble: &'j Ensemble,
     judge: &'j Judge<'j, E>,
@@ -30,8 +31,9 @@ impl<'j, E: From<Error>> Verdicts<'j, E> {
         }
     }
 
-    /// Returns whether the stacking with these signs is stable with horizontal contacts.
-    pub(super) fn is_stable(&self, signs: &[Sign]) -> Result<bool, E> {
+    /// Returns whether the stacking with these signs is stable with horizontal contacts. Its bottom layer is `bottom`,
+    /// which the signs determine.
+    pub(super) fn is_stable(&self, signs: &[Sign], bottom: Region) -> Result<bool, E> {
         // A thread that panics leaves the map intact, because it only inserts under the lock.
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let found = known().get(signs).copied();
@@ -39,7 +41,12 @@ impl<'j, E: From<Error>> Verdicts<'j, E> {
             return Ok(found);
         }
         let stacking = Stacking::from_signs(signs.iter().copied()).map_err(Error::from)?;
-        let stands = (self.judge)(&self.ensemble.pile(stacking)?)?;
+        // A pile with horizontal contacts has weight and, on a base, no loads.
+        let pile = match self.ensemble.anchor() {
+            Anchor::Top(_) => self.ensemble.pile(stacking)?,
+            Anchor::Base(_) => Pile::on(bottom, stacking).map_err(Error::from)?,
+        };
+        let stands = (self.judge)(&pile)?;
         known().insert(signs.to_vec(), stands);
         Ok(stands)
     }
@@ -48,8 +55,6 @@ impl<'j, E: From<Error>> Verdicts<'j, E> {
 #[cfg(test)]
 mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
-
-    use cannonpile::lattice::Region;
 
     use super::*;
     use crate::{Choice, FirstSign, RandomStackings, Shard};
@@ -82,7 +87,7 @@ mod tests {
         let ensemble = touching()?;
         let verdicts = Verdicts::new(&ensemble, &judge);
         for signs in [[Sign::Plus, Sign::Minus], [Sign::Plus, Sign::Minus]] {
-            assert!(verdicts.is_stable(&signs)?);
+            assert!(verdicts.is_stable(&signs, Region::hexagon(2, 2)?)?);
         }
         assert_eq!(calls.into_inner(), 1);
         Ok(())

@@ -55,7 +55,7 @@ struct Walker<'s, T, E> {
     walk: Walk<T>,
 }
 
-/// Counts the forces of a sorted list of stackings, which may contain a stacking several times.
+/// Counts the forces of a sorted list of stackings of one class, which may contain a stacking several times.
 pub(super) fn walk<T: Numerator, E: From<Error>>(
     setup: &Setup<T>,
     verdicts: Option<&Verdicts<'_, E>>,
@@ -133,14 +133,15 @@ impl<T: Numerator, E: From<Error>> Walker<'_, T, E> {
         let ends = extremes(above.forces.iter().flatten());
         let ends = ends.ok_or_else(|| bug("a layer has a sphere"))?;
         let stands = state.stands && ends[0] >= T::zero();
+        let region = setup.layer_below(&above.region, &self.signs)?;
         // The verdict is requested only if some contact is in tension without horizontal contacts.
         let is_held = || match self.verdicts {
-            Some(verdicts) => verdicts.is_stable(&self.signs),
+            Some(verdicts) => verdicts.is_stable(&self.signs, region),
             None => Ok(false),
         };
         // A stable stacking stays stable if its last step is repeated, and all its beginnings are stable.
         let held = state.held && (stands || last == Some(sign) || is_held()?);
-        self.move_down(k, sign)?;
+        self.move_down(k, sign, region)?;
         let state = State {
             faults,
             stands,
@@ -170,13 +171,13 @@ impl<T: Numerator, E: From<Error>> Walker<'_, T, E> {
         Ok(())
     }
 
-    /// Moves the forces below layer k to the next layer.
-    fn move_down(&mut self, k: usize, sign: Sign) -> Result<(), Error> {
+    /// Moves the forces below layer k to the next layer, which has this region.
+    fn move_down(&mut self, k: usize, sign: Sign, region: Region) -> Result<(), Error> {
         let (frames, rest) = self.frames.split_at_mut(k + 1);
         let pair = frames.last().zip(rest.first_mut());
         let (above, below) = pair.ok_or_else(missing_frame)?;
-        below.region = above.region.dilated(sign)?;
-        below.places = Places::of(&below.region)?;
+        below.region = region;
+        below.places = Places::of(&region)?;
         below.level = above.level.next(below.places.spheres() as u128);
         let received = &mut below.received;
         move_down(&above.forces, &above.places, sign, &below.places, received)

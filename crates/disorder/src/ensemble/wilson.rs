@@ -20,6 +20,9 @@ impl Tally {
     /// Returns `None` if the run visited all stackings, because [the probability](Self::standing_probability) is then
     /// exact. Also returns `None` for horizontal contacts if the run did not count them.
     ///
+    /// On a base only the samples that the base supports count, and the probability is that of a supported stacking. Without
+    /// any of them the result is `None`.
+    ///
     /// With k of n samples standing and z = 1.96 the bounds are (k + z²/2 ± z√(k(n−k)/n + z²/4))/(n + z²). The root has
     /// an error of at most 10⁻⁹/n. The bounds are then correctly rounded.
     ///

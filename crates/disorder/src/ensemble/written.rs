@@ -2,6 +2,7 @@
 
 use cannonpile::data::{as_text, number};
 use cannonpile::lattice::Region;
+use cannonpile::shape::Anchor;
 use num_rational::BigRational;
 use serde::{Deserialize, Serialize};
 
@@ -11,14 +12,17 @@ use crate::{FirstSign, RandomStackings};
 
 as_text!(FirstSign);
 
-/// The serialised form of an [`Ensemble`].
+/// The serialised form of an [`Ensemble`]. It has either a top or a base.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Ensemble", deny_unknown_fields)]
 pub(super) struct EnsembleParts {
     #[serde(with = "number")]
     layers: i128,
     first: FirstSign,
-    top: Region,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    top: Option<Region>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    base: Option<Region>,
     loads: Vec<Load>,
     weightless: bool,
     horizontal_contacts: bool,
@@ -40,7 +44,11 @@ struct Load {
 
 impl From<Ensemble> for EnsembleParts {
     fn from(ensemble: Ensemble) -> Self {
-        let loads = ensemble.top.loads().map(|(site, weight)| Load {
+        let (top, base) = match ensemble.anchor() {
+            Anchor::Top(top) => (Some(top), None),
+            Anchor::Base(base) => (None, Some(base)),
+        };
+        let loads = ensemble.layer.loads().map(|(site, weight)| Load {
             i: site.i,
             j: site.j,
             weight: weight.down.clone(),
@@ -48,9 +56,10 @@ impl From<Ensemble> for EnsembleParts {
         Self {
             layers: ensemble.stackings.layers(),
             first: ensemble.stackings.first(),
-            top: ensemble.region(),
+            top,
+            base,
             loads: loads.collect(),
-            weightless: ensemble.top.is_weightless(),
+            weightless: ensemble.layer.is_weightless(),
             horizontal_contacts: ensemble.has_horizontal_contacts,
             bins: ensemble.bins,
         }
@@ -62,7 +71,13 @@ impl TryFrom<EnsembleParts> for Ensemble {
 
     fn try_from(parts: EnsembleParts) -> Result<Self, Error> {
         let stackings = RandomStackings::new(parts.layers, parts.first)?;
-        let mut ensemble = Self::under(parts.top, stackings)?.with_bin_width(parts.bins)?;
+        let ensemble = match (parts.top, parts.base) {
+            (Some(top), None) => Self::under(top, stackings)?,
+            (None, Some(base)) => Self::on(base, stackings)?,
+            (Some(_), Some(_)) => return Err(Error::syntax("top, base", EXPECTED)),
+            (None, None) => return Err(Error::syntax("", EXPECTED)),
+        };
+        let mut ensemble = ensemble.with_bin_width(parts.bins)?;
         for Load { i, j, weight } in parts.loads {
             ensemble = ensemble.with_load([i, j], weight)?;
         }
@@ -75,6 +90,8 @@ impl TryFrom<EnsembleParts> for Ensemble {
         Ok(ensemble)
     }
 }
+
+const EXPECTED: &str = "one layer: either a top or a base";
 
 /// The serialised form of [`Samples`].
 #[derive(Deserialize)]

@@ -15,6 +15,7 @@ mod widths;
 
 mod ensemble {
     mod altered;
+    mod bases;
     mod enumeration;
     mod parts;
     mod samples;

@@ -24,7 +24,12 @@ fn is_as_enumerated(scene: &Scene, steps: u32, choice: &Choice, tally: &Tally) -
         Choice::Drawn(samples) => drawn(samples, scene.first, steps),
     };
     let expected = scene.counted_of(steps, &stackings)?;
-    let contents = |of: &Tally| (counted(of), of.stackings());
+    let contents = |of: &Tally| {
+        (
+            counted(of),
+            of.stackings() + of.left_out().unwrap_or_default(),
+        )
+    };
     let all = stackings.len().into();
     same("a tally", &contents(tally), &(expected, all))
 }
@@ -123,6 +128,7 @@ mod injected_faults {
         assert!(holds(&scene));
         for other in [
             Scene::of("hexagon:2", FirstSign::Minus),
+            Scene::on("hexagon:4", FirstSign::Plus),
             Scene {
                 width: number::ratio(2, 7),
                 ..scene.clone()

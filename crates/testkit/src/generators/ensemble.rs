@@ -1,16 +1,49 @@
-//! Ensembles of stackings under one top layer, small enough to examine every contact, and the choice of stackings.
+//! Ensembles of stackings under one top layer or on one base, small enough to examine every contact, and the choice of stackings.
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::Region;
+use cannonpile::shape::Anchor;
 use cannonpile_disorder::{Choice, FirstSign, Samples};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::{number, rarely, region};
-use crate::tally::Scene;
+use crate::tally::{Scene, all_signs};
 
-/// A top layer with or without loads and weight, and the number of steps below it.
+/// A top layer with or without loads, or a base, with or without weight, and the number of steps.
 pub fn scene(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
+    let (scene, most) = if rarely(u, 3)? {
+        on_base(u)?
+    } else {
+        under_top(u)?
+    };
+    Ok((scene, u.int_in_range(0..=most)?))
+}
+
+/// A base, and the greatest number of steps for which it supports a stacking.
+fn on_base(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
+    let scene = Scene {
+        anchor: Anchor::Base(region::small_region(u)?),
+        weightless: rarely(u, 3)?,
+        first: first(u)?,
+        width: number::ratio(u.int_in_range(1..=40)?, u.int_in_range(1..=40)?),
+        loads: Vec::new(),
+    };
+    let is_supported = |steps: &u32| {
+        let stackings = all_signs(*steps, scene.first);
+        stackings.iter().any(|signs| scene.pile(signs).is_ok())
+    };
+    let most = (0..=5).take_while(is_supported).last();
+    Ok((scene, most.expect("the base alone is a pile")))
+}
+
+fn first(u: &mut Unstructured<'_>) -> Result<FirstSign> {
+    let firsts = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
+    u.choose(&firsts).copied()
+}
+
+/// A top layer with or without loads and weight, and the greatest number of steps below it.
+fn under_top(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
     let (top, most) = if u.arbitrary()? {
         (Region::SITE, 5)
     } else {
@@ -32,15 +65,14 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
     let greatest = loads.iter().map(|(_, load)| load.clone());
     let greatest = greatest.fold(BigRational::one(), BigRational::max);
     let part = number::ratio(u.int_in_range(1..=40)?, u.int_in_range(1..=40)?);
-    let firsts = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
     let scene = Scene {
-        top,
+        anchor: Anchor::Top(top),
         loads,
         weightless: rarely(u, 3)?,
-        first: *u.choose(&firsts)?,
+        first: first(u)?,
         width: greatest * part,
     };
-    Ok((scene, u.int_in_range(0..=most)?))
+    Ok((scene, most))
 }
 
 /// All stackings, or some samples.

@@ -23,6 +23,9 @@ fn parts() -> Vec<String> {
     let wide = wide.with_bin_width(ratio(5, 2)).unwrap();
     let touching = under(Region::SITE, 5, FirstSign::Plus);
     let touching = touching.with_horizontal_contacts().unwrap();
+    let base = Region::hexagon(2, 3).unwrap();
+    let stackings = RandomStackings::new(4, FirstSign::Random).unwrap();
+    let on_base = Ensemble::on(base, stackings).unwrap();
     let drawn = Choice::Drawn(Samples::new(30, 7, ratio(1, 3)).unwrap());
     let runs = [
         (under(Region::SITE, 6, FirstSign::Plus), Choice::All),
@@ -31,6 +34,7 @@ fn parts() -> Vec<String> {
         (wide, drawn.clone()),
         (under(Region::SITE, 7, FirstSign::Plus), drawn),
         (touching, Choice::All),
+        (on_base, Choice::All),
     ];
     let shards = [Shard::WHOLE, shard(1), shard(2)];
     let runs = runs
@@ -120,11 +124,14 @@ fn no_contradiction_is_accepted() {
                     "{altered}"
                 );
             }
-            let stackings = tally.stackings();
-            assert!(
-                altered.contains(&format!("\"stackings\": {stackings},\n")),
-                "{altered}"
-            );
+            let counts = [
+                ("stackings", Some(tally.stackings())),
+                ("left_out", tally.left_out()),
+            ];
+            for (name, count) in counts {
+                let is_written = |count| altered.contains(&format!("\"{name}\": {count},\n"));
+                assert!(count.is_none_or(is_written), "{altered}");
+            }
         }
     }
     // The seed, for instance, may be any number.

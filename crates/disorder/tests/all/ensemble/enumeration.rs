@@ -16,7 +16,7 @@ use cannonpile_testkit::tally::{Counted, Scene, all_signs, counted, text};
 fn agrees_with_enumeration(case: &Scene, steps: u32) -> Result<(), Error> {
     let tally = case.ensemble(steps)?.run(&Choice::All, Shard::WHOLE)?;
     let expected = case.counted(steps)?;
-    assert_eq!(counted(&tally), expected, "{} {steps}", case.top);
+    assert_eq!(counted(&tally), expected, "{:?} {steps}", case.anchor);
     Ok(())
 }
 
