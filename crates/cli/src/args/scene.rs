@@ -186,7 +186,7 @@ impl SceneOptions {
         )))
     }
 
-    /// Returns a scene that fits every stacking: a top layer and loads on it.
+    /// Returns a scene that fits every stacking: a top layer and loads on it, or a base.
     ///
     /// # Errors
     /// The options fix a stacking, or depend on one.
@@ -199,11 +199,6 @@ impl SceneOptions {
                 "this command covers every stacking: leave it out",
             ),
             (
-                matches!(scene.anchor, Some(Anchor::Base(_))),
-                Key::Base,
-                "the layers above a base depend on the stacking: use --top, or the command census --base",
-            ),
-            (
                 scene.dimension == Dimension::Two,
                 Key::Dimension,
                 "discs have only one stacking: use 3",
@@ -212,6 +207,11 @@ impl SceneOptions {
                 scene.sin_phi.is_some(),
                 Key::SinPhi,
                 "only the straight triangular pile can have an isosceles base: leave it out",
+            ),
+            (
+                matches!(scene.anchor, Some(Anchor::Base(_))) && !scene.loads.is_empty(),
+                Key::Load,
+                "the position of a sphere above a base depends on the stacking: leave the loads out, or use --top",
             ),
             (
                 scene.loads.iter().any(|(at, _)| at.layer != Some(0)),
@@ -245,8 +245,12 @@ impl SceneOptions {
     /// The options give another top or other loads.
     pub(crate) fn read_wide_layers(&self) -> Result<i128, Failure> {
         let scene = self.read_for_all_stackings()?;
+        let anchor = match scene.anchor {
+            Some(Anchor::Base(_)) => Key::Base,
+            _ => Key::Top,
+        };
         let refused = [
-            (scene.anchor.is_some(), Key::Top),
+            (scene.anchor.is_some(), anchor),
             (!scene.loads.is_empty(), Key::Load),
         ];
         for (is_given, key) in refused {
@@ -369,7 +373,7 @@ impl SceneOptions {
     }
 
     /// Returns the option as the user gave it: `--option`, or its line in the file.
-    fn place(&self, key: Key) -> String {
+    pub(crate) fn place(&self, key: Key) -> String {
         let option = key.name();
         self.line_of(option)
             .unwrap_or_else(|| format!("--{option}"))

@@ -25,12 +25,14 @@ use crate::progress::Progress;
 use crate::{Error, tables};
 
 const HELP: &str = "\
-The ensemble consists of random stackings below a top layer. The first sign is --first. Each later sign differs from the
-one before with the fault probability q; such a sign change is a fault. --all enumerates all stackings (at most 2^24 in one
-run), and its counts hold for every q. --samples draws random ones; sample n depends only on --seed and n.
+The ensemble consists of random stackings below a top layer, or above a base. The first sign is --first. Each later sign
+differs from the one before with the fault probability q; such a sign change is a fault. --all enumerates all stackings
+(at most 2^24 in one run), and its counts hold for every q. --samples draws random ones; sample n depends only on --seed
+and n.
 
 Columns, a row for each number of faults:
   faults, stackings           number of faults, and number of stackings with them
+  left_out                    with --base: stackings that the base does not support; no other column counts them
   stand                       stable stackings: no contact needs tension
   held                        with --spacing 1: stackings that are stable with horizontal contacts
   min_contact, max_contact    range of the contact forces, in mg/(3cosθ), over all stackings
@@ -38,6 +40,11 @@ Columns, a row for each number of faults:
   standing_...                the same ranges over the stable stackings
   stacking                    first stacking with the smallest contact force
 The ranges over all stackings include unstable ones: only a prestressed pile can have their tensile forces.
+
+With --base every pile has this bottom layer, and the sites of a layer are those with three supports. A stacking whose top
+layer would be empty is left out: means and probabilities are over the other stackings. --layers is required. --first is
+the sign below the top layer, as in the command mean. The column stacking is read from the base up, as --stacking is; the
+json record lists signs from the top.
 
 standing_probability is exact with --all. With --samples there is Wilson's 95 % interval, in floats.
 --histogram prints the mean number of forces in each bin, from <= f < to, over all piles and over the stable ones.
@@ -47,6 +54,7 @@ standing_probability is exact with --all. With --samples there is Wilson's 95 % 
 Examples:
   cannonpile ensemble --layers 12 --all
   cannonpile ensemble --top hexagon:3 --layers 8 --all --histogram forces --fault-probability 1/4
+  cannonpile ensemble --base hexagon:6 --layers 7 --all
   cannonpile ensemble --layers 30 --samples 1000000 --seed 7 --output samples.json
   cannonpile ensemble --layers 20 --all --shard 2/3 --output part2.json";
 
@@ -151,7 +159,8 @@ impl RunEnsemble {
         let (tally, q) = (record.tally(), record.fault_probability());
         if let Some(measured) = self.histogram {
             let histogram = tables::histogram(tally, measured.into(), q)?;
-            let histogram = histogram.ok_or_else(Self::of_a_part)?;
+            // A part was refused before the run.
+            let histogram = histogram.ok_or_else(|| Self::without_stackings(&choice))?;
             self.output.write_table(histogram, self.number, &progress)?;
             return Ok(true);
         }
@@ -197,15 +206,37 @@ impl RunEnsemble {
         )
     }
 
+    fn without_stackings(choice: &Choice) -> Failure {
+        let what = match choice {
+            Choice::All => {
+                "--fault-probability: the base supports no stacking that occurs at this value: use another one"
+            }
+            Choice::Drawn(_) => {
+                "--samples: the base supports none of the samples: draw more, or use another --fault-probability"
+            }
+        };
+        Failure::Message(what.to_owned())
+    }
+
     fn ensemble(&self) -> Result<Ensemble, Failure> {
         let scene = self.scene.read_for_all_stackings()?;
-        let top = match scene.anchor {
-            Some(Anchor::Top(top)) => top,
-            _ => Region::SITE,
+        let anchor = scene.anchor.unwrap_or(Anchor::Top(Region::SITE));
+        let layers = match (scene.layers, anchor) {
+            (Some(layers), _) => layers,
+            (None, Anchor::Top(_)) => Scene::LAYERS,
+            (None, Anchor::Base(_)) => {
+                let place = self.scene.place(Key::Base);
+                return Err(Failure::Message(format!(
+                    "{place}: the height depends on the stacking: add --layers"
+                )));
+            }
         };
-        let layers = scene.layers.unwrap_or(Scene::LAYERS);
         let stackings = RandomStackings::new(layers, self.first)?;
-        let mut ensemble = Ensemble::under(top, stackings)?
+        let ensemble = match anchor {
+            Anchor::Top(top) => Ensemble::under(top, stackings)?,
+            Anchor::Base(base) => Ensemble::on(base, stackings)?,
+        };
+        let mut ensemble = ensemble
             .with_bin_width(self.bins.clone())
             .map_err(of_option("bins"))?;
         for (at, load) in &scene.loads {
@@ -215,8 +246,9 @@ impl RunEnsemble {
         if scene.weightless {
             ensemble = ensemble.weightless();
         }
-        // A pile with a sign change has the smallest gaps.
-        let with_a_change = || Pile::under(top, Stacking::hcp(layers.min(3))?);
+        // A pile with a sign change has the smallest gaps. With a base it is a pile under that layer.
+        let (Anchor::Top(layer) | Anchor::Base(layer)) = anchor;
+        let with_a_change = || Pile::under(layer, Stacking::hcp(layers.min(3))?);
         if has_horizontal_contacts(scene.spacing.as_ref(), with_a_change)? {
             if scene.weightless {
                 return Err(Failure::Message(

@@ -8,6 +8,7 @@ use cannonpile::{Load, Pile};
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use cannonpile_dem::table::WriteError;
 use cannonpile_dem::verify::RefinementStudy;
+use cannonpile_disorder::Shard;
 use cannonpile_figure as figure;
 use cannonpile_figure::{Figure, Layout, Subject};
 use clap::{Args, Subcommand, ValueEnum};
@@ -360,10 +361,12 @@ impl Plot {
                 let q = fault_probability.as_ref().unwrap_or(of_record);
                 let figure = figure::distribution(record.tally(), (*histogram).into(), q)?;
                 figure.ok_or_else(|| {
-                    Failure::Message(format!(
-                        "{} is only a part of an ensemble: merge it with the others first",
-                        file.display()
-                    ))
+                    let reason = if record.tally().shard == Shard::WHOLE {
+                        "has no stackings at this fault probability: use another one, or draw more samples"
+                    } else {
+                        "is only a part of an ensemble: merge it with the others first"
+                    };
+                    Failure::Message(format!("{} {reason}", file.display()))
                 })
             }
             Self::Refinement { record, .. } => Ok(figure::refinement(&read_study(record)?)),

@@ -45,12 +45,12 @@ console! {
     check: 12;
     completions: 2;
     contacts: 61;
-    ensemble: 39;
+    ensemble: 56;
     explain: 12;
     export: 51;
     help: 19;
     mean: 49;
-    merge: 13;
+    merge: 18;
     plot: 44;
     prove: 11;
     response: 9;

@@ -4,6 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use num_rational::BigRational;
+use num_traits::Signed;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -30,11 +32,13 @@ impl Folder {
     }
 }
 
-const SCENES: [&str; 4] = [
+const SCENES: [&str; 6] = [
     "--top hexagon:3 --layers 8 --all",
     "--layers 9 --all --first random --load 0,0,0=2/3 --fault-probability 1/5",
     "--top triangle:2 --layers 9 --samples 5000 --seed 3 --fault-probability 1/3 --first random --bins 1/7",
     "--layers 8 --all --spacing 1",
+    "--base hexagon:4 --layers 6 --all --first random --spacing 1",
+    "--base hexagon:3,4 --layers 5 --samples 500 --seed 2 --fault-probability 2/5",
 ];
 
 #[test]
@@ -70,7 +74,11 @@ fn merged_parts_equal_the_whole_in_any_order() {
 #[test]
 fn result_does_not_depend_on_thread_count() {
     // Samples are drawn 8192 at a time.
-    for scene in ["--layers 12 --all", "--layers 30 --samples 9000"] {
+    for scene in [
+        "--layers 12 --all",
+        "--layers 30 --samples 9000",
+        "--base hexagon:5 --layers 8 --all",
+    ] {
         let arguments = format!("ensemble {scene} --format json");
         let output = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
             .args(arguments.split_whitespace())
@@ -79,6 +87,87 @@ fn result_does_not_depend_on_thread_count() {
             .expect("the binary runs");
         assert!(output.stdout == stdout(&arguments).into_bytes(), "{scene}");
     }
+}
+
+/// The commands for one stacking on a base give the forces of each stacking of the ensemble.
+#[test]
+fn ensemble_on_a_base_covers_its_piles() {
+    const BASE: &str = "--base hexagon:3,4 --layers 5";
+    let numbers = |command: &str, column: usize, stacking: &str| -> Option<Vec<BigRational>> {
+        let arguments = format!("{command} {BASE} --stacking={stacking} --format csv");
+        let output = cannonpile(&arguments);
+        let said = String::from_utf8_lossy(&output.stderr);
+        if output.status.code() == Some(2) {
+            assert!(
+                said.contains("with this stacking it carries at most"),
+                "{said}"
+            );
+            return None;
+        }
+        let csv = String::from_utf8(output.stdout).expect("text");
+        let rows = csv.lines().skip(1);
+        let cells = rows.map(|row| row.split(',').nth(column).expect("a force").to_owned());
+        Some(cells.map(|cell| cell.parse().expect("a number")).collect())
+    };
+    // The first sign below the top layer is the last one from the base up.
+    let stackings = (0..8_u32).map(|bits| {
+        let sign = |bit: u32| if bits >> bit & 1 == 0 { '+' } else { '-' };
+        format!("{}{}{}+", sign(0), sign(1), sign(2))
+    });
+    let mut left_out = [0_u32; 4];
+    let mut piles: [Vec<[Vec<BigRational>; 2]>; 4] = Default::default();
+    for stacking in stackings {
+        let faults = stacking.as_bytes().windows(2);
+        let faults = faults.filter(|pair| pair[0] != pair[1]).count();
+        let forces = numbers("contacts", 4, &stacking).zip(numbers("base", 2, &stacking));
+        match forces {
+            Some((contacts, normals)) => piles[faults].push([contacts, normals]),
+            None => left_out[faults] += 1,
+        }
+    }
+    let csv = stdout(&format!("ensemble {BASE} --all --format csv"));
+    for (faults, row) in csv.lines().skip(1).enumerate() {
+        let piles = &piles[faults];
+        let stable = |pile: &&[Vec<BigRational>; 2]| pile[0].iter().all(|f| !f.is_negative());
+        let end = |of: usize, least: bool| {
+            let forces = piles.iter().flat_map(|pile| &pile[of]);
+            let end = if least { forces.min() } else { forces.max() };
+            end.map_or_else(String::new, BigRational::to_string)
+        };
+        let expected = [
+            faults.to_string(),
+            piles.len().to_string(),
+            left_out[faults].to_string(),
+            piles.iter().filter(stable).count().to_string(),
+            end(0, true),
+            end(0, false),
+            end(1, true),
+            end(1, false),
+        ];
+        let found: Vec<&str> = row.split(',').collect();
+        assert_eq!(found[..8], expected, "{row}");
+        if !piles.is_empty() {
+            let stacking = found[12];
+            let contacts = numbers("contacts", 4, stacking).expect("a pile");
+            let least = contacts.into_iter().min().expect("a contact");
+            assert_eq!(least.to_string(), found[4], "{row}");
+        }
+    }
+}
+
+#[test]
+fn distribution_on_a_base_names_the_base() {
+    let folder = Folder::new();
+    let scene = "--base hexagon:4 --layers 4 --all";
+    let whole = folder.part(scene, "1/1", "whole.json");
+    let svg = stdout(&format!("plot distribution {whole}"));
+    assert!(svg.contains("4 layers, base hexagon:4, "), "{svg}");
+    let none = folder.part("--base triangle:3 --layers 3 --all", "1/1", "none.json");
+    let said = refusal(&format!("plot distribution {none} --fault-probability 1"));
+    assert!(
+        said.contains("none.json has no stackings at this fault probability"),
+        "{said}"
+    );
 }
 
 fn record(arguments: &str) -> Value {
@@ -158,6 +247,10 @@ fn merge_rejects_parts_of_other_ensembles() {
         (
             "--layers 6 --samples 90 --seed 7 --top hexagon:2",
             "the top is ",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 7 --base hexagon:5",
+            "the top is none, but hexagon:1 in the first part",
         ),
         (
             "--layers 6 --samples 90 --seed 7 --first random",
