@@ -234,7 +234,7 @@ struct Step {
     place: usize,
     /// The cells of the lines of the row, by direction.
     cells: [Range<usize>; 3],
-    /// The counts of the spheres of the pass on these lines.
+    /// For each of these lines, the number of spheres of the pass.
     counts: [Slopes; 3],
 }
 
