@@ -3,10 +3,12 @@
 
     python3 benches/wait.py
 
-It prints lines `seconds NAME VALUE`, and the three largest parts of each. The builds are those of the core as a dependency, of the
-binary, and of the extension module in the wheel, with all dependencies and without a cache. The sources of the dependencies must
-be there, as after `cargo fetch`. The time of a build depends on the number of cores, and the time of a part is that of its own
-compiler. The times of answers are medians, with the start of the process. The whole takes some ten minutes.
+It prints lines `seconds NAME VALUE`, and the three largest parts of each. At the end there are lines `ratio NAME VALUE`: the time
+of the other builds over that of the core, and of the answers over that of a process that does nothing. The builds are those of
+the core as a dependency, of the binary, and of the extension module in the wheel, with all dependencies and without a cache. The
+sources of the dependencies must be there, as after `cargo fetch`. The time of a build depends on the number of cores, and the
+time of a part is that of its own compiler. The times of answers are medians, with the start of the process. The whole takes some
+ten minutes.
 
 Needs Rust and Python 3.10. """
 
@@ -60,9 +62,14 @@ def answers(commands):
 
 
 def main():
+    ratios = {}
     with tempfile.TemporaryDirectory() as temporary:
         for name, arguments in BUILDS.items():
             seconds, units = build(arguments, Path(temporary) / name)
+            if name == "build_core":
+                core = seconds
+            else:
+                ratios[f"{name}_over_core"] = seconds / core
             print(f"seconds {name} {seconds:.1f}")
             for duration, unit in units[:3]:
                 print(f"  {duration:7.1f} {unit}")
@@ -70,10 +77,13 @@ def main():
         commands = [["true"], [binary, "--version"], *([binary, *arguments] for arguments in ANSWERS.values())]
         process, start, *asked = answers(commands)
         for name, seconds in zip(ANSWERS, asked):
+            ratios[f"{name}_over_process"] = seconds / process
             print(f"seconds {name} {seconds:.4f}")
             parts = [(process, "any process"), (start - process, "start of the binary"), (seconds - start, "the answer")]
             for duration, part in sorted(parts, reverse=True):
                 print(f"  {duration:7.4f} {part}")
+    for name, ratio in ratios.items():
+        print(f"ratio {name} {ratio:.2f}")
 
 
 if __name__ == "__main__":
