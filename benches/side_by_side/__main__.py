@@ -23,6 +23,8 @@ program fails, the others still run, and the exit status is 1.
 | `relaxed` | FCC at a = 6/5 R, all contact forces | `Pile.forces`; LAMMPS, from the exported files, with an error of at most 1e-6 |
 | `bounds` | FCC at a = R, both bounds of a central bottom sphere | `Pile.bounds`; QSopt_ex; SCIP; HiGHS in SciPy |
 
+SCIP runs twice: exactly, if there is a program `scip` that was built with `EXACTSOLVE`, and in floats from PyPI, which is not.
+
 With `--csv` the script answers other questions: it solves the piles of the chart of `work_precision`, and writes the table that
 this bench draws with `-- --peers FILE`. """
 
@@ -65,6 +67,7 @@ LAMMPS = Method("LAMMPS", "f64", forces.lammps, 1e-6)
 LINEAR = [
     Method("cannonpile", "rationals", bounds.exact, 0.0),
     Method("QSopt_ex", "rationals", bounds.qsopt, 0.0),
+    Method("exact SCIP", "rationals", bounds.exact_scip, 0.0),
     Method("SCIP", "f64", bounds.scip, 1e-6),
     Method("HiGHS", "f64", bounds.highs, 1e-6),
 ]
@@ -219,7 +222,7 @@ def write_chart(file, limit):
         writer = csv.writer(table, lineterminator="\n")
         writer.writerow(["pile", "contacts", "method", "scalar", "setting", "seconds", "relative_error", "remark"])
         for pile, contacts, method, setting, found, reason in chart(limit):
-            name = "bounds" if method.name == "cannonpile" else method.name
+            name = {"cannonpile": "bounds", "exact SCIP": "SCIP"}.get(method.name, method.name)
             seconds, error = (f"{x:.6e}" for x in found) if found else ("", "")
             writer.writerow([pile, contacts, name, method.scalar, setting, seconds, error, reason])
             table.flush()

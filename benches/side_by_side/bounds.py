@@ -105,3 +105,18 @@ def scip(layers):
         return model.getObjVal()
 
     return from_files(layers, solve)
+
+
+def exact_scip(layers):
+    """Solves both programs exactly with the program `scip`, if it was built for that. The one of PySCIPOpt is not."""
+    program = of_program("scip")
+
+    def solve(file):
+        commands = ["set exact enable TRUE", f"read {file}", "optimize", "display solution", "quit"]
+        command = [program, *(word for line in commands for word in ("-c", line))]
+        said = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+        if "in exact solving mode" not in said:
+            raise NotImplementedError("this scip was not built for exact programs")
+        return Fraction(re.search(r"^objective value: +(\S+)$", said, re.MULTILINE)[1])
+
+    return from_files(layers, solve)
