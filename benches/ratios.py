@@ -4,8 +4,8 @@
     python3 benches/ratios.py [BENCH...] [--before FILE] [--after FILE] > after
 
 BENCH is one of the names below; without one, all run, in half an hour or more. With `--before` the script also prints a table of
-the ratios in an earlier output and those of this run. With `--after` it runs nothing, and takes another output instead. A bench
-that fails is reported on stderr. The others still run, and then the exit status is 1.
+the ratios in an earlier output and those of this run. With `--after` it runs nothing, and takes another output instead. The whole
+output of the benches goes to stderr. If a bench fails, the others still run, and the exit status is 1.
 
 The benches of Rust need Rust only. `side_by_side` and `wait` say what they need. """
 
@@ -32,10 +32,14 @@ def run(names):
     results, failed = {}, []
     for name in names:
         print(f"{name} …", file=sys.stderr, flush=True)
-        done = subprocess.run(BENCHES[name], stdout=subprocess.PIPE, text=True, check=False)
-        found = ratios(done.stdout.splitlines())
-        if done.returncode or not found:
-            print(f"*** FAILED: {name}: exit status {done.returncode}, {len(found)} ratios", file=sys.stderr)
+        lines = []
+        with subprocess.Popen(BENCHES[name], stdout=subprocess.PIPE, text=True) as bench:
+            for line in bench.stdout:
+                lines.append(line)
+                print(line, end="", file=sys.stderr, flush=True)
+        found = ratios(lines)
+        if bench.returncode or not found:
+            print(f"*** FAILED: {name}: exit status {bench.returncode}, {len(found)} ratios", file=sys.stderr)
             failed.append(name)
         if twice := results.keys() & found.keys():
             sys.exit(f"{name}: another bench has the ratios {', '.join(sorted(twice))}")
