@@ -1,4 +1,6 @@
 //! The chart of the measurements: a panel for each pile, a shape for each method, a colour for each scalar.
+//!
+//! Besides the table of this bench it shows that of other programs, which `side_by_side` writes.
 
 use std::error::Error;
 use std::ops::Range;
@@ -28,8 +30,8 @@ struct Mark<'a> {
     error: Option<f64>,
 }
 
-/// The shapes of methods. Formulas have filled shapes, solvers of equations open ones.
-const METHODS: [(&str, bool, Shape); 7] = [
+/// The shapes of methods. Those of the library have filled shapes, other solvers open ones.
+const METHODS: [(&str, bool, Shape); 14] = [
     (
         "closed form, table",
         true,
@@ -57,7 +59,33 @@ const METHODS: [(&str, bool, Shape); 7] = [
         false,
         Shape::Corners(&[(-5, -4), (5, -4), (0, 5)]),
     ),
+    (
+        "python-flint",
+        false,
+        Shape::Corners(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
+    ),
+    (
+        "SciPy LU",
+        false,
+        Shape::Corners(&[(-6, -3), (6, -3), (6, 3), (-6, 3)]),
+    ),
+    ("LAMMPS", false, Shape::Corners(&[(0, -5), (5, 4), (-5, 4)])),
+    ("bounds", true, Shape::Corners(&[(-5, -4), (5, -4), (0, 5)])),
+    (
+        "QSopt_ex",
+        false,
+        Shape::Corners(&[(-5, 0), (4, -5), (4, 5)]),
+    ),
+    ("SCIP", false, Shape::Corners(&[(5, 0), (-4, 5), (-4, -5)])),
+    (
+        "HiGHS",
+        false,
+        Shape::Corners(&[(-3, -5), (3, -5), (6, 0), (3, 5), (-3, 5), (-6, 0)]),
+    ),
 ];
+
+/// The number of methods in a row of the legend.
+const ACROSS: usize = 7;
 
 /// The colours of scalars, by Okabe and Ito, which are safe for colour-blind readers.
 const SCALARS: [(&str, RGBColor); 6] = [
@@ -87,18 +115,29 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// The height of the title, of a row of panels, and of the legend.
 const HEAD: u32 = 60;
 const PANEL: u32 = 330;
-const FOOT: u32 = 160;
+const FOOT: u32 = 188;
 
 /// The width of the column of exact results, relative to that of the decades.
 const COLUMN: f64 = 0.24;
 
-/// Draws the table at `csv` as a chart at `svg`.
-pub(crate) fn draw(csv: &Path, svg: &Path) -> Result<(), Box<dyn Error>> {
-    let mut table = csv::Reader::from_path(csv)?;
-    let rows: Vec<Row> = table.deserialize().collect::<Result<_, _>>()?;
+/// The fewest decades of error in a panel.
+const FEWEST_DECADES: f64 = 6.0;
+
+/// Draws the tables as one chart at `svg`.
+pub(crate) fn draw(tables: &[&Path], svg: &Path) -> Result<(), Box<dyn Error>> {
+    let mut rows: Vec<Row> = Vec::new();
+    for table in tables {
+        for row in csv::Reader::from_path(table)?.deserialize() {
+            rows.push(row?);
+        }
+    }
     let marks: Vec<Mark<'_>> = rows.iter().filter_map(Mark::of).collect();
-    let mut piles: Vec<&str> = marks.iter().map(|mark| mark.row.pile.as_str()).collect();
-    piles.dedup();
+    let mut piles: Vec<&str> = Vec::new();
+    for mark in &marks {
+        if !piles.contains(&mark.row.pile.as_str()) {
+            piles.push(&mark.row.pile);
+        }
+    }
     let times = decades(marks.iter().map(|mark| mark.time));
 
     let height = HEAD + PANEL * u32::try_from(piles.len().div_ceil(2))? + FOOT;
@@ -111,8 +150,7 @@ pub(crate) fn draw(csv: &Path, svg: &Path) -> Result<(), Box<dyn Error>> {
         ))
     };
     page.draw(&Text::new("Run time against error", (440, 12), centred(22)))?;
-    let words =
-        "All contact forces of a pile; the error is that of the worst force over the greatest";
+    let words = "All contact forces of a pile, or bounds; the error is that of the worst one over the greatest";
     page.draw(&Text::new(words, (440, 38), centred(15)))?;
     let (_, page) = page.split_vertically(HEAD);
     let (panels, foot) = page.split_vertically(height - HEAD - FOOT);
@@ -145,6 +183,7 @@ impl<'a> Mark<'a> {
 /// Draws the runs of one pile, and returns their number.
 fn panel(area: &Area<'_>, marks: &[&Mark<'_>], times: Range<f64>) -> Result<usize, Box<dyn Error>> {
     let errors = decades(marks.iter().filter_map(|mark| mark.error));
+    let errors = errors.start..errors.end.max(errors.start + FEWEST_DECADES);
     let column = COLUMN * (errors.end - errors.start);
     let exact = errors.start - column..errors.start;
     let first = marks[0].row;
@@ -215,14 +254,16 @@ fn legend(area: &Area<'_>) -> Result<(), Box<dyn Error>> {
         area.draw(&Text::new(words.to_owned(), (x + 12, y - 7), style(14)))?;
         shape(area, method, (left + x, top + y), colour)
     };
-    for (n, (method, ..)) in METHODS.iter().enumerate() {
-        entry(n, 16, method, method, BLACK)?;
+    for (row, y) in METHODS.chunks(ACROSS).zip([16, 44]) {
+        for (n, (method, ..)) in row.iter().enumerate() {
+            entry(n, y, method, method, BLACK)?;
+        }
     }
     for (n, (scalar, colour)) in SCALARS.iter().enumerate() {
-        entry(n, 44, scalar, "closed form", *colour)?;
+        entry(n, 72, scalar, "closed form", *colour)?;
     }
     for (n, note) in NOTES.iter().enumerate() {
-        let y = 68 + 20 * i32::try_from(n)?;
+        let y = 96 + 20 * i32::try_from(n)?;
         area.draw(&Text::new(*note, (28, y), style(13)))?;
     }
     Ok(())
@@ -261,7 +302,12 @@ fn key<'a>(mark: &Mark<'a>) -> (&'a str, &'a str) {
 }
 
 fn colour(scalar: &str) -> RGBColor {
-    let scalar = if scalar == "i64" { "integers" } else { scalar };
+    let scalar = match scalar {
+        "i64" => "integers",
+        // The fractions of other programs.
+        "rationals" => "BigRational",
+        other => other,
+    };
     let found = SCALARS.iter().find(|(name, _)| *name == scalar);
     found.map_or(BLACK, |(_, colour)| *colour)
 }

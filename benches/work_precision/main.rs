@@ -4,7 +4,7 @@
 //! computes all contact forces of some piles with every method, and prints a table. It also writes the table as CSV and as a
 //! log–log chart, to `work_precision.csv` and `work_precision.svg` in the target folder or to `-- --csv FILE --svg FILE`.
 //! With `-- --smoke` it runs small piles once, and writes `smoke.csv` and `smoke.svg`. With `-- --draw` it only draws the
-//! existing CSV.
+//! existing CSV. With `-- --peers FILE` the chart also shows the table of other programs that `side_by_side --csv` writes.
 //!
 //! The error is the largest difference between a contact force and the exact one, relative to the largest exact force, in
 //! rational arithmetic. The exact forces are checked to be in equilibrium. The bench asserts that exact methods have no
@@ -37,7 +37,12 @@ fn main() {
         measure(&options);
     }
     // The chart is drawn from the written table.
-    chart::draw(&options.csv, &options.svg).expect("a table, and a place for the chart");
+    let tables: Vec<&Path> = [Some(&options.csv), options.peers.as_ref()]
+        .into_iter()
+        .flatten()
+        .map(PathBuf::as_path)
+        .collect();
+    chart::draw(&tables, &options.svg).expect("tables, and a place for the chart");
     println!("\n{}\n{}", options.csv.display(), options.svg.display());
 }
 
@@ -59,11 +64,14 @@ struct Options {
     draw: bool,
     csv: PathBuf,
     svg: PathBuf,
+    /// The table of other programs.
+    peers: Option<PathBuf>,
 }
 
 impl Options {
     fn read(mut arguments: impl Iterator<Item = String>) -> Self {
-        let (mut smoke, mut draw, mut csv, mut svg) = (false, false, None, None);
+        let (mut smoke, mut draw) = (false, false);
+        let (mut csv, mut svg, mut peers) = (None, None, None);
         while let Some(argument) = arguments.next() {
             let mut file = || PathBuf::from(arguments.next().expect("a file after its option"));
             match argument.as_str() {
@@ -71,10 +79,13 @@ impl Options {
                 "--draw" => draw = true,
                 "--csv" => csv = Some(file()),
                 "--svg" => svg = Some(file()),
+                "--peers" => peers = Some(file()),
                 // Options that Cargo adds.
                 "--bench" => {}
                 other => {
-                    panic!("{other}: the options are --smoke, --draw, --csv FILE and --svg FILE")
+                    panic!(
+                        "{other}: the options are --smoke, --draw, --csv FILE, --svg FILE and --peers FILE"
+                    )
                 }
             }
         }
@@ -85,6 +96,7 @@ impl Options {
             draw,
             csv: csv.unwrap_or_else(|| default.with_extension("csv")),
             svg: svg.unwrap_or_else(|| default.with_extension("svg")),
+            peers,
         }
     }
 }
