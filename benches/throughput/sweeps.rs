@@ -77,7 +77,7 @@ pub(crate) fn alternating(layers: i128) -> Pile {
 /// Returns a pile under upright gravity and the same pile under a tilt. Its layers have no threefold symmetry, which would
 /// make an upright sweep faster.
 fn without_symmetry(layers: i128) -> [Pile; 2] {
-    let top = Region::hexagon(2, 3).expect("a region");
+    let top = Region::new(0..=2, 0..=1, 0..=3).expect("a region");
     let stacking = Stacking::hcp(layers).expect("a stacking");
     let upright = Pile::under(top, stacking).expect("a pile");
     let tilt = [rational!(1 / 5), rational!(1 / 8)];
