@@ -205,11 +205,17 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// Converts a numerator from the denominator before any sign change to the one after `changes` sign changes.
     pub(super) fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
-        if self.triples && changes > 0 {
-            numerator * &pow(T::Numerator::from_i128(3), changes)
-        } else {
-            numerator
+        match self.power(changes) {
+            Some(power) => numerator * &power,
+            None => numerator,
         }
+    }
+
+    /// Returns the factor between the denominators before any sign change and after `changes` of them, unless they are
+    /// equal.
+    fn power(&self, changes: usize) -> Option<T::Numerator> {
+        let three = || T::Numerator::from_i128(3);
+        (self.triples && changes > 0).then(|| pow(three(), changes))
     }
 
     /// Converts a numerator from the denominator after `from` sign changes to the one after `to`.
@@ -246,9 +252,11 @@ impl<'p, T: Algebra> Lines<'p, T> {
     /// Returns the increments of an ordinary sphere above which the sign changes `changes` times, over the denominator
     /// after these changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
-        let one = self.scaled(T::Numerator::one(), changes);
-        let ordinary = self.ordinary[changes % 2].each_ref();
-        ordinary.map(|w| w.clone() * &one)
+        let ordinary = self.ordinary[changes % 2].clone();
+        match self.power(changes) {
+            Some(power) => ordinary.map(|w| w * &power),
+            None => ordinary,
+        }
     }
 
     /// Returns the increments of a sphere in the run below it, less those of an ordinary weight.
