@@ -37,7 +37,7 @@ use super::thirds::turned;
 use crate::Error;
 use crate::error::bug;
 use crate::formula::half_turn;
-use crate::lattice::{Region, Row, Site, small};
+use crate::lattice::{Region, Row, Site};
 use crate::scalar::{Algebra, CorrectlyRounded};
 
 /// The state of a sweep: the forces on all lines of one layer.
@@ -242,13 +242,16 @@ impl Descent<'_, BigRational, Planes> {
             let cells = self.grid.row(row.j, &row.i, self.stored.shift)?;
             return readout.write(units, &self.layer.slices(&cells), out);
         }
+        if self.grid.corner.is_none() {
+            return Err(bug("a sweep is queried only for rows of its layer"));
+        }
         let mut columns = [(); 3].map(|()| Vec::with_capacity(out[0].len()));
-        let shift = small(self.stored.shift)?;
-        for ([i, j], turns) in self.stored.kept_in_row(row, self.grid.origin)? {
-            let cells = self.grid.nearby_row(j, &(i..i + 1), shift)?;
+        for i in row.i.clone() {
+            let (image, turns) = self.stored.kept([i, row.j])?;
+            let cells = self.grid.site(image, self.stored.shift)?;
             for (line, column) in columns.iter_mut().enumerate() {
                 let image = turned(line, turns);
-                column.push((image, cells[image].start));
+                column.push((image, cells[image]));
             }
         }
         let limbs = self.layer.gathered(&columns);

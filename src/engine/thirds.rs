@@ -36,12 +36,10 @@
 //! A sphere that is not stored has the forces of its image, each along the rotated direction. So floats of contact
 //! forces are computed for the stored spheres alone, and copied to their images.
 
-use alloc::vec::Vec;
-
 use super::grid::{Grid, Moves, Piece, Stored, cut, sum};
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::{Direction, Row, small};
+use crate::lattice::Direction;
 use crate::pile::System;
 use crate::shape::Shape;
 
@@ -162,38 +160,6 @@ impl Stored {
         kept.ok_or_else(|| bug("one of three images is kept"))
     }
 
-    /// Returns the stored image of each sphere of a row, relative to `origin`, and the number of rotations that lead to it.
-    /// Only a third of the layer is stored.
-    ///
-    /// # Errors
-    /// [`Error::Bug`].
-    pub(super) fn kept_in_row(
-        &self,
-        row: &Row,
-        origin @ [x, y]: [i128; 2],
-    ) -> Result<Vec<([i64; 2], usize)>, Error> {
-        let part = self.part.relative_to(origin)?;
-        let sum = self
-            .sum
-            .ok_or_else(|| bug("a sweep is queried only for rows of its layer"))?;
-        // The rotation (i, j) → (j, s−i−j), relative to the origin.
-        let [across, sum] = [small(y - x)?, small(sum - x - 2 * y)?];
-        let next = |[i, j]: [i64; 2]| [j + across, sum - i - j];
-        let [first, end, j] = [
-            small(row.i.start - x)?,
-            small(row.i.end - x)?,
-            small(row.j - y)?,
-        ];
-        let kept = (first..end).map(|i| {
-            let images = [[i, j], next([i, j]), next(next([i, j]))];
-            let turns = images.iter().position(|image| part.contains(*image));
-            let turns =
-                turns.ok_or_else(|| bug("a sweep is queried only for rows of its layer"))?;
-            Ok((images[turns], turns))
-        });
-        kept.collect()
-    }
-
     /// Copies values that belong to the lines of the stored spheres to the lines of their images. The slices have one
     /// value for each sphere of the layer, by direction.
     ///
@@ -208,13 +174,12 @@ impl Stored {
         let layer = shape.layer(k)?;
         let cells = Grid::over(shape, [k, k], None, &layer)?;
         for row in layer.rows(k) {
-            let own = cells.row(row.j, &row.i, 0)?;
-            for (place, ([i, j], turns)) in
-                own[0].clone().zip(self.kept_in_row(&row, cells.origin)?)
-            {
+            let [own, ..] = cells.row(row.j, &row.i, 0)?;
+            for (place, i) in own.zip(row.i) {
+                let (image, turns) = self.kept([i, row.j])?;
                 if turns > 0 {
-                    let [from, ..] = cells.nearby_row(j, &(i..i + 1), 0)?;
-                    let values = slices.each_ref().map(|slice| slice[from.start]);
+                    let [from, ..] = cells.site(image, 0)?;
+                    let values = slices.each_ref().map(|slice| slice[from]);
                     for line in 0..3 {
                         slices[line][place] = values[turned(line, turns)];
                     }
@@ -249,6 +214,8 @@ pub(super) fn turned(line: usize, turns: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use alloc::vec::Vec;
+
     use num_bigint::BigInt;
     use num_rational::BigRational;
 
@@ -257,7 +224,7 @@ mod tests {
     use crate::engine::limbs::Least;
     use crate::engine::rows::{exact_sweep, shortest_exact_sweep};
     use crate::engine::{Cells, Descent, Lines, Planes, Readout, Unit};
-    use crate::lattice::Region;
+    use crate::lattice::{Region, Row};
     use crate::scalar::Surd;
 
     /// Returns piles under tops of one sphere, with six sides, with three sides, and away from the origin, and one pile

@@ -73,13 +73,6 @@ pub(crate) struct Nearby {
 }
 
 impl Nearby {
-    /// Returns whether the region contains the site (i, j).
-    #[inline]
-    pub(crate) fn contains(&self, [i, j]: [i64; 2]) -> bool {
-        let mut bounds = self.lower.iter().zip(&self.upper).zip([i, j, i + j]);
-        bounds.all(|((lower, upper), n)| (*lower..=*upper).contains(&n))
-    }
-
     /// Returns the range of i in row `j` of the region.
     #[inline]
     pub(crate) fn row(&self, j: i64) -> Range<i64> {
