@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 from equations import equations, sloping
 
-# The numbers of the script for LAMMPS that depend on the stiffness, and the power of it that is a factor of each: the stiffness
-# itself, both dampings, the time step, and the net force at rest.
+# The numbers of the script for LAMMPS that depend on the stiffness: the stiffness itself, both dampings, the time step, and the
+# net force at rest. Each is proportional to a power of the stiffness.
 SCALED = [
     (r"(gran/hooke )(\S+)", 1.0),
     (r"(gran/hooke \S+ NULL )(\S+)", 0.5),

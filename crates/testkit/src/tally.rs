@@ -145,7 +145,7 @@ impl Scene {
         }
     }
 
-    /// The same on a base.
+    /// A scene on a base, with weight, without loads, and with bins of width 1/3.
     pub fn on(base: &str, first: FirstSign) -> Self {
         Self {
             anchor: Anchor::Base(base.parse().unwrap()),

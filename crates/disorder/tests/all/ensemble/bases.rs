@@ -17,7 +17,7 @@ use cannonpile_testkit::tally::{Scene, all_signs, counted};
 
 const FIRST: [FirstSign; 3] = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
 
-/// Bases, most of which have spheres that no layer above needs.
+/// Bases. Most have spheres that no layer above needs.
 const BASES: [&str; 8] = [
     "hexagon:1",
     "hexagon:4",
