@@ -10,12 +10,12 @@ use num_traits::Zero;
 
 use crate::Error;
 use crate::certificate::{Certificate, Claim, Extreme};
-use crate::edge::Edge;
 use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
 use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::stand::unsolved;
-use crate::straight::{End, Straight};
+use crate::straight::{End, Straight, normal_below};
 use crate::symmetry::Orbits;
+use crate::upper::Upper;
 
 /// The smallest and the largest normal force of a bottom sphere, over all admissible sets of contact forces.
 ///
@@ -77,8 +77,8 @@ pub struct NormalBound {
 /// For a straight pile of equal spheres under one sphere, formulas give these bounds:
 /// * At a corner both bounds.
 /// * Elsewhere the lower bound.
-/// * On an edge the upper bound for up to 82 layers, with a checked certificate.
-/// * Above 31 layers an upper bound that may not be attained.
+/// * Elsewhere an upper bound, with a checked certificate for up to 82 layers. On an edge it is attained. Inside the
+///   base a search for forces shows that it is attained, for up to 31 layers. Above 31 layers it may not be attained.
 ///
 /// In all other cases a linear program over the forces of all contacts is solved. Its solution is made exact and
 /// certified.
@@ -145,11 +145,11 @@ struct Solver<'p> {
 impl<'p> Solver<'p> {
     /// Returns the bound that a formula gives for every number of layers, if there is one.
     fn by_formula(&self, end: End) -> Result<Option<NormalBound>, Error> {
-        if let (End::Greatest, Some(edge)) = (end, self.straight.and_then(Edge::of)) {
-            return Ok(self.on_edge(&edge));
-        }
-        let Some((straight, normal)) = self.straight.and_then(|s| Some((s, s.bound(end)?))) else {
+        let Some(straight) = self.straight else {
             return Ok(None);
+        };
+        let Some(normal) = straight.bound(end) else {
+            return Ok(self.by_field(straight));
         };
         let is_small = self.pile.sphere_count() <= MAX_CERTIFIED.into();
         let certificate = is_small.then(|| {
@@ -164,17 +164,23 @@ impl<'p> Solver<'p> {
         }))
     }
 
-    /// Returns the upper bound on an edge if its certificate is accepted.
-    fn on_edge(&self, edge: &Edge) -> Option<NormalBound> {
+    /// Returns the upper bound of a sphere that is not at a corner, if its certificate is accepted.
+    fn by_field(&self, straight: Straight) -> Option<NormalBound> {
         if self.pile.sphere_count() > MAX_CERTIFIED.into() {
             return None;
         }
-        let normal = edge.bound();
-        let (forces, field) = (edge.forces(), edge.field());
-        let certificate = self.certificate(End::Greatest, normal.clone(), Some(forces), field);
+        let upper = Upper::of(straight)?;
+        let forces = upper.forces();
+        let attained = forces.is_some();
+        if !attained && !upper.is_large() {
+            // A program of this size can be solved.
+            return None;
+        }
+        let normal = normal_below(BigRational::from_integer(upper.sum().into()));
+        let certificate = self.certificate(End::Greatest, normal.clone(), forces, upper.field());
         certificate.check().is_ok().then_some(NormalBound {
             normal,
-            attained: true,
+            attained,
             certificate: Some(certificate),
         })
     }

@@ -1,20 +1,18 @@
-//! The largest normal force of a bottom sphere on an edge of a straight pile: horizontal forces that attain the bound,
-//! and a field that proves it.
+//! The largest normal force of a bottom sphere on an edge of a straight pile: horizontal forces that attain it.
 
 use std::collections::BTreeMap;
 
-use cannonpile::lattice::{HorizontalContact, Site};
+use cannonpile::lattice::HorizontalContact;
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
-use crate::straight::Straight;
+use crate::straight::{Straight, by_direction};
 
 /// A bottom sphere (a, b, 0) with a ≥ b ≥ 1 of a straight pile of equal spheres under one sphere. Its coordinates
 /// are sorted.
 ///
-/// The field is zero except on the face of the pile that contains the edge: the spheres (x, y, 0). Each horizontal
-/// force acts on a sphere of this face. Optimality is not a theorem, so every certificate is checked before it is
-/// returned.
+/// Each horizontal force acts on a sphere of the face of the pile that contains the edge: the spheres (x, y, 0). It is
+/// not a theorem that the forces attain the bound, so every certificate is checked.
 pub(crate) struct Edge {
     straight: Straight,
     /// The directions of x, y and z.
@@ -39,11 +37,6 @@ impl Edge {
             }),
             _ => None,
         }
-    }
-
-    /// Returns the largest normal force of the sphere, in mg.
-    pub(crate) fn bound(&self) -> BigRational {
-        self.straight.outer_bound()
     }
 
     /// Returns the coordinates [x, y] of all spheres of the face above the bottom layer: x + y < a + b.
@@ -102,66 +95,7 @@ impl Edge {
         (other, i128::from(is_pushed))
     }
 
-    /// Returns the field φ that proves the bound.
-    ///
-    /// φ_x = 1 where the load of the line in direction x reaches the bottom sphere, and likewise φ_y. φ_z = 1 where no
-    /// load leaves the face. All other components are 0.
-    pub(crate) fn field(&self) -> BTreeMap<Site, [BigRational; 3]> {
-        let mut field = BTreeMap::new();
-        for [x, y] in self.face() {
-            let along_x = y == self.b || (y > self.b && x + y - self.b < self.c);
-            let along_y = x >= self.c && y <= self.b;
-            let out = (along_x && x >= 1) || (along_y && y >= 1);
-            let mut here = [(); 3].map(|()| BigRational::zero());
-            for (direction, is_one) in self.directions.into_iter().zip([along_x, along_y, out]) {
-                if let Some(phi) = here.get_mut(direction).filter(|_| is_one) {
-                    *phi = BigRational::one();
-                }
-            }
-            if along_x || along_y {
-                field.insert(self.straight.site(self.coordinates([x, y, 0])), here);
-            }
-        }
-        field
-    }
-
-    /// Returns the coordinates of a sphere in the order α, β, γ, from its sorted coordinates (x, y, z).
-    fn coordinates(&self, [x, y, z]: [i128; 3]) -> [i128; 3] {
-        let mut n = [0; 3];
-        for (direction, value) in self.directions.into_iter().zip([x, y, z]) {
-            if let Some(place) = n.get_mut(direction) {
-                *place = value;
-            }
-        }
-        n
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::certificate::{Certificate, Claim, Extreme};
-    use cannonpile::Pile;
-
-    #[test]
-    fn edge_bounds_are_attained() {
-        for layers in 3..=18_i128 {
-            let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);
-            for b in 1..=k / 2 {
-                let site = Site { i: b, j: 0, k };
-                let edge = Edge::of(Straight::of(&pile, site).unwrap()).unwrap();
-                let certificate = Certificate {
-                    pile: pile.clone(),
-                    claim: Claim::Greatest(Extreme {
-                        site,
-                        normal: edge.bound(),
-                        attained: true,
-                    }),
-                    horizontal: edge.forces(),
-                    field: edge.field(),
-                };
-                assert_eq!(certificate.check(), Ok(()), "{layers} layers, {b}");
-            }
-        }
+    fn coordinates(&self, sphere: [i128; 3]) -> [i128; 3] {
+        by_direction(self.directions, sphere)
     }
 }

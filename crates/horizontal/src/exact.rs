@@ -202,7 +202,7 @@ fn subtract<T: Field>(from: &mut T, number: &T) -> Result<(), Failure> {
 /// The result is the first convergent that equals the float within its precision, or else the last one with a
 /// denominator of at most `most`. For `most` = 1 it is the nearest integer. `None` if the number is not finite or
 /// exceeds 10¹⁵.
-fn simple_fraction(number: f64, most: i64) -> Option<(i64, NonZeroI64)> {
+pub(crate) fn simple_fraction(number: f64, most: i64) -> Option<(i64, NonZeroI64)> {
     const GREATEST: f64 = 1e15;
     const CLOSE: f64 = 1e-12;
     if !number.is_finite() || number.abs() > GREATEST {

@@ -54,13 +54,17 @@
 //!
 //! Private modules: `stand` decides stability, `bounds` and `base` compute the bounds, `elastic` and `springs` the
 //! elastic state. They share `network` (the balance equations), `program` (the interior-point solver) and `exact`
-//! (rational elimination). The modules `straight`, `edge`, `run` and `symmetry` cover special piles.
+//! (rational elimination). The modules `straight`, `edge`, `upper`, `run` and `symmetry` cover special piles. `simplex`
+//! finds the forces that attain an upper bound.
 //!
 //! # Method
 //! An interior-point method (clarabel) solves a linear or quadratic program over the forces in floats. Its result
 //! only suggests the active set: the forces that are zero, and the inequalities that are equalities. Rational
 //! elimination then solves these equations exactly. Unknowns that they leave free are rounded from the float
 //! solution to fractions with small denominators.
+//!
+//! The upper bounds of straight piles of equal spheres need no such program: a formula gives the bound, and a simplex
+//! method in floats looks for forces that attain it.
 //!
 //! # Guarantees
 //! * Every number is exact. A solution that a float solver suggested is returned only if
@@ -85,12 +89,14 @@ pub mod formula;
 mod network;
 mod program;
 mod run;
+mod simplex;
 mod springs;
 mod stability;
 mod stand;
 mod straight;
 mod symmetry;
 pub mod theorem;
+mod upper;
 
 use core::num::NonZeroI64;
 

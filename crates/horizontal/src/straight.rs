@@ -177,8 +177,17 @@ pub(crate) fn factor_of(pile: &Pile) -> i128 {
 }
 
 /// Returns the normal force 1 + G/3 in mg, from the load G on a bottom sphere in f₀.
-fn normal_below(onto: BigRational) -> BigRational {
+pub(crate) fn normal_below(onto: BigRational) -> BigRational {
     BigRational::one() + onto / BigRational::from_integer(3.into())
+}
+
+/// Returns values in the order of the directions α, β, γ. They are given in the order of `directions`.
+pub(crate) fn by_direction<V: Copy + Default>(directions: [usize; 3], values: [V; 3]) -> [V; 3] {
+    let mut by_direction = [V::default(); 3];
+    for (direction, value) in directions.into_iter().zip(values) {
+        by_direction[direction] = value;
+    }
+    by_direction
 }
 
 fn unit(l: usize) -> [i128; 3] {

@@ -1,0 +1,314 @@
+//! Horizontal forces that make given sloping forces vanish, by a dual simplex method in floats.
+//!
+//! Without horizontal forces, all forces of a straight pile are compressive, but those that have to vanish do not. Each
+//! step corrects the force that is wrong most, until none is. A *dictionary* contains the horizontal forces that are not
+//! zero, as linear functions of *variables*: forces that are zero. A step makes the wrong force a variable. In exchange
+//! a variable becomes positive: the one for which the sum of all horizontal forces grows least. So before each step, the
+//! sum is the least one for which all variables are zero or more. Sloping forces that are not variables need no row: they
+//! follow from the horizontal forces.
+//!
+//! Example: two horizontal forces push against a sloping force of 1 that has to vanish. It decreases by 1 for each unit
+//! of the first one and by 2 for each unit of the second one. The second one needs less, so it becomes ½.
+
+use std::collections::BTreeMap;
+
+use cannonpile::engine::check_interrupt;
+
+/// The force of a sloping contact: that of the contact above it on the same line, plus 1 for the weight of its sphere,
+/// plus the horizontal forces on this sphere.
+pub(crate) struct Sloping {
+    /// The number of the contact above on the same line. It precedes this contact.
+    pub(crate) above: Option<usize>,
+    /// Whether the force has to be zero. Otherwise it has to be at least zero.
+    pub(crate) vanishes: bool,
+    /// The numbers of the horizontal forces that change the force, each with the change for a force of 1.
+    pub(crate) pushes: Vec<(usize, f64)>,
+}
+
+/// A force that has to be at least zero.
+#[derive(Clone, Copy)]
+enum Variable {
+    Horizontal(usize),
+    Sloping(usize),
+}
+
+/// The place of a horizontal force in the dictionary.
+#[derive(Clone, Copy)]
+enum Place {
+    /// It is zero, and one of the variables.
+    Column(usize),
+    /// It is a function of the variables.
+    Row(usize),
+}
+
+/// A horizontal force as a linear function of the variables.
+struct Row {
+    number: usize,
+    /// The force if all variables are zero.
+    value: f64,
+    slopes: Slopes,
+}
+
+/// The change of a force with the variables, by column, where it is not zero.
+type Slopes = BTreeMap<usize, f64>;
+
+struct Dictionary<'s> {
+    sloping: &'s [Sloping],
+    /// The variables, all of them zero.
+    zero: Vec<Variable>,
+    /// The change of the sum of all horizontal forces with each variable. Infinite for a force that has to vanish: it
+    /// stays zero.
+    rates: Vec<f64>,
+    rows: Vec<Row>,
+    /// The place of each horizontal force.
+    places: Vec<Place>,
+    /// Whether each sloping force is one of the variables.
+    is_zero: Vec<bool>,
+}
+
+/// A force below this is zero.
+const TOLERANCE: f64 = 1e-7;
+
+/// A slope below this is zero.
+const FLAT: f64 = 1e-6;
+
+/// A fall of the sum by more than this ends the search.
+const LOST: f64 = 1e-3;
+
+/// Returns horizontal forces with the least sum for which no force is tensile, and the marked sloping forces vanish.
+///
+/// They are floats, so the caller has to check them. `None` if there are no such forces, if the search takes too long,
+/// or if cancellation was requested.
+pub(crate) fn least_horizontal(contacts: usize, sloping: &[Sloping]) -> Option<Vec<f64>> {
+    let mut dictionary = Dictionary {
+        sloping,
+        zero: (0..contacts).map(Variable::Horizontal).collect(),
+        rates: vec![1.0; contacts],
+        rows: Vec::new(),
+        places: (0..contacts).map(Place::Column).collect(),
+        is_zero: vec![false; sloping.len()],
+    };
+    let mut sum = 0.0;
+    // Searches that end need fewer steps.
+    for _ in 0..=contacts + sloping.len() {
+        check_interrupt().ok()?;
+        let before = sum;
+        sum = dictionary.rows.iter().map(|row| row.value).sum();
+        // The exact sum never falls, so too many digits are lost.
+        if sum < before - LOST {
+            return None;
+        }
+        let Some((worst, value)) = dictionary.worst() else {
+            let forces = (0..contacts).map(|number| dictionary.value(number));
+            return Some(forces.collect());
+        };
+        dictionary.replace(worst, value)?;
+    }
+    None
+}
+
+impl Dictionary<'_> {
+    /// Returns a horizontal force.
+    fn value(&self, number: usize) -> f64 {
+        match self.places[number] {
+            Place::Column(_) => 0.0,
+            Place::Row(row) => self.rows[row].value,
+        }
+    }
+
+    /// Returns the force that violates its condition most, with its value, or `None` if all conditions are met.
+    fn worst(&self) -> Option<(Variable, f64)> {
+        let mut values = Vec::with_capacity(self.sloping.len());
+        let (mut worst, mut most) = (None, TOLERANCE);
+        let mut compare = |variable, value: f64, vanishes| {
+            let excess = if vanishes { value.abs() } else { -value };
+            if excess > most {
+                (worst, most) = (Some((variable, value)), excess);
+            }
+        };
+        for (number, contact) in self.sloping.iter().enumerate() {
+            let above = contact.above.map_or(0.0, |above| values[above]);
+            let pushes = contact.pushes.iter();
+            let pushed: f64 = pushes.map(|(other, sign)| sign * self.value(*other)).sum();
+            let value = above + 1.0 + pushed;
+            values.push(value);
+            if !self.is_zero[number] {
+                compare(Variable::Sloping(number), value, contact.vanishes);
+            }
+        }
+        for row in &self.rows {
+            compare(Variable::Horizontal(row.number), row.value, false);
+        }
+        worst
+    }
+
+    /// Returns the change of a force with each variable.
+    fn slopes(&self, force: Variable) -> Slopes {
+        let mut slopes = Slopes::new();
+        let mut add = |number: usize, factor: f64| match self.places[number] {
+            Place::Column(column) => add(&mut slopes, column, factor),
+            Place::Row(row) => add_multiple(&mut slopes, factor, &self.rows[row].slopes),
+        };
+        match force {
+            Variable::Horizontal(number) => add(number, 1.0),
+            Variable::Sloping(number) => {
+                let line =
+                    core::iter::successors(Some(number), |number| self.sloping[*number].above);
+                for (other, sign) in line.flat_map(|number| &self.sloping[number].pushes) {
+                    add(*other, *sign);
+                }
+            }
+        }
+        slopes
+    }
+
+    /// Makes a force with the given value a variable, in place of one that becomes positive. `None` if no variable
+    /// brings the force to zero.
+    fn replace(&mut self, force: Variable, value: f64) -> Option<()> {
+        let mut slopes = self.slopes(force);
+        let toward_zero = slopes.iter();
+        let toward_zero = toward_zero.map(|(column, slope)| (*column, -value.signum() * slope));
+        let candidates = || {
+            let steep = toward_zero.clone().filter(|(_, slope)| *slope > FLAT);
+            steep.map(|(column, slope)| (self.rates[column] / slope, slope, column))
+        };
+        let slowest = candidates()
+            .map(|(rate, _, _)| rate)
+            .fold(f64::INFINITY, f64::min);
+        // Of equal rates the steepest slope loses the least digits.
+        let slowest =
+            candidates().filter(|(rate, _, _)| *rate <= slowest + FLAT && rate.is_finite());
+        let (_, _, column) = slowest.max_by(|(_, one, _), (_, other, _)| one.total_cmp(other))?;
+        if let Variable::Horizontal(number) = force {
+            if let Place::Row(row) = self.places[number] {
+                self.rows.swap_remove(row);
+                if let Some(moved) = self.rows.get(row) {
+                    self.places[moved.number] = Place::Row(row);
+                }
+            }
+            self.places[number] = Place::Column(column);
+        }
+        // The variable as a function of the force and the other variables.
+        let slope = slopes.insert(column, -1.0)?;
+        for other in slopes.values_mut() {
+            *other /= -slope;
+        }
+        let value = value / -slope;
+        for row in &mut self.rows {
+            if let Some(factor) = row.slopes.remove(&column) {
+                row.value += factor * value;
+                add_multiple(&mut row.slopes, factor, &slopes);
+            }
+        }
+        let rate = core::mem::take(&mut self.rates[column]);
+        for (column, slope) in &slopes {
+            let sum = &mut self.rates[*column];
+            *sum += rate * slope;
+            if *sum < FLAT {
+                *sum = 0.0;
+            }
+        }
+        match core::mem::replace(&mut self.zero[column], force) {
+            Variable::Horizontal(number) => {
+                self.places[number] = Place::Row(self.rows.len());
+                self.rows.push(Row {
+                    number,
+                    value,
+                    slopes,
+                });
+            }
+            Variable::Sloping(number) => self.is_zero[number] = false,
+        }
+        if let Variable::Sloping(number) = force {
+            self.is_zero[number] = true;
+            if self.sloping[number].vanishes {
+                self.rates[column] = f64::INFINITY;
+            }
+        }
+        Some(())
+    }
+}
+
+fn add_multiple(to: &mut Slopes, factor: f64, slopes: &Slopes) {
+    for (column, slope) in slopes {
+        add(to, *column, factor * slope);
+    }
+}
+
+fn add(to: &mut Slopes, column: usize, slope: f64) {
+    let sum = to.entry(column).or_insert(0.0);
+    *sum += slope;
+    if sum.abs() < FLAT {
+        to.remove(&column);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns sloping contacts on lines of their own: whether the force has to vanish, and the pushes.
+    fn lines(lines: &[(bool, &[(usize, f64)])]) -> Vec<Sloping> {
+        let sloping = |&(vanishes, pushes): &(bool, &[_])| Sloping {
+            above: None,
+            vanishes,
+            pushes: pushes.to_vec(),
+        };
+        lines.iter().map(sloping).collect()
+    }
+
+    #[test]
+    fn without_conditions_no_force_is_needed() {
+        assert_eq!(
+            least_horizontal(2, &lines(&[(false, &[(0, -1.0)])])),
+            Some(vec![0.0; 2])
+        );
+        assert_eq!(least_horizontal(0, &[]), Some(vec![]));
+    }
+
+    #[test]
+    fn steeper_push_needs_less() {
+        let sloping = lines(&[(true, &[(0, -1.0), (1, -2.0)])]);
+        assert_eq!(least_horizontal(2, &sloping), Some(vec![0.0, 0.5]));
+    }
+
+    /// The weight of two spheres on one line has to vanish. The push that removes it makes another line tensile, which
+    /// a second push prevents. A third push would bring the first force back.
+    #[test]
+    fn tensile_forces_are_corrected() {
+        let mut sloping = lines(&[
+            (false, &[]),
+            (true, &[(0, -1.0), (2, 1.0)]),
+            (false, &[(0, -1.0), (1, 1.0), (2, 1.0)]),
+        ]);
+        sloping[1].above = Some(0);
+        assert_eq!(least_horizontal(3, &sloping), Some(vec![2.0, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn impossible_conditions_have_no_forces() {
+        // Either push removes one force and adds to the other.
+        let opposed = lines(&[
+            (true, &[(0, -1.0), (1, 1.0)]),
+            (true, &[(0, 1.0), (1, -1.0)]),
+        ]);
+        assert_eq!(least_horizontal(2, &opposed), None);
+        assert_eq!(least_horizontal(1, &lines(&[(true, &[(0, 1.0)])])), None);
+        assert_eq!(least_horizontal(1, &lines(&[(true, &[])])), None);
+    }
+
+    #[test]
+    fn pushes_that_share_a_condition_are_solved_together() {
+        // X₀ + X₁ = 1 and X₀ + 2 X₁ = 1 have the solution (1, 0); with 3 X₀ + X₁ = 1 instead, X = (0, 1).
+        let first = lines(&[
+            (true, &[(0, -1.0), (1, -1.0)]),
+            (true, &[(0, -1.0), (1, -2.0)]),
+        ]);
+        assert_eq!(least_horizontal(2, &first), Some(vec![1.0, 0.0]));
+        let second = lines(&[
+            (true, &[(0, -1.0), (1, -1.0)]),
+            (true, &[(0, -3.0), (1, -1.0)]),
+        ]);
+        assert_eq!(least_horizontal(2, &second), Some(vec![0.0, 1.0]));
+    }
+}
