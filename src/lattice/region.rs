@@ -342,6 +342,7 @@ impl Region {
     }
 
     /// Returns the range of i in row j, which may be empty.
+    #[inline]
     pub(crate) fn row(&self, j: i128) -> core::ops::Range<i128> {
         let ([x0, _, s0], [x1, _, s1]) = (self.lower, self.upper);
         x0.max(s0 - j)..x1.min(s1 - j) + 1

@@ -61,6 +61,7 @@ impl Row {
     /// # Errors
     /// [`Error::TooLarge`] if the number does not fit in `usize`.
     #[doc(hidden)]
+    #[inline]
     pub fn length(&self) -> Result<usize, Error> {
         let Range { start, end } = self.i;
         let sites = if self.i.is_empty() {
