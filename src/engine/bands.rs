@@ -267,18 +267,22 @@ impl NearbyPass {
         })
     }
 
-    /// Returns the cells and the counts of the row that is processed at a time.
+    /// Returns the cells of the row that is processed at a time.
     ///
     /// # Errors
     /// [`Error::Bug`] if a line has no cell.
     #[inline]
-    fn row(&self, time: i64, grid: &Grid<'_>) -> Result<([Range<usize>; 3], [Slopes; 3]), Error> {
+    fn cells(&self, time: i64, grid: &Grid<'_>) -> Result<[Range<usize>; 3], Error> {
         let j = time - self.delay;
-        let i = self.part.row(j);
-        let cells = grid.nearby_row(j, &i, self.shift)?;
-        let run = (self.sign, self.steps);
-        let counts = self.region.counts_in_row([i.start, j], cells[0].len(), run);
-        Ok((cells, counts))
+        grid.nearby_row(j, &self.part.row(j), self.shift)
+    }
+
+    /// Returns the counts of the row that is processed at a time, for its `n` positions.
+    #[inline]
+    fn counts(&self, time: i64, n: usize) -> [Slopes; 3] {
+        let j = time - self.delay;
+        let start = [self.part.row(j).start, j];
+        self.region.counts_in_row(start, n, (self.sign, self.steps))
     }
 }
 
@@ -321,14 +325,15 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         for time in start..end {
             for (place, pass) in nearby.iter().enumerate() {
                 if pass.times.contains(&time) {
-                    let (mut cells, counts) = pass.row(time, grid)?;
+                    let mut cells = pass.cells(time, grid)?;
                     for (cells, start) in cells.iter_mut().zip(self.starts) {
                         *cells = cells.start - start..cells.end - start;
                     }
+                    let n = cells[0].len();
                     steps.push(Step {
                         place,
                         cells,
-                        counts,
+                        counts: pass.counts(time, n),
                     });
                     if steps.len() == block {
                         self.make_steps(&steps, passes, begin, turn)?;
