@@ -37,8 +37,8 @@ impl Region {
     /// Returns [`spheres_above`](Self::spheres_above) as a function of the position along row `j`, from the site (i, j)
     /// on, within the region.
     pub(crate) fn row_counts(&self, [i, j]: [i128; 2], sign: Sign, steps: i128) -> [Trapezoid; 3] {
-        let bounds = |i| count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
-        Trapezoid::between(bounds(i), bounds(i + 1))
+        let bounds = count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
+        Trapezoid::from_bounds(bounds, sign)
     }
 
     /// Returns a region that fits in memory, with coordinates relative to `origin`.
@@ -90,13 +90,8 @@ impl Nearby {
         (sign, steps): (Sign, i64),
     ) -> [Slopes; 3] {
         let Self { lower, upper } = self;
-        let bounds = |i, sign| count::bounds_above(&i, &j, lower, upper, &steps, sign);
-        let counts = |sign| Trapezoid::between(bounds(i, sign), bounds(i + 1, sign));
-        // With a constant sign, the compiler can determine which bounds rise and which fall.
-        let [a, b, c] = match sign {
-            Sign::Plus => counts(Sign::Plus),
-            Sign::Minus => counts(Sign::Minus),
-        };
+        let bounds = count::bounds_above(&i, &j, lower, upper, &steps, sign);
+        let [a, b, c] = Trapezoid::from_bounds(bounds, sign);
         [Slopes::new(a, n), Slopes::new(b, n), Slopes::new(c, n)]
     }
 }
@@ -110,28 +105,41 @@ pub(crate) struct Trapezoid<N = i128> {
 }
 
 impl<N: Copy + Ord> Trapezoid<N> {
-    /// Returns the counts from their bounds at one position and at the next. Along the row, the first bound of each
-    /// count is constant. Each other bound rises by one, falls by one, or is constant.
+    /// Returns the counts along a row from their [bounds](count::bounds_above) at its first position.
     #[inline]
-    fn between([a, b, c]: [[N; 4]; 3], [a_next, b_next, c_next]: [[N; 4]; 3]) -> [Self; 3] {
-        let count = |[cap, x, y, z]: [N; 4], [_, x_next, y_next, z_next]: [N; 4]| {
+    fn from_bounds(bounds: [[N; 4]; 3], sign: Sign) -> [Self; 3] {
+        // With a constant sign, the compiler determines which bounds rise and which fall.
+        match sign {
+            Sign::Plus => Self::from_bounds_under::<true>(bounds),
+            Sign::Minus => Self::from_bounds_under::<false>(bounds),
+        }
+    }
+
+    #[inline]
+    fn from_bounds_under<const IS_PLUS: bool>([a, b, c]: [[N; 4]; 3]) -> [Self; 3] {
+        let sign = if IS_PLUS { Sign::Plus } else { Sign::Minus };
+        // Bounds are linear in i. So the bounds at i = 1 without constants are the differences along the row.
+        let [along_a, along_b, along_c] =
+            count::bounds_above(&1_i64, &0, &[0; 3], &[0; 3], &0, sign);
+        let count = |[cap, x, y, z]: [N; 4], [_, along_x, along_y, along_z]: [i64; 4]| {
             let level = Self {
                 cap,
                 rises: None,
                 falls: None,
             };
-            let count = level.bounded_by(x, x_next).bounded_by(y, y_next);
-            count.bounded_by(z, z_next)
+            let count = level.bounded_by(x, along_x).bounded_by(y, along_y);
+            count.bounded_by(z, along_z)
         };
-        [count(a, a_next), count(b, b_next), count(c, c_next)]
+        [count(a, along_a), count(b, along_b), count(c, along_c)]
     }
 
+    /// Adds a bound that rises by `difference` at each position: by 1, 0 or −1.
     #[inline]
-    fn bounded_by(self, here: N, next: N) -> Self {
-        let least = |bound: Option<N>| Some(bound.into_iter().fold(here, N::min));
-        match next.cmp(&here) {
+    fn bounded_by(self, bound: N, difference: i64) -> Self {
+        let least = |other: Option<N>| Some(other.into_iter().fold(bound, N::min));
+        match difference.cmp(&0) {
             Ordering::Equal => Self {
-                cap: self.cap.min(here),
+                cap: self.cap.min(bound),
                 ..self
             },
             Ordering::Greater => Self {
