@@ -127,6 +127,7 @@ impl Dictionary<'_> {
             }
         };
         for (number, contact) in self.sloping.iter().enumerate() {
+            // The first contact of a line bears nothing from above.
             let above = contact.above.map_or(0.0, |above| values[above]);
             let pushes = contact.pushes.iter();
             let pushed: f64 = pushes.map(|(other, sign)| sign * self.value(*other)).sum();
