@@ -9,11 +9,11 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use crate::Error;
-use crate::certificate::{Certificate, Claim, Extreme};
+use crate::certificate::{Certificate, Claim, Extreme, Refusal};
 use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
 use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::stand::unsolved;
-use crate::straight::{End, Straight, normal_below};
+use crate::straight::{End, Straight};
 use crate::symmetry::Orbits;
 use crate::upper::Upper;
 
@@ -66,7 +66,7 @@ pub struct NormalBound {
     pub attained: bool,
     /// The proof of the bound.
     ///
-    /// `None` if it would list more than 10⁵ spheres and a formula proves the bound for every L
+    /// `None` if the pile has more than 10⁵ spheres and a formula proves the bound for every L
     /// ([`paper`](cannonpile::paper#arching)). It is also `None` for images of a sphere in
     /// [`base_bounds`](crate::base_bounds).
     pub certificate: Option<Certificate>,
@@ -74,14 +74,16 @@ pub struct NormalBound {
 
 /// Returns the smallest and the largest normal force of a bottom sphere at a = R, in mg, with horizontal contacts.
 ///
-/// For a straight pile of equal spheres under one sphere, formulas give these bounds:
-/// * At a corner both bounds.
-/// * Elsewhere the lower bound.
-/// * Elsewhere an upper bound, with a checked certificate for up to 82 layers. On an edge it is attained. Inside the
-///   base a search for forces shows that it is attained, for up to 31 layers. Above 31 layers it may not be attained.
+/// For a straight pile of equal spheres under one sphere, these bounds need no linear program:
+/// * At a corner both bounds, and elsewhere the lower bound.
+/// * On an edge the upper bound, attained and with a checked certificate, for up to 83 layers.
+/// * Inside the base an upper bound with a checked certificate. For up to 31 layers it is used only if a search finds
+///   forces that attain it. For 32 to 83 layers it may not be attained.
+/// * Above 83 layers, on edges and inside the base, an upper bound by a formula. It may not be attained, and has no
+///   certificate.
 ///
-/// In all other cases a linear program over the forces of all contacts is solved. Its solution is made exact and
-/// certified.
+/// In all other cases, and if the search fails, a linear program over the forces of all contacts is solved. Its
+/// solution is made exact and certified.
 ///
 /// Horizontal forces that were assigned to the pile are ignored.
 ///
@@ -143,13 +145,13 @@ struct Solver<'p> {
 }
 
 impl<'p> Solver<'p> {
-    /// Returns the bound that a formula gives for every number of layers, if there is one.
+    /// Returns a bound that needs no linear program, if there is one.
     fn by_formula(&self, end: End) -> Result<Option<NormalBound>, Error> {
         let Some(straight) = self.straight else {
             return Ok(None);
         };
         let Some(normal) = straight.bound(end) else {
-            return Ok(self.by_field(straight));
+            return self.by_field(straight);
         };
         let is_small = self.pile.sphere_count() <= MAX_CERTIFIED.into();
         let certificate = is_small.then(|| {
@@ -164,25 +166,34 @@ impl<'p> Solver<'p> {
         }))
     }
 
-    /// Returns the upper bound of a sphere that is not at a corner, if its certificate is accepted.
-    fn by_field(&self, straight: Straight) -> Option<NormalBound> {
+    /// Returns the upper bound of a sphere that is not at a corner.
+    ///
+    /// `None` if the pile is too large for a certificate, if the checker rejects it, or if a linear program may give a
+    /// smaller bound.
+    fn by_field(&self, straight: Straight) -> Result<Option<NormalBound>, Error> {
         if self.pile.sphere_count() > MAX_CERTIFIED.into() {
-            return None;
+            return Ok(None);
         }
-        let upper = Upper::of(straight)?;
+        check_interrupt()?;
+        let upper = Upper::of(straight);
         let forces = upper.forces();
         let attained = forces.is_some();
         if !attained && !upper.is_large() {
-            // A program of this size can be solved.
-            return None;
+            return Ok(None);
         }
-        let normal = normal_below(BigRational::from_integer(upper.sum().into()));
+        let normal = upper.bound();
         let certificate = self.certificate(End::Greatest, normal.clone(), forces, upper.field());
-        certificate.check().is_ok().then_some(NormalBound {
-            normal,
-            attained,
-            certificate: Some(certificate),
-        })
+        match certificate.check() {
+            Ok(()) => Ok(Some(NormalBound {
+                normal,
+                attained,
+                certificate: Some(certificate),
+            })),
+            Err(refusal) => match *refusal {
+                Refusal::Pile(error) => Err(error.into()),
+                _ => Ok(None),
+            },
+        }
     }
 
     /// Returns the balance equations, or `None` if there are too many of them and a formula gives an outer bound

@@ -55,7 +55,7 @@
 //! Private modules: `stand` decides stability, `bounds` and `base` compute the bounds, `elastic` and `springs` the
 //! elastic state. They share `network` (the balance equations), `program` (the interior-point solver) and `exact`
 //! (rational elimination). The modules `straight`, `edge`, `upper`, `run` and `symmetry` cover special piles. `simplex`
-//! finds the forces that attain an upper bound.
+//! looks for the forces that attain an upper bound.
 //!
 //! # Method
 //! An interior-point method (clarabel) solves a linear or quadratic program over the forces in floats. Its result
@@ -63,12 +63,12 @@
 //! elimination then solves these equations exactly. Unknowns that they leave free are rounded from the float
 //! solution to fractions with small denominators.
 //!
-//! The upper bounds of straight piles of equal spheres need no such program: a formula gives the bound, and a simplex
-//! method in floats looks for forces that attain it.
+//! For straight piles of equal spheres a formula gives the upper bound first. A simplex method in floats looks for forces
+//! that attain it. If it finds none, the linear program is solved (up to 31 layers).
 //!
 //! # Guarantees
-//! * Every number is exact. A solution that a float solver suggested is returned only if
-//!   [`Certificate::check`](certificate::Certificate::check) accepts it. The other results are exact forces without
+//! * Every number is exact. A solution that a float solver suggested, or a bound that no theorem covers, is returned only
+//!   if [`Certificate::check`](certificate::Certificate::check) accepts it. The other results are exact forces without
 //!   horizontal contacts, or formulas that [`theorem`] proves.
 //! * If an optimum cannot be certified, the result is a certified outer bound, marked as such
 //!   ([`attained`](NormalBound::attained)), or an error.

@@ -1,11 +1,13 @@
 //! Horizontal forces that make given sloping forces vanish, by a dual simplex method in floats.
 //!
-//! Without horizontal forces, all forces of a straight pile are compressive, but those that have to vanish do not. Each
-//! step corrects the force that is wrong most, until none is. A *dictionary* contains the horizontal forces that are not
-//! zero, as linear functions of *variables*: forces that are zero. A step makes the wrong force a variable. In exchange
-//! a variable becomes positive: the one for which the sum of all horizontal forces grows least. So before each step, the
-//! sum is the least one for which all variables are zero or more. Sloping forces that are not variables need no row: they
-//! follow from the horizontal forces.
+//! Without horizontal forces no force of a straight pile is tensile, but the forces that have to vanish are positive.
+//! Each step corrects the force that violates its condition most. The search ends when all conditions hold.
+//!
+//! The *variables* are forces that are zero. A *dictionary* states the other horizontal forces as linear functions of
+//! the variables. A step makes the force that it corrects a variable. In exchange one variable becomes positive: the
+//! one for which the sum of all horizontal forces grows least. So at each step, no other values of the variables that
+//! are zero or more give a smaller sum. Sloping forces that are not variables need no row: they follow from the
+//! horizontal forces.
 //!
 //! Example: two horizontal forces push against a sloping force of 1 that has to vanish. It decreases by 1 for each unit
 //! of the first one and by 2 for each unit of the second one. The second one needs less, so it becomes ½.
@@ -19,7 +21,7 @@ use cannonpile::engine::check_interrupt;
 pub(crate) struct Sloping {
     /// The number of the contact above on the same line. It precedes this contact.
     pub(crate) above: Option<usize>,
-    /// Whether the force has to be zero. Otherwise it has to be at least zero.
+    /// `true` if the force has to be zero. Otherwise it has to be at least zero.
     pub(crate) vanishes: bool,
     /// The numbers of the horizontal forces that change the force, each with the change for a force of 1.
     pub(crate) pushes: Vec<(usize, f64)>,
@@ -54,28 +56,31 @@ type Slopes = BTreeMap<usize, f64>;
 
 struct Dictionary<'s> {
     sloping: &'s [Sloping],
-    /// The variables, all of them zero.
+    /// The variables, all of them zero. No row depends on one that has to vanish, so it stays zero.
     zero: Vec<Variable>,
-    /// The change of the sum of all horizontal forces with each variable. Infinite for a force that has to vanish: it
-    /// stays zero.
+    /// The change of the sum of all horizontal forces with each variable.
     rates: Vec<f64>,
     rows: Vec<Row>,
     /// The place of each horizontal force.
     places: Vec<Place>,
-    /// Whether each sloping force is one of the variables.
+    /// `true` for each sloping force that is one of the variables.
     is_zero: Vec<bool>,
 }
 
-/// A force below this is zero.
+/// A force within this of zero counts as zero.
 const TOLERANCE: f64 = 1e-7;
 
-/// A slope below this is zero.
+/// A slope, or a rate, within this of zero counts as zero.
 const FLAT: f64 = 1e-6;
 
-/// A fall of the sum by more than this ends the search.
+/// A slope below this is too flat to exchange a force and a variable: the division would lose digits.
+const STEEP: f64 = 1e-2;
+
+/// The search ends if the sum falls by more than this.
 const LOST: f64 = 1e-3;
 
-/// Returns horizontal forces with the least sum for which no force is tensile, and the marked sloping forces vanish.
+/// Returns horizontal forces with the least sum for which no force is tensile, and the sloping forces that are marked to
+/// vanish are zero.
 ///
 /// They are floats, so the caller has to check them. `None` if there are no such forces, if the search takes too long,
 /// or if cancellation was requested.
@@ -89,8 +94,8 @@ pub(crate) fn least_horizontal(contacts: usize, sloping: &[Sloping]) -> Option<V
         is_zero: vec![false; sloping.len()],
     };
     let mut sum = 0.0;
-    // Searches that end need fewer steps.
-    for _ in 0..=contacts + sloping.len() {
+    // A search with forces took at most 3,000 steps in a base of 31 layers, which has 15,000 sloping contacts.
+    for _ in 0..=sloping.len() {
         check_interrupt().ok()?;
         let before = sum;
         sum = dictionary.rows.iter().map(|row| row.value).sum();
@@ -167,18 +172,17 @@ impl Dictionary<'_> {
     /// brings the force to zero.
     fn replace(&mut self, force: Variable, value: f64) -> Option<()> {
         let mut slopes = self.slopes(force);
-        let toward_zero = slopes.iter();
-        let toward_zero = toward_zero.map(|(column, slope)| (*column, -value.signum() * slope));
-        let candidates = || {
-            let steep = toward_zero.clone().filter(|(_, slope)| *slope > FLAT);
-            steep.map(|(column, slope)| (self.rates[column] / slope, slope, column))
-        };
-        let slowest = candidates()
-            .map(|(rate, _, _)| rate)
-            .fold(f64::INFINITY, f64::min);
-        // Of equal rates the steepest slope loses the least digits.
-        let slowest =
-            candidates().filter(|(rate, _, _)| *rate <= slowest + FLAT && rate.is_finite());
+        let sign = -value.signum();
+        let steep = slopes.iter().map(|(column, slope)| (*column, sign * slope));
+        let steep = steep.filter(|(_, slope)| *slope > STEEP);
+        let candidates: Vec<_> = steep
+            .map(|(column, slope)| (self.rates[column] / slope, slope, column))
+            .collect();
+        let rates = candidates.iter().map(|(rate, ..)| *rate);
+        let least = rates.fold(f64::INFINITY, f64::min);
+        // Of equal rates the steepest slope loses the fewest digits.
+        let slowest = candidates.into_iter();
+        let slowest = slowest.filter(|(rate, ..)| *rate <= least + FLAT);
         let (_, _, column) = slowest.max_by(|(_, one, _), (_, other, _)| one.total_cmp(other))?;
         if let Variable::Horizontal(number) = force {
             if let Place::Row(row) = self.places[number] {
@@ -195,6 +199,12 @@ impl Dictionary<'_> {
             *other /= -slope;
         }
         let value = value / -slope;
+        if let Variable::Sloping(number) = force {
+            self.is_zero[number] = true;
+            if self.sloping[number].vanishes {
+                slopes.remove(&column);
+            }
+        }
         for row in &mut self.rows {
             if let Some(factor) = row.slopes.remove(&column) {
                 row.value += factor * value;
@@ -219,12 +229,6 @@ impl Dictionary<'_> {
                 });
             }
             Variable::Sloping(number) => self.is_zero[number] = false,
-        }
-        if let Variable::Sloping(number) = force {
-            self.is_zero[number] = true;
-            if self.sloping[number].vanishes {
-                self.rates[column] = f64::INFINITY;
-            }
         }
         Some(())
     }

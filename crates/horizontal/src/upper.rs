@@ -11,20 +11,22 @@ use crate::edge::Edge;
 use crate::exact::simple_fraction;
 use crate::network::MAX_EQUATIONS;
 use crate::simplex::{Sloping, least_horizontal};
-use crate::straight::{Straight, by_direction};
+use crate::straight::{Straight, by_direction, normal_below};
 
-/// The field that bounds the normal force of a bottom sphere (a, b, c) with a ≥ b ≥ c from above.
+/// The field that proves an upper bound of the load on the bottom sphere (a, b, c), a ≥ b ≥ c.
 ///
-/// The pile is straight, of equal spheres under one sphere, and the sphere is not at a corner. All coordinates
-/// (x, y, z) are sorted like those of the sphere. The components of the field are 0 or 1. Let u = y − b and v = z − c.
-/// With the cuts p ≤ a, s ≤ p and q ≤ b the component is 1
-/// * along x where u ≥ 0, v ≥ 0, x + u + v < p and, unless v = 0, x + v < s; and on the line u = v = 0;
-/// * along y where x ≥ p, u ≤ 0, v ≥ 0 and, unless v = 0, y + v < q;
-/// * along z where v ≤ 0 and either s ≤ x < p, u ≥ 0 and x + u + v < p, or x ≥ p, y ≥ q and, unless u ≤ 0, z + u < c.
+/// The pile is straight, of equal spheres under one sphere, and the sphere is not at a corner. Other spheres have
+/// coordinates (x, y, z) in the same order of directions. The components of the field are 0 or 1. Let u = y − b and
+/// v = z − c. With the cuts p ≤ a, s ≤ p and q ≤ b the component is 1
+/// * along x where u, v ≥ 0, x + u + v < p and, if v > 0, x + v < s;
+/// * along x on the line u = v = 0;
+/// * along y where x ≥ p, u ≤ 0, v ≥ 0 and, if v > 0, y + v < q;
+/// * along z where v ≤ 0, s ≤ x < p, u ≥ 0 and x + u + v < p;
+/// * along z where v ≤ 0, x ≥ p, y ≥ q and, if u > 0, z + u < c.
 ///
 /// With p = s = a and q = b it is the field of [`greatest_inside`](crate::formula::greatest_inside). The sum of the
-/// field is the bound, and the cuts minimise it. It is not a theorem that every such field proves its bound, and that
-/// the bound is attained. So the certificates are checked.
+/// field is the bound of the load, in f₀, and the cuts minimise it. No theorem says that every such field proves its
+/// bound, or that the bound is attained. So each certificate is checked.
 pub(crate) struct Upper {
     straight: Straight,
     sphere: [i128; 3],
@@ -33,27 +35,39 @@ pub(crate) struct Upper {
     p: i128,
     s: i128,
     q: i128,
+    /// The sum of the field.
+    sum: i128,
 }
 
+/// The greatest denominator of the forces. A larger one would fit the errors of the floats.
+const MAX_DENOMINATOR: i64 = 60;
+
 impl Upper {
-    pub(crate) fn of(straight: Straight) -> Option<Self> {
+    /// Returns the field with the smallest sum.
+    pub(crate) fn of(straight: Straight) -> Self {
         let (sphere, directions) = straight.sorted();
         let [a, b, c] = sphere;
-        let with_cut = |p| Self {
-            straight,
-            sphere,
-            directions,
-            p,
-            s: best_cut(c, p, p),
-            q: best_cut(c, b, a + b - p),
+        let with_cut = |p| {
+            let mut upper = Self {
+                straight,
+                sphere,
+                directions,
+                p,
+                s: best_cut(c, p, p),
+                q: best_cut(c, b, a + b - p),
+                sum: 0,
+            };
+            let ones = upper.spheres().flat_map(|sphere| upper.at(sphere));
+            upper.sum = ones.map(i128::from).sum();
+            upper
         };
-        (0..=a).map(with_cut).min_by_key(Self::sum)
+        let better = |best: Self, other: Self| if other.sum < best.sum { other } else { best };
+        (1..=a).map(with_cut).fold(with_cut(0), better)
     }
 
-    /// Returns the sum of the field: the bound of the load from above, in f₀.
-    pub(crate) fn sum(&self) -> i128 {
-        let ones = self.spheres().flat_map(|sphere| self.at(sphere));
-        ones.map(i128::from).sum()
+    /// Returns the bound of the normal force, in mg.
+    pub(crate) fn bound(&self) -> BigRational {
+        normal_below(BigRational::from_integer(self.sum.into()))
     }
 
     /// Returns whether the pile is too large for a search of forces.
@@ -61,7 +75,7 @@ impl Upper {
         3 * self.spheres().count() as u64 > MAX_EQUATIONS
     }
 
-    /// Returns the spheres above the floor. Spheres above on a line precede those below.
+    /// Returns the spheres above the floor. Each sphere comes after those above it on its lines.
     fn spheres(&self) -> impl Iterator<Item = [i128; 3]> {
         let k: i128 = self.sphere.iter().sum();
         (0..k)
@@ -94,8 +108,10 @@ impl Upper {
 
     /// Returns horizontal forces that attain the bound, or `None` if they are not found or the pile is too large.
     ///
-    /// Forces attain the bound if they vanish wherever an inequality of the field is strict: D > 0 at a sloping contact
-    /// that does not lead to the sphere, and c > 0 at a horizontal contact.
+    /// Compressive forces attain the bound if they are zero where an inequality of the field is strict: where D > 0 at a
+    /// sloping contact that does not lead to the sphere, and where c > 0.
+    ///
+    /// If the search ends without forces, the bound may not be attained, or too many digits were lost.
     pub(crate) fn forces(&self) -> Option<BTreeMap<HorizontalContact, BigRational>> {
         if let Some(edge) = Edge::of(self.straight) {
             return Some(edge.forces());
@@ -110,11 +126,9 @@ impl Upper {
         for sphere in &spheres {
             for l in 0..3 {
                 let below = moved(*sphere, l, 1);
-                let is_above = |below| numbers.contains_key(below);
-                let limit = if is_above(&below) {
-                    field(below)[l]
-                } else {
-                    i32::from(below == self.sphere)
+                let limit = match numbers.get(&below) {
+                    Some(_) => field(below)[l],
+                    None => i32::from(below == self.sphere),
                 };
                 let above = numbers.get(&moved(*sphere, l, -1));
                 sloping.push(Sloping {
@@ -149,7 +163,7 @@ impl Upper {
         let found = least_horizontal(contacts.len(), &sloping)?;
         let mut forces = BTreeMap::new();
         for ((sphere, other), force) in contacts.into_iter().zip(found) {
-            let (numerator, denominator) = simple_fraction(force, 1000)?;
+            let (numerator, denominator) = simple_fraction(force, MAX_DENOMINATOR)?;
             let force = BigRational::new(numerator.into(), denominator.get().into());
             if !force.is_zero() {
                 let [sphere, other] =
@@ -170,10 +184,10 @@ fn moved(mut sphere: [i128; 3], l: usize, by: i128) -> [i128; 3] {
     sphere
 }
 
-/// Returns the cut t ≤ `most` for which the sum of the field is smallest.
+/// Returns the cut t ≤ `most` with the smallest sum of the field: s for `length` = p, and q for `length` = a + b − p.
 ///
-/// The cut t + 1 in place of t adds t (length − t) ones along x or y. It removes Σ (length − t + w) ones along z, over
-/// the planes w = 0 … c.
+/// With t + 1 in place of t, the field gains t (length − t) ones along x (for s) or along y (for q). It loses
+/// length − t + w ones along z on each plane z = c − w, w = 0 … c.
 fn best_cut(c: i128, most: i128, length: i128) -> i128 {
     let (mut sum, mut least, mut best) = (0, 0, 0);
     for t in 0..most {
@@ -190,61 +204,74 @@ fn best_cut(c: i128, most: i128, length: i128) -> i128 {
 mod tests {
     use super::*;
     use crate::certificate::{Certificate, Claim, Extreme};
-    use crate::straight::normal_below;
     use cannonpile::Pile;
+    use cannonpile::lattice::Region;
 
-    fn upper(layers: i128, i: i128, j: i128) -> (Pile, Site, Upper) {
-        let (pile, site) = (
-            Pile::triangular(layers).unwrap(),
-            Site {
-                i,
-                j,
-                k: layers - 1,
-            },
-        );
-        let upper = Upper::of(Straight::of(&pile, site).unwrap()).unwrap();
+    /// Returns the field of the bottom sphere n of a straight pile of + or − steps.
+    fn upper(sign: &str, n: [i128; 3]) -> (Pile, Site, Upper) {
+        let (sigma, k) = (if sign == "+" { 1 } else { -1 }, n.iter().sum());
+        let stacking = sign.repeat(usize::try_from(k).unwrap()).parse().unwrap();
+        let pile = Pile::under(Region::SITE, stacking).unwrap();
+        let [i, j] = [sigma * n[1], sigma * n[2]];
+        let site = Site { i, j, k };
+        let upper = Upper::of(Straight::of(&pile, site).unwrap());
         (pile, site, upper)
     }
 
-    fn is_attained(layers: i128, i: i128, j: i128) {
-        let (pile, site, upper) = upper(layers, i, j);
-        let normal = normal_below(BigRational::from_integer(upper.sum().into()));
+    fn is_attained(sign: &str, n: [i128; 3]) {
+        let (pile, site, upper) = upper(sign, n);
         let certificate = Certificate {
             pile,
             claim: Claim::Greatest(Extreme {
                 site,
-                normal,
+                normal: upper.bound(),
                 attained: true,
             }),
             horizontal: upper.forces().unwrap(),
             field: upper.field(),
         };
-        assert_eq!(certificate.check(), Ok(()), "{site}");
+        assert_eq!(certificate.check(), Ok(()), "{sign} {n:?}");
     }
 
     #[test]
     fn bounds_on_edges_are_attained() {
-        for layers in 3..=18 {
-            for i in 1..=(layers - 1) / 2 {
-                is_attained(layers, i, 0);
+        for k in 2..=17 {
+            for b in 1..=k / 2 {
+                is_attained("+", [k - b, b, 0]);
             }
         }
     }
 
     #[test]
     fn bounds_inside_are_attained() {
-        for layers in 4..=13 {
-            for i in 1..layers / 2 {
-                for j in 1..=i.min(layers - 1 - 2 * i) {
-                    is_attained(layers, i, j);
+        for k in 3..=12 {
+            for c in 1..=k / 3 {
+                for b in c..=(k - c) / 2 {
+                    is_attained("+", [k - b - c, b, c]);
                 }
             }
         }
     }
 
-    /// In a larger pile the search can end without forces, and a field of another form proves a smaller bound.
     #[test]
-    fn bounds_are_at_most_those_of_formulas() {
+    fn coordinates_may_have_any_order() {
+        let orders = [
+            [4, 2, 1],
+            [4, 1, 2],
+            [2, 4, 1],
+            [1, 4, 2],
+            [2, 1, 4],
+            [1, 2, 4],
+        ];
+        for n in orders {
+            is_attained("+", n);
+            is_attained("-", n);
+        }
+    }
+
+    /// In the last two cases the bound is not attained.
+    #[test]
+    fn bounds_have_known_values() {
         for (n, greatest) in [
             ([8, 1, 0], 29),
             ([5, 4, 0], 41),
@@ -252,11 +279,39 @@ mod tests {
             ([7, 4, 1], 80),
             ([8, 5, 2], 136),
             ([5, 5, 5], 105),
+            ([10, 9, 3], 387),
             ([11, 10, 3], 488),
         ] {
-            let layers = n.iter().sum::<i128>() + 1;
-            let (_, _, upper) = upper(layers, n[1], n[2]);
-            assert_eq!(upper.sum(), greatest, "{n:?}");
+            let (_, _, upper) = upper("+", n);
+            assert_eq!(upper.sum, greatest, "{n:?}");
+            assert!(upper.bound() <= upper.straight.outer_bound(), "{n:?}");
+        }
+    }
+
+    #[test]
+    fn best_cut_has_the_smallest_sum() {
+        for (a, b, c) in [(7, 4, 1), (6, 3, 2), (5, 5, 2), (4, 3, 3)] {
+            for p in 0..=a {
+                let (_, _, best) = upper("+", [a, b, c]);
+                let sum = |s, q| {
+                    let cut = Upper { p, s, q, ..best };
+                    let ones = cut.spheres().flat_map(|sphere| cut.at(sphere));
+                    ones.filter(|one| *one).count()
+                };
+                let all = (0..=p).flat_map(|s| (0..=b).map(move |q| (s, q)));
+                let least = all.map(|(s, q)| sum(s, q)).min();
+                let [s, q] = [best_cut(c, p, p), best_cut(c, b, a + b - p)];
+                assert_eq!(Some(sum(s, q)), least, "{a} {b} {c} {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn search_is_limited_to_31_layers() {
+        for (a, is_large) in [(27, false), (28, true)] {
+            let (_, _, upper) = upper("+", [a, 2, 1]);
+            assert_eq!(upper.is_large(), is_large);
+            assert!(!is_large || upper.forces().is_none());
         }
     }
 }

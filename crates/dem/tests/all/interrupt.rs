@@ -151,7 +151,7 @@ fn long_computations_in_several_threads_end() {
     // Each of these takes seconds in release and longer in debug, a hundred times the accepted delay.
     let wide = Region::hexagon(40, 40).expect("a region");
     let tall = Pile::under(wide, Stacking::hcp(1000).expect("a stacking")).expect("a pile");
-    let straight = Pile::triangular(16).expect("a pile");
+    let straight = Pile::triangular(26).expect("a pile");
     let stackings = RandomStackings::new(200, FirstSign::Plus).expect("stackings");
     let mean = RandomPiles::under(Region::SITE, stackings);
     let works: [&(dyn Fn() -> Result<(), Error> + Sync); 3] = [

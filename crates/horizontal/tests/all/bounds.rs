@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use cannonpile::Error as Core;
-use cannonpile::Pile;
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
+use cannonpile::{Interrupt, Pile};
 use cannonpile_horizontal::certificate::{Certificate, Claim, Extreme};
 use cannonpile_horizontal::{Error, NormalBound, base_bounds, bounds, elastic};
 use num_bigint::BigInt;
@@ -134,6 +134,42 @@ fn very_high_piles_match_formulas() {
         assert!(bounds.least.attained);
         assert_eq!(bounds.greatest.attained, is_corner);
         assert_eq!(bounds.greatest.normal, formula(k, site));
+    }
+}
+
+/// Inside the base of a high pile, the field with the best cuts proves a smaller bound than the formula. Above 83 layers
+/// only the formula is left.
+#[test]
+fn high_piles_have_certified_bounds() {
+    for [a, i, j] in [[15, 10, 7], [40, 30, 12], [40, 30, 13]] {
+        let k = a + i + j;
+        let pile = Pile::triangular(k + 1).unwrap();
+        let site = Site { i, j, k };
+        let greatest = bounds(&pile, site).unwrap().greatest;
+        is_proved(&greatest);
+        assert!(!greatest.attained, "{site}");
+        assert_eq!(greatest.certificate.is_some(), k < 83, "{site}");
+        if k < 83 {
+            assert!(greatest.normal < formula(k, site), "{site}");
+        } else {
+            assert_eq!(greatest.normal, formula(k, site));
+        }
+    }
+}
+
+#[test]
+fn requested_interrupts_end_bounds_inside() {
+    for layers in [16, 40] {
+        let pile = Pile::triangular(layers).unwrap();
+        let site = Site {
+            i: 5,
+            j: 4,
+            k: layers - 1,
+        };
+        let interrupt = Interrupt::new();
+        interrupt.request();
+        let ended = interrupt.during(|| bounds(&pile, site));
+        assert_eq!(ended, Err(Error::Core(Core::Interrupted)), "{layers}");
     }
 }
 
