@@ -306,6 +306,14 @@ mod tests {
         }
     }
 
+    /// The linear program gives 386½.
+    #[test]
+    fn bounds_that_are_not_attained_have_no_forces() {
+        let (_, _, upper) = upper("+", [10, 9, 3]);
+        assert!(!upper.is_large());
+        assert_eq!(upper.forces(), None);
+    }
+
     #[test]
     fn search_is_limited_to_31_layers() {
         for (a, is_large) in [(27, false), (28, true)] {
