@@ -82,8 +82,8 @@ const LOST: f64 = 1e-3;
 /// Returns horizontal forces with the least sum for which no force is tensile, and the sloping forces that are marked to
 /// vanish are zero.
 ///
-/// They are floats, so the caller has to check them. `None` if there are no such forces, if the search takes too long,
-/// or if cancellation was requested.
+/// They are floats, so the caller has to check them. The result is `None` if the search does not find any: the
+/// conditions contradict each other, too many digits are lost, or cancellation is requested.
 pub(crate) fn least_horizontal(contacts: usize, sloping: &[Sloping]) -> Option<Vec<f64>> {
     let mut dictionary = Dictionary {
         sloping,
@@ -94,7 +94,7 @@ pub(crate) fn least_horizontal(contacts: usize, sloping: &[Sloping]) -> Option<V
         is_zero: vec![false; sloping.len()],
     };
     let mut sum = 0.0;
-    // A search with forces took at most 3,000 steps in a base of 31 layers, which has 15,000 sloping contacts.
+    // In a pile of 31 layers with 14,880 sloping contacts, nine searches took at most 2,650 steps.
     for _ in 0..=sloping.len() {
         check_interrupt().ok()?;
         let before = sum;
