@@ -157,6 +157,18 @@ fn high_piles_have_certified_bounds() {
     }
 }
 
+/// The field proves 1 + 170/3, which no forces attain. The program gives 1 + 169½/3.
+#[test]
+fn bound_that_is_not_attained_is_left_to_the_program() {
+    let site = Site { i: 7, j: 2, k: 16 };
+    let greatest = bounds(&Pile::triangular(17).unwrap(), site)
+        .unwrap()
+        .greatest;
+    is_proved(&greatest);
+    assert!(greatest.attained);
+    assert_eq!(greatest.normal, ratio(115, 2));
+}
+
 #[test]
 fn requested_interrupts_end_bounds_inside() {
     for layers in [16, 40] {
