@@ -30,6 +30,7 @@ pub use walk::Answers;
 
 use alloc::vec::Vec;
 
+use crate::each::Each;
 use crate::engine::{
     Counters, Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact,
     nodes, received,
@@ -717,7 +718,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     pub(crate) fn position_numerators(&self, site: Site) -> Result<Vector<T::Numerator>, Error> {
         let Site { i, j, k } = self.pile.shape().check(site)?;
         let across = self.pile.shape().shift_from_origin(k);
-        let counts = count::above(&i, &j, &across).map(T::Numerator::from_i128);
+        let counts = count::above(&i, &j, &across).each(T::Numerator::from_i128);
         let z = T::Numerator::from_i128(k) * self.direction_scale();
         Ok(Vector {
             z,
@@ -764,7 +765,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         let above = self.received(site, Wanted::All)?;
         let (terms, changes) = (&self.terms, below.changes);
         let rescaled = |force| terms.lines.rescaled(force, above.changes, changes);
-        let received = above.forces.map(rescaled);
+        let received = above.forces.each(rescaled);
         let load = terms.load(site, changes);
         let unbalanced = formula::unbalanced(
             &below.forces,

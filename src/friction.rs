@@ -54,6 +54,7 @@ use alloc::format;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+use crate::each::Each;
 use crate::geometry::LayerGap;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Surd, SurdSum, product};
@@ -286,7 +287,7 @@ impl<'p> RoughPacking<'p> {
             let contact = contact?;
             let normal = product(&contact.force, &unit);
             let (direction, packed) = (contact.direction, packing.contact_in_si(contact)?);
-            let normal_vector = packed.vector.map(|part| part * &cos);
+            let normal_vector = packed.vector.each(|part| part * &cos);
             let [x, y, z] = normal_vector.clone();
             let aside = |part: Surd| ratio.clone() * &-part;
             Ok(RoughContact {

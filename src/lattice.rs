@@ -34,6 +34,7 @@ use core::str::FromStr;
 use exact_surd::layout::padded;
 
 use crate::Error;
+use crate::each::Each;
 use crate::error::named;
 use crate::scalar::parse::integer;
 
@@ -249,7 +250,7 @@ impl Site {
     /// Returns the site that is `steps` layers further down in `direction`, under steps of one sign. A negative number
     /// leads upwards. Returns `None` if a coordinate does not fit in `i128`.
     pub(crate) fn step(self, sign: Sign, direction: Direction, steps: i128) -> Option<Self> {
-        let [di, dj] = sign.descent(direction).map(|d| d * steps);
+        let [di, dj] = sign.descent(direction).each(|d| d * steps);
         Some(Self {
             i: self.i.checked_add(di)?,
             j: self.j.checked_add(dj)?,

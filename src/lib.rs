@@ -150,6 +150,8 @@ pub mod census;
 #[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
 pub mod data;
 #[doc(hidden)]
+pub mod each;
+#[doc(hidden)]
 pub mod engine;
 mod error;
 mod forces;

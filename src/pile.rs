@@ -15,6 +15,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::Error;
+use crate::each::Each;
 use crate::formula;
 use crate::geometry::{Clearance, Load, Vector, directions, disc_directions, square_across};
 use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};
@@ -768,7 +769,7 @@ impl Pile {
     #[must_use]
     pub fn forces_grow(&self) -> bool {
         let system = self.system();
-        let ordinary = [Sign::Plus, Sign::Minus].map(|sign| system.ordinary(sign));
+        let ordinary = [Sign::Plus, Sign::Minus].each(|sign| system.ordinary(sign));
         let extras = self.loading.extras();
         let extras = extras.map(|(site, _)| self.own_increments(site));
         let mut all = ordinary.into_iter().chain(extras).flatten();

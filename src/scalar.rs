@@ -73,6 +73,7 @@ pub use ratio::quotient;
 pub(crate) use exact_surd::float_between;
 pub(crate) use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};
 
+use crate::each::Each;
 use core::fmt::{self, Debug};
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -423,7 +424,7 @@ impl fmt::Display for Enclosure {
     /// assert_eq!(format!("{half:>14}"), "    [1/2, 1/2]");
     /// ```
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [lower, upper] = [&self.lower, &self.upper].map(|bound| part(f, bound));
+        let [lower, upper] = [&self.lower, &self.upper].each(|bound| part(f, bound));
         padded(f, format_args!("[{lower}, {upper}]"))
     }
 }

@@ -17,6 +17,7 @@ use alloc::vec::Vec;
 use num_rational::BigRational;
 use num_traits::Zero;
 
+use crate::each::Each;
 use crate::engine::check_interrupt;
 use crate::error::{bug, refuse_beyond};
 use crate::geometry::{Inclination, Load, Vector};
@@ -196,7 +197,7 @@ impl<'p, T: Field> Network<'p, T> {
             pile,
             bare: pile.bare(),
             directions: pile.directions(),
-            squares: [sin2.clone(), across * sin2, cos2].map(|square| T::from_rational(&square)),
+            squares: [sin2.clone(), across * sin2, cos2].each(|square| T::from_rational(&square)),
             s: T::from_rational(pile.sin_phi()),
             increment_sum: forces.increment_sum()?,
             forces: below,

@@ -24,6 +24,7 @@ use alloc::vec::Vec;
 use num_bigint::BigUint;
 
 use crate::Error;
+use crate::each::Each;
 use crate::lattice::{
     Axis, Dimension, Direction, HorizontalContact, MAX_LAYERS, Region, Sign, Site, Trapezoid,
 };
@@ -457,7 +458,7 @@ impl Shape {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn horizontal_contacts(&self, site: Site) -> impl Iterator<Item = HorizontalContact> + '_ {
-        let contacts = Axis::ALL.map(|axis| HorizontalContact { site, axis });
+        let contacts = Axis::ALL.each(|axis| HorizontalContact { site, axis });
         contacts
             .into_iter()
             .filter(|contact| self.neighbour(*contact).is_ok())
@@ -470,7 +471,7 @@ impl Shape {
         let Some(region) = self.region(k) else {
             return BigUint::ZERO;
         };
-        let [x, y, s] = region.widths().map(|width| width.unsigned_abs() + 1);
+        let [x, y, s] = region.widths().each(|width| width.unsigned_abs() + 1);
         let (axes, lines) = match self.dimension {
             Dimension::Two => (1_u32, y),
             Dimension::Three => (3, x + y + s),

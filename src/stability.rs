@@ -22,6 +22,7 @@ use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
+use crate::each::Each;
 use crate::engine::check_interrupt;
 use crate::error::bug;
 use crate::lattice::{Dimension, Direction, Site};
@@ -91,7 +92,7 @@ impl Affine {
     fn nearest_zero(&self, across: &BigRational) -> Option<(BigRational, Tilt)> {
         let (gradient, square) = self.gradient(across)?;
         let along = (-&self.c).checked_div(&square)?;
-        let tilt = gradient.map(|part| part * &along);
+        let tilt = gradient.each(|part| part * &along);
         Some((&self.c * &self.c / square, tilt))
     }
 }
@@ -203,7 +204,7 @@ impl Pile {
             let contacts = forces.contacts(Selection::All)?;
             contacts.collect::<Result<Vec<ContactForce<T>>, _>>()
         })?;
-        let [upright, along_x, along_y] = forces.map(Vec::into_iter);
+        let [upright, along_x, along_y] = forces.each(Vec::into_iter);
         let across = T::from_rational(&self.across());
         let overflow = || Error::overflow("the margin", T::NAME);
         // The square of a margin is c²/g², with the gradient g.
@@ -279,7 +280,7 @@ impl Pile {
         let along_y = i128::from(self.dimension() == Dimension::Three);
         let at = |tilt: [i128; 2]| {
             let forces = self.forces::<T>();
-            read(&forces.with_tilt(tilt.map(T::from_i128))?)
+            read(&forces.with_tilt(tilt.each(T::from_i128))?)
         };
         Ok([at([0, 0])?, at([1, 0])?, at([0, along_y])?])
     }
@@ -367,7 +368,7 @@ fn check_weight(pile: &Pile) -> Result<(), Error> {
 
 /// Returns the corners of the square |x|, |y| ≤ `reach`, counterclockwise. For discs, the ends of an interval along x.
 fn square(reach: &BigRational, dimension: Dimension) -> Vec<Tilt> {
-    let corner = |x: i128, y: i128| [x, y].map(|sign| reach * BigRational::from_i128(sign));
+    let corner = |x: i128, y: i128| [x, y].each(|sign| reach * BigRational::from_i128(sign));
     match dimension {
         Dimension::Two => Vec::from([corner(-1, 0), corner(1, 0)]),
         Dimension::Three => Vec::from([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)]),
@@ -385,7 +386,7 @@ fn cut(corners: &[Tilt], force: &Affine) -> Vec<Tilt> {
         }
         if (&value * &beyond).is_negative() {
             let share = &value / (&value - beyond);
-            let [x, y] = [0, 1].map(|axis| &here[axis] + (&next[axis] - &here[axis]) * &share);
+            let [x, y] = [0, 1].each(|axis| &here[axis] + (&next[axis] - &here[axis]) * &share);
             kept.push([x, y]);
         }
     }

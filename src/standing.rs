@@ -24,6 +24,7 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use crate::each::Each;
 use crate::engine::{
     Descent, Grid, Lines, MAX_NUMBERS, Meter, Planes, Received, Wanted, shortest_exact_sweep,
     trees_are_cheaper, unless_too_large,
@@ -240,7 +241,7 @@ impl Pile {
     fn low_layers(&self) -> Vec<i128> {
         let (shape, system) = (self.shape(), self.system());
         let falls = |sign| system.ordinary(sign).iter().any(Signed::is_negative);
-        let falls = [Sign::Plus, Sign::Minus].map(|sign| (sign, falls(sign)));
+        let falls = [Sign::Plus, Sign::Minus].each(|sign| (sign, falls(sign)));
         let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
         let layers = runs.flat_map(|run| {
             let begin = (run.index > 0).then_some(run.from);
@@ -307,7 +308,7 @@ impl Pile {
         let mut least = Vec::new();
         for (direction, sign) in directions
             .iter()
-            .flat_map(|direction| [Sign::Plus, Sign::Minus].map(|sign| (direction, sign)))
+            .flat_map(|direction| [Sign::Plus, Sign::Minus].each(|sign| (direction, sign)))
         {
             let sites = layers(sign)
                 .filter_map(|k| shape.rows(Selection::Layer(k)).ok())
@@ -345,7 +346,7 @@ impl Pile {
         for Extra { site, .. } in extras {
             sites.insert(site);
             if everywhere {
-                let above = Direction::ALL.map(|direction| shape.above(site, direction));
+                let above = Direction::ALL.each(|direction| shape.above(site, direction));
                 sites.extend(above.into_iter().flatten());
             }
         }

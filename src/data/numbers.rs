@@ -13,6 +13,7 @@ use num_rational::BigRational;
 use exact_surd::text::{Float, read_text};
 
 use crate::Error;
+use crate::each::Each;
 use crate::scalar::parse::rational;
 use crate::scalar::{DoubleDouble, FixedInteger, FixedRational, Interval, Surd};
 
@@ -213,12 +214,12 @@ impl<T: Number> Number for Vec<T> {
 
 impl<T: Number> Number for [T; 3] {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        Serialize::serialize(&self.each_ref().map(Written), serializer)
+        Serialize::serialize(&self.each_ref().each(Written), serializer)
     }
 
     fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let read: [Read<T>; 3] = Deserialize::deserialize(deserializer)?;
-        Ok(read.map(|read| read.0))
+        Ok(read.each(|read| read.0))
     }
 }
 

@@ -41,6 +41,7 @@ use num_traits::ToPrimitive;
 use super::grid::{Grid, Pass};
 use super::parallel;
 use super::plane::{Plane, Ramps, row};
+use crate::each::Each;
 use crate::lattice::{Along, Nearby, Sign, Slopes, small};
 use crate::{Error, formula};
 
@@ -181,12 +182,12 @@ impl<V> Band<'_, V> {
         // The cells of α and β are cut at the row `border`, and those of γ at the row `gamma`.
         let own = grid.row_start(border)?;
         let starts = [own, own, grid.row_start(gamma)?];
-        let mut parts = [(before, self.starts), (behind, starts)].map(|(rows, starts)| Band {
+        let mut parts = [(before, self.starts), (behind, starts)].each(|(rows, starts)| Band {
             rows,
             starts,
             planes: Vec::with_capacity(self.planes.len()),
         });
-        let lengths = [0, 1, 2].map(|line| starts[line] - self.starts[line]);
+        let lengths = [0, 1, 2].each(|line| starts[line] - self.starts[line]);
         for [a, b, c] in &mut self.planes {
             let (a, a_behind) = a.split_at_mut(lengths[0]);
             let (b, b_behind) = b.split_at_mut(lengths[1]);

@@ -8,6 +8,7 @@ use num_traits::Zero;
 use super::bands::make;
 use super::grid::{Grid, Layer, Moves, Pass, assert_none_deferred};
 use super::plane::{Plane, Ramps};
+use crate::each::Each;
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
@@ -76,6 +77,6 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {
         assert_none_deferred(&self.deferred);
-        self.plane.carried(cells).map(Clone::clone)
+        self.plane.carried(cells).each(Clone::clone)
     }
 }

@@ -11,6 +11,7 @@ use super::lines::{Line, Lines, start_of};
 use super::meter::Meter;
 use super::question::Method;
 use super::tree::Wanted;
+use crate::each::Each;
 use crate::formula;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
@@ -46,13 +47,13 @@ impl<T: Algebra> Lines<'_, T> {
     pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
         let Site { i, j, k } = site;
         let Some(run) = self.shape.stretch_to(k) else {
-            return Some([(); 3].map(|()| T::Numerator::zero()));
+            return Some([(); 3].each(|()| T::Numerator::zero()));
         };
         if run.index > 0 {
             return None;
         }
         let counts = self.shape.spheres_above(&run, k, [i, j]);
-        Some(Direction::ALL.map(|direction| {
+        Some(Direction::ALL.each(|direction| {
             if wanted.includes(direction) {
                 self.counted(run, k, [i, j], direction, counts[direction.index()])
             } else {

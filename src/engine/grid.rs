@@ -20,6 +20,7 @@ use core::ops::Range;
 use num_bigint::BigUint;
 
 use crate::Error;
+use crate::each::Each;
 use crate::error::{bug, refuse_beyond_memory};
 use crate::lattice::{Region, small};
 use crate::scalar::Algebra;
@@ -273,7 +274,7 @@ impl<'p> Grid<'p> {
     /// As for [`row`](Self::row).
     pub(crate) fn site(&self, [i, j]: [i128; 2], shift: i128) -> Result<[usize; 3], Error> {
         let cells = self.row(j, &(i..i + 1), shift)?;
-        Ok(cells.map(|cells| cells.start))
+        Ok(cells.each(|cells| cells.start))
     }
 }
 
@@ -337,7 +338,7 @@ pub(super) fn assert_none_deferred<P>(deferred: &[P]) {
 
 /// Returns the sites of a region whose i and i+j are at least the bounds `corner`, both lowered by `lower`.
 pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Region, Error> {
-    let part = region.above(corner.map(|bound| bound - lower));
+    let part = region.above(corner.each(|bound| bound - lower));
     part.ok_or_else(|| bug("a third of a layer has a sphere"))
 }
 

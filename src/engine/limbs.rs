@@ -69,6 +69,7 @@ use super::bands::make;
 use super::grid::{Grid, Layer, Moves, Pass, assert_none_deferred};
 use super::plane::{Plane, Ramps, row};
 use crate::Error;
+use crate::each::Each;
 use crate::error::bug;
 use crate::formula::{force, tripled_apart};
 use crate::lattice::Direction;
@@ -195,7 +196,7 @@ impl Planes {
             cells.map(|(line, cell)| lines[*line][*cell]).collect()
         };
         let top_down = self.limbs.iter().rev();
-        let of_plane = |plane| columns.each_ref().map(|column| limbs(plane, column));
+        let of_plane = |plane| columns.each_ref().each(|column| limbs(plane, column));
         top_down.map(of_plane).collect()
     }
 
@@ -212,16 +213,16 @@ impl Planes {
             .limbs
             .first()
             // Without planes there is nothing to carry.
-            .map_or([0; 3], |plane| plane.0.each_ref().map(Vec::len));
+            .map_or([0; 3], |plane| plane.0.each_ref().each(Vec::len));
         let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
-        let fits = carry_rows(&mut planes, &all.map(|n| 0..n));
+        let fits = carry_rows(&mut planes, &all.each(|n| 0..n));
         check(fits)
     }
 
     /// Reduces the lower limbs of the three lines of one sphere to [−2^54, 2^54).
     fn carry_at(&mut self, cells: [usize; 3]) -> Result<(), Error> {
         let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
-        let fits = carry_rows(&mut planes, &cells.map(|cell| cell..cell + 1));
+        let fits = carry_rows(&mut planes, &cells.each(|cell| cell..cell + 1));
         check(fits)
     }
 
@@ -311,7 +312,7 @@ impl Layer<BigRational> for Planes {
     fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) -> Result<(), Error> {
         assert_none_deferred(&self.deferred);
         let planes = self.limbs.len();
-        let [Some(a), Some(b), Some(c)] = values.each_ref().map(|value| limbs(value, planes))
+        let [Some(a), Some(b), Some(c)] = values.each_ref().each(|value| limbs(value, planes))
         else {
             return Err(bug(WIDE_ENOUGH));
         };
@@ -333,7 +334,7 @@ impl Layer<BigRational> for Planes {
         assert_none_deferred(&self.deferred);
         let top_down = self.limbs.iter().rev();
         let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
-        [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))
+        [0, 1, 2].each(|line| value(limbs.iter().map(|limbs| limbs[line])))
     }
 }
 

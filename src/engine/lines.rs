@@ -17,6 +17,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use super::meter::Meter;
+use crate::each::Each;
 use crate::formula::{self, force, half_turn, transmitted};
 use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Row, Sign, Site};
@@ -92,7 +93,7 @@ fn horizontal<N: Ring>(Load { x, y, .. }: Load<N>, w: &N) -> Vector<N> {
     if x.is_zero() && y.is_zero() {
         return Vector { x, y, z };
     }
-    let [x, y] = [x, y].map(|part| force(part, w));
+    let [x, y] = [x, y].each(|part| force(part, w));
     Vector { x, y, z }
 }
 
@@ -105,11 +106,11 @@ impl<'p, T: Algebra> Lines<'p, T> {
         let w = &system.increment_sum;
         let gravity = system.loading.ordinary();
         let [first, second] = signs(system.shape);
-        let of_first = system.load_increments(&gravity, first).map(numerator);
+        let of_first = system.load_increments(&gravity, first).each(numerator);
         let of_second = if gravity.is_vertical() {
             of_first.clone()
         } else {
-            system.load_increments(&gravity, second).map(numerator)
+            system.load_increments(&gravity, second).each(numerator)
         };
         // The increments of a load balance it, so their sum is its vertical part.
         let gravity = Vector {
@@ -133,7 +134,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         } in system.extras()
         {
             let load = vector(load, w).map(numerator);
-            lines.add(site, own.map(numerator), load);
+            lines.add(site, own.each(numerator), load);
         }
         lines
     }
@@ -156,7 +157,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         let (s, w) = Self::constants(system);
         let leaning = |weight: BigRational| {
             let ([weight], _) = T::numerators(&[weight]);
-            let [x, y] = [&x, &y].map(|part| force(weight.clone(), part));
+            let [x, y] = [&x, &y].each(|part| force(weight.clone(), part));
             Load {
                 down: T::Numerator::zero(),
                 x,
@@ -254,7 +255,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
         let ordinary = self.ordinary[changes % 2].clone();
         match self.power(changes) {
-            Some(power) => ordinary.map(|w| w * &power),
+            Some(power) => ordinary.each(|w| w * &power),
             None => ordinary,
         }
     }
@@ -262,9 +263,9 @@ impl<'p, T: Algebra> Lines<'p, T> {
     /// Returns the increments of a sphere in the run below it, less those of an ordinary weight.
     pub(crate) fn extra(&self, site: Site) -> [T::Numerator; 3] {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
-            return core::array::from_fn(|_| T::Numerator::zero());
+            return Direction::ALL.each(|_| T::Numerator::zero());
         };
-        Direction::ALL.map(|direction| {
+        Direction::ALL.each(|direction| {
             let extra = self
                 .extras
                 .get(&(Line::through(site, direction, run), site.k));
@@ -278,7 +279,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     /// Returns the spheres of a row whose weight is not ordinary, or that carry loads.
     pub(crate) fn extras_in_row(&self, row: &Row) -> impl Iterator<Item = Site> + '_ {
         let Row { k, j, ref i } = *row;
-        let [start, end] = [i.start, i.end].map(|i| Site { i, j, k });
+        let [start, end] = [i.start, i.end].each(|i| Site { i, j, k });
         let sites = self.extra_loads.range(start..end.max(start));
         sites.map(|(site, _)| *site)
     }

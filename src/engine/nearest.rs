@@ -16,6 +16,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::limbs::{LIMB, limbs};
 use crate::Error;
+use crate::each::Each;
 use crate::error::bug;
 use crate::scalar::{CorrectlyRounded, DoubleDouble, Surd, float_between};
 
@@ -116,7 +117,7 @@ impl Unit {
         let product = leading * factor.value;
         // The value of a factor is at most 1.
         let slack = product.high() * power_of_two(SLACK) + remainder * scale;
-        let ends = [product.low() - slack, product.low() + slack].map(|low| product.high() + low);
+        let ends = [product.low() - slack, product.low() + slack].each(|low| product.high() + low);
         let negative = (n < 0) != factor.negative;
         float_between(negative, ends, exponent + bits + factor.exponent)
     }

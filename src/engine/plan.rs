@@ -11,6 +11,7 @@ use super::limbs::{Size, bound};
 use super::question::{Method, Quantity};
 use super::tree::{MAX_NODES, size_of_tree};
 use crate::Error;
+use crate::each::Each;
 use crate::lattice::{Region, Site};
 use crate::pile::System;
 use crate::scalar::{Algebra, Exactness};
@@ -329,10 +330,10 @@ impl System<'_> {
 fn samples(region: &Region) -> impl Iterator<Item = Vec<[i128; 2]>> + use<> {
     let corners = region.corners();
     let mean = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<i128>() / 6;
-    let [i, j] = [0, 1].map(mean);
-    let rows = [region.y().start().midpoint(*region.y().end()), j].map(|j| (j, region.row(j)));
+    let [i, j] = [0, 1].each(mean);
+    let rows = [region.y().start().midpoint(*region.y().end()), j].each(|j| (j, region.row(j)));
     rows.into_iter().flat_map(move |(j, row)| {
-        [row.start.midpoint(row.end - 1), i].map(|middle| {
+        [row.start.midpoint(row.end - 1), i].each(|middle| {
             let piece = middle - CHUNK / 2..middle + CHUNK / 2;
             piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect()
         })

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
 use super::grid::{Grid, Moves, Pass, Piece};
+use crate::each::Each;
 use crate::formula;
 
 /// One number for each line of a layer, by direction, in the cells of the grid.
@@ -34,13 +35,11 @@ impl<V: Clone + PartialEq> Ramps<V> {
 
 impl<V: Clone> Plane<V> {
     pub(super) fn slices_mut(&mut self) -> [&mut [V]; 3] {
-        self.0.each_mut().map(Vec::as_mut_slice)
+        self.0.each_mut().each(Vec::as_mut_slice)
     }
 
     pub(super) fn new(grid: &Grid<'_>, zero: &V) -> Self {
-        Self(core::array::from_fn(
-            |_| alloc::vec![zero.clone(); grid.cells],
-        ))
+        Self([(); 3].each(|()| alloc::vec![zero.clone(); grid.cells]))
     }
 
     /// Moves the numbers to the cells of the next window. The numbers of each direction are copied into the buffer

@@ -5,6 +5,7 @@ use core::ops::Range;
 use super::interrupt::check as check_interrupt;
 use super::parallel;
 use crate::Error;
+use crate::each::Each;
 use crate::error::bug;
 use crate::lattice::{Region, Row};
 
@@ -21,7 +22,7 @@ pub(crate) fn split_front<'a, V>(
     rest: &mut [&'a mut [V]; 3],
     n: usize,
 ) -> Result<[&'a mut [V]; 3], Error> {
-    match rest.each_mut().map(|rest| rest.split_off_mut(..n)) {
+    match rest.each_mut().each(|rest| rest.split_off_mut(..n)) {
         [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
         _ => Err(bug("slices have the length that was checked")),
     }

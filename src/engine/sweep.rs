@@ -35,6 +35,7 @@ use super::nearest::{Readout, Unit};
 use super::slices::split_front;
 use super::thirds::turned;
 use crate::Error;
+use crate::each::Each;
 use crate::error::bug;
 use crate::formula::half_turn;
 use crate::lattice::{Region, Row, Site};
@@ -245,7 +246,7 @@ impl Descent<'_, BigRational, Planes> {
         if self.grid.corner.is_none() {
             return Err(bug("a sweep is queried only for rows of its layer"));
         }
-        let mut columns = [(); 3].map(|()| Vec::with_capacity(out[0].len()));
+        let mut columns = [(); 3].each(|()| Vec::with_capacity(out[0].len()));
         for i in row.i.clone() {
             let (image, turns) = self.stored.kept([i, row.j])?;
             let cells = self.grid.site(image, self.stored.shift)?;
@@ -257,7 +258,7 @@ impl Descent<'_, BigRational, Planes> {
         let limbs = self.layer.gathered(&columns);
         let limbs: Vec<_> = limbs
             .iter()
-            .map(|limbs| limbs.each_ref().map(Vec::as_slice))
+            .map(|limbs| limbs.each_ref().each(Vec::as_slice))
             .collect();
         readout.write(units, &limbs, out)
     }

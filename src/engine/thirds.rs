@@ -38,6 +38,7 @@
 
 use super::grid::{Grid, Moves, Piece, Stored, cut, sum};
 use crate::Error;
+use crate::each::Each;
 use crate::error::bug;
 use crate::lattice::Direction;
 use crate::pile::System;
@@ -179,7 +180,7 @@ impl Stored {
                 let (image, turns) = self.kept([i, row.j])?;
                 if turns > 0 {
                     let [from, ..] = cells.site(image, 0)?;
-                    let values = slices.each_ref().map(|slice| slice[from]);
+                    let values = slices.each_ref().each(|slice| slice[from]);
                     for line in 0..3 {
                         slices[line][place] = values[turned(line, turns)];
                     }

@@ -25,6 +25,7 @@ use num_traits::{One, Zero};
 use super::interrupt::check as check_interrupt;
 use super::lines::{Lines, start_of};
 use crate::Error;
+use crate::each::Each;
 use crate::error::{bug, refuse_beyond_memory};
 use crate::formula;
 use crate::lattice::{Direction, Site};
@@ -167,7 +168,7 @@ impl<T: Algebra> Lines<'_, T> {
         let nodes = nodes_above(&levels);
         let mut levels = levels.into_iter().rev();
         let Some(first) = levels.next() else {
-            let none = || core::array::from_fn(|_| T::Numerator::zero());
+            let none = || Direction::ALL.each(|_| T::Numerator::zero());
             let forces = sites.iter().map(|_| none()).collect();
             return Ok(Above {
                 forces,
@@ -208,7 +209,7 @@ impl<T: Algebra> Lines<'_, T> {
         for site in &level.sites {
             check_interrupt()?;
             let counts = self.shape.spheres_above(&run, k, *site);
-            let mut force = core::array::from_fn(|_| T::Numerator::zero());
+            let mut force = Direction::ALL.each(|_| T::Numerator::zero());
             for direction in Direction::ALL {
                 if !level.wanted.includes(direction) {
                     continue;

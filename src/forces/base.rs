@@ -5,6 +5,7 @@ use core::fmt;
 use exact_surd::layout::{padded, part};
 
 use super::Answers;
+use crate::each::Each;
 use crate::lattice::Site;
 
 /// The force of one bottom sphere on the floor.
@@ -81,7 +82,7 @@ impl<T: fmt::Display> fmt::Display for FloorForce<T> {
     /// ```
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let components = [&self.normal, &self.shear_x, &self.shear_y];
-        let [normal, x, y] = components.map(|component| part(f, component));
+        let [normal, x, y] = components.each(|component| part(f, component));
         let site = self.site;
         padded(f, format_args!("{site}: normal {normal}, shear ({x}, {y})"))
     }

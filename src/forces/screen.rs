@@ -21,6 +21,7 @@ use num_traits::ToPrimitive;
 
 use super::terms::Terms;
 use crate::Error;
+use crate::each::Each;
 use crate::engine::{Descent, Planes, Readout, Unit};
 use crate::error::bug;
 use crate::lattice::{Row, Site};
@@ -103,8 +104,8 @@ impl<'s, 'p> Screen<'s, 'p> {
     fn floats(&self, row: &Row) -> Result<Option<Vec<Floats>>, Error> {
         let spheres = (row.i.end - row.i.start).to_usize();
         let spheres = spheres.ok_or_else(|| bug("a row of a sweep fits in memory"))?;
-        let mut floats = [(); 3].map(|()| alloc::vec![0.0_f64; spheres]);
-        let out = floats.each_mut().map(Vec::as_mut_slice);
+        let mut floats = [(); 3].each(|()| alloc::vec![0.0_f64; spheres]);
+        let out = floats.each_mut().each(Vec::as_mut_slice);
         if !self
             .sweep
             .nearest_row(row, (&self.readout, &self.units), out)?

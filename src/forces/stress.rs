@@ -9,6 +9,7 @@ use super::terms::{Terms, to_scalar};
 use super::walk::Walk;
 use super::{Answers, Forces};
 use crate::Error;
+use crate::each::Each;
 use crate::engine::{Engine, Layer, Meter, Quantity, Received, Wanted};
 use crate::geometry::{Vector, square_across};
 use crate::lattice::{Axis, Direction, HorizontalContact, Row, Site};
@@ -154,7 +155,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         if system.loading.pushes().contains_key(&site) {
             for contact in horizontal_contacts(site) {
                 let force = lines.numerator(system.loading.horizontal_force(contact), changes);
-                let [a, b] = contact.axis.ends().map(Direction::index);
+                let [a, b] = contact.axis.ends().each(Direction::index);
                 add(force, &(self.directions[b].clone() - &self.directions[a]));
             }
         }
@@ -194,8 +195,8 @@ fn horizontal_contacts(site: Site) -> impl Iterator<Item = HorizontalContact> {
     Axis::ALL.into_iter().flat_map(move |axis| {
         let named = HorizontalContact { site, axis };
         let before = named.neighbour().and_then(|next| {
-            let [i, j] =
-                [(site.i, next.i), (site.j, next.j)].map(|(own, next)| own.checked_add(own - next));
+            let [i, j] = [(site.i, next.i), (site.j, next.j)]
+                .each(|(own, next)| own.checked_add(own - next));
             Some(Site {
                 i: i?,
                 j: j?,

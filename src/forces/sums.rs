@@ -13,6 +13,7 @@ use num_traits::Zero;
 use super::Forces;
 use super::terms::{Terms, horizontal, to_scalar, to_scalars};
 use crate::Error;
+use crate::each::Each;
 use crate::error::refuse_beyond;
 use crate::formula;
 use crate::formula::{force, half_turn, transmitted};
@@ -131,7 +132,7 @@ impl Terms<'_, BigRational> {
         layers: Range<i128>,
         mut visit: impl FnMut(&[BigInt; 3], usize),
     ) -> ([BigInt; 3], usize) {
-        let mut sums = [(); 3].map(|()| BigInt::zero());
+        let mut sums = [(); 3].each(|()| BigInt::zero());
         let mut changes = 0;
         let runs = (0..).map_while(|run| self.system.shape.stretch(run));
         for run in runs.take_while(|run| run.from < layers.end) {
@@ -153,7 +154,7 @@ impl Terms<'_, BigRational> {
     fn with_own(&self, sums: [BigInt; 3], run: &Stretch, layers: Range<i128>) -> [BigInt; 3] {
         let spheres = BigInt::from(self.system.shape.spheres_in(layers.clone()));
         let ordinary = self.lines.increments_after(run.index);
-        let mut own = ordinary.map(|w| force(spheres.clone(), &w));
+        let mut own = ordinary.each(|w| force(spheres.clone(), &w));
         for site in self.lines.extras_in(layers) {
             let extra = self.lines.extra(site);
             own.iter_mut()

@@ -9,6 +9,7 @@ use num_traits::ToPrimitive;
 
 use super::FloorForce;
 use crate::Error;
+use crate::each::Each;
 use crate::engine::{Lines, Readout, Received, Unit};
 use crate::formula;
 use crate::geometry::{Load, Vector};
@@ -33,7 +34,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
     pub(super) fn new(system: System<'p>) -> Self {
         let ([increment_sum], sum_scale) =
             T::numerators(core::array::from_ref(&system.increment_sum));
-        let directions = system.directions.clone().map(Vector::into_array);
+        let directions = system.directions.clone().each(Vector::into_array);
         let components = array::from_fn::<_, 9, _>(|n| directions[n / 3][n % 3].clone());
         let (components, direction_scale) = T::numerators(&components);
         Self {
@@ -41,8 +42,8 @@ impl<'p, T: Algebra> Terms<'p, T> {
             system,
             increment_sum,
             sum_scale,
-            directions: array::from_fn(|line| {
-                let [x, y, z] = array::from_fn(|n| components[3 * line + n].clone());
+            directions: [0, 3, 6].each(|line| {
+                let [x, y, z] = [0, 1, 2].each(|n| components[line + n].clone());
                 Vector { x, y, z }
             }),
             direction_scale,
@@ -144,7 +145,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         let (zero, one) = (T::Numerator::from_i128(0), T::Numerator::from_i128(1));
         let directions = self.directions_above(k);
         let support_load = |forces: [&T::Numerator; 3], weight| {
-            let force = formula::support_load(&forces.map(Clone::clone), &directions, weight);
+            let force = formula::support_load(&forces.each(Clone::clone), &directions, weight);
             force.scaled(&self.sum_scale)
         };
         let factors = [
@@ -184,7 +185,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         let directions = self.directions.clone();
         match sign {
             None | Some(Sign::Plus) => directions,
-            Some(Sign::Minus) => directions.map(Vector::turned_about_z),
+            Some(Sign::Minus) => directions.each(Vector::turned_about_z),
         }
     }
 }
@@ -203,7 +204,7 @@ impl Terms<'_, BigRational> {
         let (floor, changes) = self.floor_and_changes();
         let (lines, mut own) = self.floor_factors(floor, changes);
         let increments = self.lines.increments_after(changes);
-        let [a, b, c] = [0, 1, 2].map(|line| lines[line].clone().scaled(&increments[line]));
+        let [a, b, c] = [0, 1, 2].each(|line| lines[line].clone().scaled(&increments[line]));
         for line in [&a, &b, &c] {
             own = own - line;
         }
@@ -218,7 +219,7 @@ impl Terms<'_, BigRational> {
     pub(super) fn floor_units(&self, [x, y, normal]: &[Surd; 3]) -> [Unit; 3] {
         let (_, changes) = self.floor_and_changes();
         let denominator = self.floor_unit(changes);
-        [normal, x, y].map(|unit| Unit::new(unit.clone(), denominator.clone()))
+        [normal, x, y].each(|unit| Unit::new(unit.clone(), denominator.clone()))
     }
 
     /// Returns the bottom layer, and the number of sign changes above it.
@@ -241,12 +242,12 @@ pub(super) fn horizontal<N: Ring>(load: &Vector<N>) -> Vector<N> {
 /// term.
 fn readout((lines, own): &([Vector<BigInt>; 3], Vector<BigInt>)) -> Option<Readout> {
     let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
-        let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
+        let [a, b, c] = lines.each_ref().each(|line| part(line).to_i16());
         Some([a?.into(), b?.into(), c?.into()])
     };
     Some(Readout {
         combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
-        own: [&own.z, &own.x, &own.y].map(Clone::clone),
+        own: [&own.z, &own.x, &own.y].each(Clone::clone),
     })
 }
 

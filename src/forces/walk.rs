@@ -9,6 +9,7 @@ use num_rational::BigRational;
 use super::terms::Terms;
 use super::{ContactForce, FloorForce, Forces};
 use crate::Error;
+use crate::each::Each;
 use crate::engine::{Cells, Engine, Meter, Plan, Planes, Quantity};
 use crate::lattice::Row;
 use crate::scalar::{Algebra, Exactness};
@@ -74,8 +75,8 @@ impl<'p, T: Algebra> Walk<'p, T> {
         let mut contacts = Vec::with_capacity(directions.len() * forces.len());
         for (site, forces) in piece.clone().into_iter().zip(forces) {
             let forces = match forces {
-                Ok(forces) => forces.map(Ok),
-                Err(error) => [(); 3].map(|()| Err(error.clone())),
+                Ok(forces) => forces.each(Ok),
+                Err(error) => [(); 3].each(|()| Err(error.clone())),
             };
             contacts.extend(directions.iter().zip(forces).map(|(&direction, force)| {
                 let force = force?;
@@ -105,7 +106,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
             Self::Exact(terms, engine) => {
                 let below = engine.transmitted_in((&terms.lines, &terms.system), piece, meter);
                 let inexact = |force: BigRational| T::from_rational(&force);
-                let forces = |below: Result<_, _>| Ok(terms.contacts(below?)?.map(inexact));
+                let forces = |below: Result<_, _>| Ok(terms.contacts(below?)?.each(inexact));
                 below.into_iter().map(forces).collect()
             }
         }

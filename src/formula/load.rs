@@ -1,6 +1,7 @@
 //! The increments of a sphere with a load of any direction.
 
 use super::horizontal::signed;
+use crate::each::Each;
 use crate::geometry::Load;
 use crate::lattice::Sign;
 use crate::scalar::Ring;
@@ -23,7 +24,7 @@ use crate::scalar::Ring;
 /// ```
 #[must_use]
 pub fn load_increments<T: Ring>(load: &Load<T>, s: &T, sign: Sign) -> [T; 3] {
-    let [x, y] = [&load.x, &load.y].map(|part| signed(part.clone(), sign));
+    let [x, y] = [&load.x, &load.y].each(|part| signed(part.clone(), sign));
     let half_sum = T::one() + s;
     let y = y * &(half_sum.clone() + &half_sum);
     let less_x = load.down.clone() - &x;

@@ -4,6 +4,7 @@ use core::ops::{Add, Sub};
 
 use num_traits::One;
 
+use crate::each::Each;
 use crate::scalar::{Algebra, Exactness, THREE};
 
 /// Returns G g, the contribution of the forces g from above to the forces that a sphere at a sign change transmits.
@@ -30,12 +31,12 @@ use crate::scalar::{Algebra, Exactness, THREE};
 pub fn half_turn<T: Algebra>(g: &[T::Numerator; 3]) -> [T::Numerator; 3] {
     let third = |tripled| T::divide_numerator(tripled, THREE);
     if T::EXACTNESS == Exactness::Enclosure
-        && let [Some(a), Some(b), Some(c)] = tripled_apart(g).map(third)
+        && let [Some(a), Some(b), Some(c)] = tripled_apart(g).each(third)
     {
         return [a, b, c];
     }
     match third(twice_sum(g)) {
-        Some(twice_mean) => g.each_ref().map(|x| twice_mean.clone() - x),
+        Some(twice_mean) => g.each_ref().each(|x| twice_mean.clone() - x),
         None => tripled_half_turn(g),
     }
 }
@@ -57,7 +58,7 @@ where
     T: Clone + for<'a> Add<&'a T, Output = T> + for<'a> Sub<&'a T, Output = T>,
 {
     let twice_sum = twice_sum(g);
-    g.each_ref().map(|x| twice_sum.clone() - x - x - x)
+    g.each_ref().each(|x| twice_sum.clone() - x - x - x)
 }
 
 /// Returns 3G g as (2(g_β + g_γ) − g_α, …), so that each force occurs once. The library uses it for bounds and limbs.

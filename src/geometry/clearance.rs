@@ -23,6 +23,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::{Inclination, Spacing, square_per_sin2, squared_distance};
 use crate::Error;
+use crate::each::Each;
 use crate::lattice::Dimension;
 use crate::scalar::Ring;
 use crate::shape::Shape;
@@ -127,7 +128,7 @@ impl Clearance {
             if !occurs(n, pyramid.layers()) || n.iter().skip(lines).any(|c| *c != 0) {
                 continue;
             }
-            let vector = n.map(BigRational::from_i128);
+            let vector = n.each(BigRational::from_i128);
             let at_zero = squared_distance(&vector, s, &BigRational::zero());
             let slope = squared_distance(&vector, s, &BigRational::one()) - &at_zero;
             if slope.is_zero() {
@@ -245,7 +246,7 @@ impl Clearance {
 /// Returns the decisive differences n (see the module documentation), one of each ±n, with the difference of the
 /// layers.
 fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
-    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].map(|n| (0, n));
+    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].each(|n| (0, n));
     let stacked = (1..=3_u8).flat_map(|m| {
         (-1..=4).flat_map(move |t: i128| {
             (-1..=1)

@@ -7,6 +7,7 @@ use num_rational::BigRational;
 
 use exact_surd::layout::{padded, part};
 
+use crate::each::Each;
 use crate::scalar::Ring;
 
 /// An external force on a sphere, in the units of the forces on the floor.
@@ -141,7 +142,7 @@ impl<T: Ring> From<T> for Load<T> {
 impl<T: fmt::Display + Ring> fmt::Display for Load<T> {
     /// Prints `2` for a vertical load, and `(2, 1/4, 0)` for any other.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [down, x, y] = [&self.down, &self.x, &self.y].map(|component| part(f, component));
+        let [down, x, y] = [&self.down, &self.x, &self.y].each(|component| part(f, component));
         if self.is_vertical() {
             padded(f, format_args!("{down}"))
         } else {

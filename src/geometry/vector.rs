@@ -5,6 +5,7 @@ use core::ops::{Add, Neg, Sub};
 
 use exact_surd::layout::{padded, part};
 
+use crate::each::Each;
 use crate::scalar::Ring;
 
 /// A vector with components in the symbolic basis (sinθ, 2cosφ·sinθ, cosθ), where z points down.
@@ -128,7 +129,7 @@ impl<T> Vector<T> {
     /// ```
     #[must_use]
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> Vector<U> {
-        let [x, y, z] = self.into_array().map(f);
+        let [x, y, z] = self.into_array().each(f);
         Vector { x, y, z }
     }
 
@@ -160,7 +161,7 @@ impl<T: fmt::Display> fmt::Display for Vector<T> {
     /// assert_eq!(format!("{v:>16}"), "   (0.25, 0, -1)");
     /// ```
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = [&self.x, &self.y, &self.z].map(|component| part(f, component));
+        let [x, y, z] = [&self.x, &self.y, &self.z].each(|component| part(f, component));
         padded(f, format_args!("({x}, {y}, {z})"))
     }
 }

@@ -5,6 +5,7 @@ use core::fmt;
 use exact_surd::layout::padded;
 
 use super::{Direction, Sign, Site};
+use crate::each::Each;
 use crate::error::named;
 
 /// The line through two neighbouring spheres of a layer. Its name consists of two directions a and b, and the neighbour
@@ -189,7 +190,7 @@ impl HorizontalContact {
     #[must_use]
     pub fn neighbour(&self) -> Option<Site> {
         // The step is the difference of two directions. Adding them one by one could leave `i128` in between.
-        let [up, down] = self.axis.ends().map(|end| Sign::Plus.descent(end));
+        let [up, down] = self.axis.ends().each(|end| Sign::Plus.descent(end));
         Some(Site {
             i: self.site.i.checked_add(down[0] - up[0])?,
             j: self.site.j.checked_add(down[1] - up[1])?,

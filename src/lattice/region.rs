@@ -15,6 +15,7 @@ use num_integer::Integer;
 
 use super::Row;
 use crate::Error;
+use crate::each::Each;
 use crate::lattice::Sign;
 use crate::scalar::parse::integer;
 
@@ -266,8 +267,8 @@ impl Region {
     #[must_use]
     pub fn mirrored(&self) -> Self {
         Self {
-            lower: self.upper.map(|b| -b),
-            upper: self.lower.map(|b| -b),
+            lower: self.upper.each(|b| -b),
+            upper: self.lower.each(|b| -b),
         }
     }
 
@@ -323,7 +324,7 @@ impl Region {
             return sites(sides, corners).unsigned_abs().into();
         }
         // A count is not negative, so its magnitude is the value.
-        sites(sides.map(BigInt::from), corners.map(BigInt::from))
+        sites(sides.each(BigInt::from), corners.each(BigInt::from))
             .into_parts()
             .1
     }
@@ -383,7 +384,7 @@ impl Region {
 
     /// Returns the differences between upper and lower bound of i, j and i+j.
     pub(crate) fn widths(&self) -> [i128; 3] {
-        core::array::from_fn(|n| self.upper[n] - self.lower[n])
+        [0, 1, 2].each(|n| self.upper[n] - self.lower[n])
     }
 
     /// Returns the number of erosions of one sign after which each of the three sides that they shorten vanishes.
@@ -401,8 +402,8 @@ impl Region {
     #[must_use]
     pub fn grown(&self, plus: i128, minus: i128) -> Self {
         Self {
-            lower: self.lower.map(|bound| bound - minus),
-            upper: self.upper.map(|bound| bound + plus),
+            lower: self.lower.each(|bound| bound - minus),
+            upper: self.upper.each(|bound| bound + plus),
         }
     }
 
@@ -458,7 +459,7 @@ impl Region {
 fn sites<I: Integer + Clone>([width, height]: [I; 2], corners: [I; 2]) -> I {
     let two = I::one() + I::one();
     let triangle = |side: I| side.clone() * (side + I::one()) / two.clone();
-    let [first, second] = corners.map(triangle);
+    let [first, second] = corners.each(triangle);
     width * height - first - second
 }
 

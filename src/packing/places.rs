@@ -7,6 +7,7 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 use super::upwards;
+use crate::each::Each;
 use crate::engine::{Unit, check_interrupt};
 use crate::forces::check_lengths;
 use crate::geometry::Vector;
@@ -67,7 +68,7 @@ impl<'p> Packing<'p> {
         let unit = |root: &Surd| Unit::new(root.scaled(&diameter), halves.clone());
         Places {
             packing: self.clone(),
-            units: self.roots.lengths().map(unit),
+            units: self.roots.lengths().each(unit),
             halves,
             floats: PhantomData,
         }

@@ -1,6 +1,7 @@
 //! Iterators over results in SI units.
 
 use super::on_basis;
+use crate::each::Each;
 use crate::forces::{NearestLayers, Units};
 use crate::lattice::{ContactKind, Direction, HorizontalContact, Site};
 use crate::scalar::{CorrectlyRounded, Surd, product};
@@ -73,7 +74,7 @@ impl<'p> Packing<'p> {
         part: Selection,
     ) -> Result<NearestLayers<'p, F>, Error> {
         let [x, y, z] = self.roots.forces();
-        let basis = |unit: &BigRational| [x, y, z].map(|root| root.scaled(unit));
+        let basis = |unit: &BigRational| [x, y, z].each(|root| root.scaled(unit));
         let [along_x, along_y, downwards] = basis(&self.weight_per_sum);
         let units = Units {
             contact: self.unit_force(),
@@ -181,7 +182,7 @@ impl<'p> Packing<'p> {
     ) -> Result<PackedContact, Error> {
         let HorizontalContact { site, axis } = contact;
         let neighbour = self.pile().shape().neighbour(contact)?;
-        let [a, b] = axis.ends().map(Direction::index);
+        let [a, b] = axis.ends().each(Direction::index);
         let directions = self.pile().directions::<BigRational>();
         let along = directions[b].clone() - &directions[a];
         let halfway = self.centre(site)? + &self.centre(neighbour)?;

@@ -8,6 +8,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use super::Loading;
+use crate::each::Each;
 use crate::formula;
 use crate::geometry::{Load, Vector};
 use crate::lattice::{Dimension, Sign, Site};
@@ -44,7 +45,7 @@ impl System<'_> {
     pub(crate) fn load_increments(&self, load: &Load, sign: Sign) -> [BigRational; 3] {
         if load.is_vertical() {
             let own = |w| formula::force(load.down.clone(), w);
-            return self.increments.each_ref().map(own);
+            return self.increments.each_ref().each(own);
         }
         self.load_increments_of(load, self.sin_phi, sign)
     }
@@ -89,7 +90,7 @@ impl System<'_> {
         let horizontal = self.loading.horizontal().map(|(_, force)| force);
         let given = common_denominator(self.loading.tilt().iter().chain(horizontal));
         let given = self.loading.extras().fold(given, |common, (_, load)| {
-            let denominators = [&load.down, &load.x, &load.y].map(BigRational::denom);
+            let denominators = [&load.down, &load.x, &load.y].each(BigRational::denom);
             denominators.into_iter().fold(common, common_multiple)
         });
         common_denominator(&self.increments) * given
@@ -104,7 +105,7 @@ impl System<'_> {
         let over = |value: &BigRational| value.numer().abs() * (&denominator / value.denom());
         let greatest =
             |lines: &[BigRational; 3]| lines.iter().map(over).fold(BigInt::zero(), BigInt::max);
-        let ordinary = [Sign::Plus, Sign::Minus].map(|sign| greatest(&self.ordinary(sign)));
+        let ordinary = [Sign::Plus, Sign::Minus].each(|sign| greatest(&self.ordinary(sign)));
         let extras = self.extras().map(|extra| greatest(&extra.lines)).sum();
         let [plus, minus] = ordinary;
         [plus.max(minus), extras]

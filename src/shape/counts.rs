@@ -8,6 +8,7 @@ use num_traits::Zero;
 
 use super::{Anchor, Shape, Stretch};
 use crate::Error;
+use crate::each::Each;
 use crate::lattice::Site;
 use crate::shape::Numbering;
 
@@ -71,7 +72,7 @@ impl Shape {
             return to + 1;
         };
         // Upwards from the bottom of the run, sides shrink and may vanish.
-        let breaks = bottom.vanishing_sides(sign).map(|steps| to - steps);
+        let breaks = bottom.vanishing_sides(sign).each(|steps| to - steps);
         breaks
             .into_iter()
             .filter(|layer| *layer > k)
@@ -89,7 +90,7 @@ impl Shape {
         if n <= 3 {
             return layers.map(count).sum();
         }
-        let [c0, c1, c2] = [0, 1, 2].map(|t| num_bigint::BigInt::from(count(layers.start + t)));
+        let [c0, c1, c2] = [0, 1, 2].each(|t| num_bigint::BigInt::from(count(layers.start + t)));
         let n = num_bigint::BigInt::from(n);
         let pairs = (&n * (&n - 1_u32)).div_floor(&2.into());
         let triples = (&pairs * (&n - 2_u32)).div_floor(&3.into());

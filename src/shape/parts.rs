@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use super::{Rows, Shape};
 use crate::Error;
+use crate::each::Each;
 use crate::lattice::{Region, Row, Site};
 
 /// A range of layers of a pile, or a region of one layer.
@@ -47,7 +48,7 @@ impl<'p> Part<'p> {
             Self::Layer(k, region) => (k, region),
         };
         let ([x, y], s) = ([region.x(), region.y()], region.s());
-        let [width, height] = [&x, &y].map(|side| side.end() - side.start() + 1);
+        let [width, height] = [&x, &y].each(|side| side.end() - side.start() + 1);
         if width.saturating_mul(height) <= FEW {
             return (Self::Layer(k, region), None);
         }
@@ -56,9 +57,9 @@ impl<'p> Part<'p> {
             [*side.start()..=last, last + 1..=*side.end()]
         };
         let halves = if height > 1 {
-            cut(&y).map(|y| Region::new(x.clone(), y, s.clone()))
+            cut(&y).each(|y| Region::new(x.clone(), y, s.clone()))
         } else {
-            cut(&x).map(|x| Region::new(x, y.clone(), s.clone()))
+            cut(&x).each(|x| Region::new(x, y.clone(), s.clone()))
         };
         match halves {
             [Ok(before), Ok(behind)] => (Self::Layer(k, before), Some(Self::Layer(k, behind))),

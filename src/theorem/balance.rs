@@ -10,6 +10,7 @@ use super::setting::{
     transmitted,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
+use crate::each::Each;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign};
 
@@ -89,8 +90,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
 fn paper_system(f: &Formulas) -> Vec<Step> {
     let setting = Setting::isosceles(f);
     let s = &setting.s;
-    let up @ [a, b, c] = &["α", "β", "γ"].map(symbol);
-    let down @ [a1, b1, c1] = &["α'", "β'", "γ'"].map(symbol);
+    let up @ [a, b, c] = &["α", "β", "γ"].each(symbol);
+    let down @ [a1, b1, c1] = &["α'", "β'", "γ'"].each(symbol);
     let (e, weight) = (&setting.directions, symbol("w"));
     let sum = (f.unbalanced)(up, e, down, e, &weight);
     let [delta_a, delta_b, delta_c] = [a.clone() - a1, b.clone() - b1, c.clone() - c1];
@@ -126,7 +127,7 @@ fn unit_directions(f: &Formulas) -> Vec<Step> {
         let claim = format!("|ê|² = 1 for {direction}");
         steps.push(Step::equal(claim, square(e), P::one()));
     }
-    let n = ["a", "b", "c"].map(symbol);
+    let n = ["a", "b", "c"].each(symbol);
     let apart = Vector::combination(&n, &setting.directions);
     let form = (f.squared_distance)(&n, &setting.s, &sin2);
     steps.extend(equations! {
@@ -143,7 +144,7 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
     let left = setting.unbalanced(f, &here);
     let mut steps = by_component("supports = −(from above + weight)", supports, -load);
     steps.extend(nothing_left("the resultant of all forces is 0", left));
-    let g = ["g_1", "g_2", "g_3"].map(symbol);
+    let g = ["g_1", "g_2", "g_3"].each(symbol);
     let (own, weight) = setting.loaded(f, &symbol("n"));
     let to_below = transmitted(f, g.clone(), &own);
     for (sign, e) in [
@@ -159,14 +160,14 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
 
 fn surface(f: &Formulas) -> Vec<Step> {
     let setting = Setting::isosceles(f);
-    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let [i, j, k] = ["i", "j", "k"].each(symbol);
     let zero = P::zero();
     let faces = [
         ("α on i+j = k", (&i, &j, &(i.clone() + &j))),
         ("β on i = 0", (&zero, &j, &k)),
         ("γ on j = 0", (&i, &zero, &k)),
     ];
-    let forces = faces.map(|(face, (i, j, k))| (face, setting.received(f, &(f.above)(i, j, k))));
+    let forces = faces.each(|(face, (i, j, k))| (face, setting.received(f, &(f.above)(i, j, k))));
     let steps = forces.into_iter().zip(Direction::ALL);
     let step = |((face, forces), direction): ((&str, [P; 3]), Direction)| {
         let claim = format!("no force from above along {face}");
@@ -177,13 +178,13 @@ fn surface(f: &Formulas) -> Vec<Step> {
 
 fn action_reaction(f: &Formulas) -> Vec<Step> {
     let setting = Setting::isosceles(f);
-    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let [i, j, k] = ["i", "j", "k"].each(symbol);
     let given = setting.to_below(f, setting.received(f, &above(f)));
     Direction::ALL
         .into_iter()
         .zip(given)
         .map(|(direction, given)| {
-            let [di, dj] = (f.descent)(Sign::Plus, direction).map(int);
+            let [di, dj] = (f.descent)(Sign::Plus, direction).each(int);
             let below = (f.above)(
                 &(i.clone() + &di),
                 &(j.clone() + &dj),
@@ -198,7 +199,7 @@ fn action_reaction(f: &Formulas) -> Vec<Step> {
 
 fn central_force(f: &Formulas) -> Vec<Step> {
     let (setting, here) = (Setting::equilateral(f), above(f));
-    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let [i, j, k] = ["i", "j", "k"].each(symbol);
     let force = (f.resultant)(&setting.received(f, &here), &setting.directions);
     let at = (f.position)(&here, &setting.directions);
     let across = int(3) * &j - &k;
@@ -223,8 +224,8 @@ fn half_turn(f: &Formulas) -> Vec<Step> {
             .zip(b)
             .fold(P::zero(), |sum, (x, y)| sum + &(x.clone() * y))
     };
-    let g = ["g_1", "g_2", "g_3"].map(symbol);
-    let h = ["h_1", "h_2", "h_3"].map(symbol);
+    let g = ["g_1", "g_2", "g_3"].each(symbol);
+    let h = ["h_1", "h_2", "h_3"].each(symbol);
     let (turned, other) = ((f.half_turn)(&g), (f.half_turn)(&h));
     let mut steps = equations! {
         "|Gg|² = |g|²": dot(&turned, &turned) => dot(&g, &g),

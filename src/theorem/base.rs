@@ -10,6 +10,7 @@ use super::setting::{
     symbol,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
+use crate::each::Each;
 use crate::geometry::Vector;
 use crate::lattice::Direction;
 use crate::scalar::Symbol;
@@ -153,7 +154,7 @@ fn weight(f: &Formulas) -> Vec<Step> {
 
 fn shear(f: &Formulas) -> Vec<Step> {
     let force = on_floor(f, &Setting::equilateral(f));
-    let [i, j] = ["i", "j"].map(symbol);
+    let [i, j] = ["i", "j"].each(symbol);
     equations! {
         "2F_x = −(L−1−3j)": force.x * &int(2) => int(3) * &j - &last_layer(),
         "2F_y = −(L−1−2i−j), with √3 in the unit":
@@ -203,7 +204,7 @@ fn shear_on_axis(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
     let force = on_floor(f, &setting);
     let at = (f.position)(&above_floor(f), &setting.directions);
-    let [i, j, n] = ["i", "j", "n"].map(symbol);
+    let [i, j, n] = ["i", "j", "n"].each(symbol);
     let [from_i, from_j] = [i.clone() - &n, j.clone() - &n];
     let twice = force.clone().map(|part| part * &int(2));
     let mut steps = equations! {
@@ -215,7 +216,7 @@ fn shear_on_axis(f: &Formulas) -> Vec<Step> {
     for p in 0..3 {
         let layers = int(3) * &n + &int(p + 1);
         let [along_x, along_y] =
-            [&twice.x, &twice.y].map(|part| part.substitute(Symbol("L"), &layers));
+            [&twice.x, &twice.y].each(|part| part.substitute(Symbol("L"), &layers));
         steps.extend(equations! {
             (format!("L−1 = 3n+{p}: along x, 3(j−n) − {p}")):
                 along_x => int(3) * &from_j - &int(p),

@@ -9,6 +9,7 @@ use super::setting::{
     P, above, equations, int, last_layer, sum_off_floor, sum_over_layer, sum_over_pile, symbol,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
+use crate::each::Each;
 use crate::lattice::{Direction, Sign};
 use crate::scalar::Symbol;
 
@@ -64,7 +65,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
 
 fn counts(f: &Formulas) -> Vec<Step> {
     let names = ["N_α", "N_β", "N_γ"];
-    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let [i, j, k] = ["i", "j", "k"].each(symbol);
     let here = above(f);
     let zero = P::zero();
     let mut steps = Vec::new();
@@ -73,7 +74,7 @@ fn counts(f: &Formulas) -> Vec<Step> {
         steps.push(Step::equal(claim, n, zero.clone()));
     }
     for (line, direction) in Direction::ALL.into_iter().enumerate() {
-        let [di, dj] = (f.descent)(Sign::Plus, direction).map(int);
+        let [di, dj] = (f.descent)(Sign::Plus, direction).each(int);
         let below = (f.above)(
             &(i.clone() + &di),
             &(j.clone() + &dj),
@@ -104,7 +105,7 @@ fn counts(f: &Formulas) -> Vec<Step> {
 }
 
 fn rotation(f: &Formulas) -> Vec<Step> {
-    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let [i, j, k] = ["i", "j", "k"].each(symbol);
     let [n_alpha, n_beta, n_gamma] = above(f);
     let image = (f.above)(&j, &(k.clone() - &i - &j), &k);
     let [alpha, beta, gamma] = image;
@@ -131,7 +132,7 @@ fn contacts(f: &Formulas) -> Vec<Step> {
     let closed = l.clone() * &(l.clone() - &P::one()) * &(l.clone() + &P::one());
     // A site with a sphere above it on a line is the image of a sphere off the floor. So the site N = 0 of each line is
     // left out.
-    let [j, k] = ["j", "k"].map(symbol);
+    let [j, k] = ["j", "k"].each(symbol);
     let (zero, one) = (P::zero(), P::one());
     let rows = k.clone() - &j;
     let above = [

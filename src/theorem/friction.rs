@@ -7,6 +7,7 @@ use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, by_component, cross, equations, half, int, nothing_left, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
+use crate::each::Each;
 use crate::geometry::Vector;
 
 pub(super) const THEOREMS: &[Theorem] = &[
@@ -100,7 +101,7 @@ impl HalfAngle {
     /// Returns the position of a contact as seen from the upper sphere: half the position of the lower one, which is in
     /// units of 2R.
     fn lever_of_upper(&self, f: &Formulas, line: usize, e: &[Vector<P>; 3]) -> Vector<P> {
-        let count = [0, 1, 2].map(|n| int(i128::from(n == line)));
+        let count = [0, 1, 2].each(|n| int(i128::from(n == line)));
         self.in_units_of_radius((f.position)(&count, e))
     }
 
@@ -166,7 +167,7 @@ fn contact(f: &Formulas) -> Vec<Step> {
 
 fn rough_floor(f: &Formulas) -> Vec<Step> {
     let angle = HalfAngle::new();
-    let [g1, g2, g3] = ["g_1", "g_2", "g_3"].map(symbol);
+    let [g1, g2, g3] = ["g_1", "g_2", "g_3"].each(symbol);
     let on_plane = [g1.clone(), g2.clone(), P::zero()];
     let (spheres, discs) = (Setting::isosceles(f), Setting::discs(f));
     let mut steps = Vec::new();
@@ -211,7 +212,7 @@ fn rough_floor(f: &Formulas) -> Vec<Step> {
 fn unique(f: &Formulas) -> Vec<Step> {
     let setting = Setting::isosceles(f);
     let (s, [e_a, e_b, e_c]) = (&setting.s, &setting.directions);
-    let [a, b, c] = [(e_a, e_b), (e_b, e_c), (e_c, e_a)].map(|(from, to)| to.clone() - from);
+    let [a, b, c] = [(e_a, e_b), (e_b, e_c), (e_c, e_a)].each(|(from, to)| to.clone() - from);
     let turn = |v: &Vector<P>, w: &Vector<P>| cross(v, w).z;
     // The sum and the moment of the forces at the three contacts.
     let balance = |[l1, l2, l3, l4, l5, l6]: &[P; 6]| {
@@ -230,14 +231,14 @@ fn unique(f: &Formulas) -> Vec<Step> {
         )
     };
     let all @ [l1, l2, l3, l4, l5, l6] = &["λ_1", "λ_2", "λ_3", "λ_4", "λ_5", "λ_6"].map(symbol);
-    let [on_a, on_b, on_c] = [(l1, l4), (l3, l6), (l5, l2)].map(|(l, m)| l.clone() - m);
+    let [on_a, on_b, on_c] = [(l1, l4), (l3, l6), (l5, l2)].each(|(l, m)| l.clone() - m);
     let (sum, moment) = balance(all);
     let wide = P::one() + s;
     let along_x = wide.clone() * &(on_c.clone() - &on_b);
     let along_y = on_b.clone() + &on_c - &(int(2) * &on_a);
     let turning = int(2) * s * &on_a + &on_b + &on_c;
     let kappa = symbol("κ");
-    let [with_1, with_3, with_5] = [l4, l6, l2].map(|l| l.clone() + &kappa);
+    let [with_1, with_3, with_5] = [l4, l6, l2].each(|l| l.clone() + &kappa);
     let one_kappa = [with_1, l2.clone(), with_3, l4.clone(), with_5, l6.clone()];
     let (_, about_axis) = balance(&one_kappa);
     equations! {

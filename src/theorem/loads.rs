@@ -10,6 +10,7 @@ use super::setting::{
     sum_over_base, sum_over_pile, symbol, transmitted,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
+use crate::each::Each;
 use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Sign};
 
@@ -74,7 +75,7 @@ fn vertical(down: P) -> Load<P> {
 
 /// Returns the load of a sphere under gravity that leans by (x, y), both symbols.
 fn leaning() -> Load<P> {
-    Load::leaning(P::one(), &["x", "y"].map(symbol))
+    Load::leaning(P::one(), &["x", "y"].each(symbol))
 }
 
 /// Returns the setting with the increments of spheres under gravity that leans. Its forces from above are then those
@@ -88,8 +89,8 @@ fn leaned(f: &Formulas) -> Setting {
 }
 
 fn load(f: &Formulas) -> Vec<Step> {
-    let [g1, g2, g3] = ["g_1", "g_2", "g_3"].map(symbol);
-    let [down, x, y] = ["w", "X", "Y"].map(symbol);
+    let [g1, g2, g3] = ["g_1", "g_2", "g_3"].each(symbol);
+    let [down, x, y] = ["w", "X", "Y"].each(symbol);
     let load = Load { down, x, y };
     let mirrored = Load {
         x: -load.x.clone(),
@@ -155,14 +156,14 @@ fn load(f: &Formulas) -> Vec<Step> {
         steps.extend(by_line(&claim, own, discs.loaded(f, &n).0));
     }
     let [plus, minus] = [(&load, Sign::Plus), (&mirrored, Sign::Minus)]
-        .map(|(load, sign)| of_sphere(load, &spheres.s, sign));
+        .each(|(load, sign)| of_sphere(load, &spheres.s, sign));
     steps.extend(by_line(
         "(w, −X, −Y) under − as (w, X, Y) under +",
         minus,
         plus,
     ));
     let [plus, minus] = [(&load, Sign::Plus), (&mirrored, Sign::Minus)]
-        .map(|(load, sign)| (f.disc_load_increments)(load, sign));
+        .each(|(load, sign)| (f.disc_load_increments)(load, sign));
     steps.extend(by_line(
         "disc: (w, −X, −Y) under − as (w, X, Y) under +",
         minus,
@@ -197,7 +198,7 @@ impl Nearest {
             let increments = increments(&Load::leaning(P::one(), tilt));
             increments[line.index()].clone()
         };
-        let any = ["x", "y"].map(symbol);
+        let any = ["x", "y"].each(symbol);
         let apart = [any[0].clone() - &x, any[1].clone() - &y];
         equations! {
             (format!("{of}, {line}: Δ = 0 at t*")): at(&[x, y]) => P::zero(),
@@ -211,9 +212,9 @@ fn tilt(f: &Formulas) -> Vec<Step> {
     let (setting, counts) = (leaned(f), above(f));
     let left = setting.unbalanced(f, &counts) + &horizontal(&leaning(), &setting.weight);
     let mut steps = nothing_left("the resultant is 0 under a tilt", left);
-    let n = [(); 3].map(|()| symbol("n"));
-    let more = n.clone().map(|n| n + &P::one());
-    let none = [(); 3].map(|()| P::zero());
+    let n = [(); 3].each(|()| symbol("n"));
+    let more = n.clone().each(|n| n + &P::one());
+    let none = [(); 3].each(|()| P::zero());
     let received = |counts: &[P; 3]| setting.received(f, counts);
     let after = setting.to_below(f, received(&n));
     steps.extend(by_line("no sphere, no force", received(&none), none));

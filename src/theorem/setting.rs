@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::{Formulas, Step};
+use crate::each::Each;
 use crate::geometry::Vector;
 use crate::scalar::{Algebra, Polynomial, Ring, Symbol, TWO};
 
@@ -98,7 +99,7 @@ impl Setting {
     /// Returns the unit vectors along contacts under − steps.
     #[must_use]
     pub fn turned_directions(&self, f: &Formulas) -> [Vector<P>; 3] {
-        self.directions.clone().map(f.turned_about_z)
+        self.directions.clone().each(f.turned_about_z)
     }
 
     /// Returns the load of a sphere on its supports, from its weight and the number of spheres above on each line.

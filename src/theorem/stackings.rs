@@ -7,6 +7,7 @@ use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, by_line, equations, int, nothing_left, symbol, transmitted};
 use super::{Formulas, ProofKind, Step, Theorem};
+use crate::each::Each;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign};
 use crate::scalar::{Algebra, Symbol, THREE};
@@ -120,14 +121,14 @@ const fn arguments(sign: Sign, direction: Direction) -> [usize; 3] {
 
 fn region_counts(f: &Formulas) -> Vec<Step> {
     const NAMES: [&str; 6] = ["x₁−i", "y₁−j", "s₁−i−j", "i−x₀", "j−y₀", "i+j−s₀"];
-    let [i, j, m] = ["i", "j", "m"].map(symbol);
-    let lower = ["x_0", "y_0", "s_0"].map(symbol);
-    let upper = ["x_1", "y_1", "s_1"].map(symbol);
+    let [i, j, m] = ["i", "j", "m"].each(symbol);
+    let lower = ["x_0", "y_0", "s_0"].each(symbol);
+    let upper = ["x_1", "y_1", "s_1"].each(symbol);
     let here = distances(&i, &j, &lower, &upper);
     let mut steps = Vec::new();
     for (name, sign) in SIGNS {
         let bounds = (f.bounds_above)(&i, &j, &lower, &upper, &m, sign);
-        let tighter = |bounds: &[P; 3], by: i128| bounds.each_ref().map(|b| b.clone() + &int(by));
+        let tighter = |bounds: &[P; 3], by: i128| bounds.each_ref().each(|b| b.clone() + &int(by));
         let (lower, upper) = match sign {
             Sign::Plus => (lower.clone(), tighter(&upper, -1)),
             Sign::Minus => (tighter(&lower, 1), upper.clone()),
@@ -141,7 +142,7 @@ fn region_counts(f: &Formulas) -> Vec<Step> {
                 let claim = claim(&format!("an argument is {}", NAMES[n]));
                 steps.push(Step::equal(claim, argument, here[n].clone()));
             }
-            let [di, dj] = (f.descent)(sign, direction).map(int);
+            let [di, dj] = (f.descent)(sign, direction).each(int);
             let above = distances(&(i.clone() - &di), &(j.clone() - &dj), &lower, &upper);
             for (n, above) in above.into_iter().enumerate() {
                 let (less, text) = if of_line.contains(&n) {
@@ -156,11 +157,11 @@ fn region_counts(f: &Formulas) -> Vec<Step> {
     }
     // The paper's pile, 0 ≤ i, j, i+j ≤ k: each argument is N plus a nonnegative term.
     let k = symbol("k");
-    let (none, all) = ([(); 3].map(|()| P::zero()), [(); 3].map(|()| k.clone()));
+    let (none, all) = ([(); 3].each(|()| P::zero()), [(); 3].each(|()| k.clone()));
     let bounds = (f.bounds_above)(&i, &j, &none, &all, &k, Sign::Plus);
     let counts = (f.above)(&i, &j, &k);
     let (sum, rest) = (i.clone() + &j, k - &i - &j);
-    let [rest_i, rest_j] = [&i, &j].map(|index| rest.clone() + index);
+    let [rest_i, rest_j] = [&i, &j].each(|index| rest.clone() + index);
     let more = [
         [sum.clone(), j.clone(), i.clone(), P::zero()],
         [rest_j, P::zero(), rest.clone(), j],
@@ -200,14 +201,14 @@ fn run(f: &Formulas) -> Vec<Step> {
 }
 
 fn tripled(f: &Formulas) -> Vec<Step> {
-    let g = ["g_1", "g_2", "g_3"].map(symbol);
+    let g = ["g_1", "g_2", "g_3"].each(symbol);
     let ways = [
         ("2(g_1+g_2+g_3) − 3g = 3Gg", (f.tripled_half_turn)(&g)),
         ("(2(g_2+g_3) − g_1, …) = 3Gg", (f.tripled_apart)(&g)),
     ];
     let mut steps = Vec::new();
     for (claim, tripled) in ways {
-        let turned = (f.half_turn)(&g).map(|part| part * &int(3));
+        let turned = (f.half_turn)(&g).each(|part| part * &int(3));
         steps.extend(by_line(claim, tripled, turned));
     }
     steps
@@ -215,7 +216,7 @@ fn tripled(f: &Formulas) -> Vec<Step> {
 
 fn change_of_sign(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
-    let g = ["g_1", "g_2", "g_3"].map(symbol);
+    let g = ["g_1", "g_2", "g_3"].each(symbol);
     let (own, weight) = setting.loaded(f, &symbol("n"));
     let to_below = transmitted(f, (f.half_turn)(&g), &own);
     let (plus, minus) = (setting.directions.clone(), setting.turned_directions(f));
@@ -231,9 +232,9 @@ fn change_of_sign(f: &Formulas) -> Vec<Step> {
 }
 
 fn edge(f: &Formulas) -> Vec<Step> {
-    let [i, j, m] = ["i", "j", "m"].map(symbol);
-    let lower @ [x0, y0, s0] = &["x_0", "y_0", "s_0"].map(symbol);
-    let upper @ [x1, y1, s1] = &["x_1", "y_1", "s_1"].map(symbol);
+    let [i, j, m] = ["i", "j", "m"].each(symbol);
+    let lower @ [x0, y0, s0] = &["x_0", "y_0", "s_0"].each(symbol);
+    let upper @ [x1, y1, s1] = &["x_1", "y_1", "s_1"].each(symbol);
     let mut steps = Vec::new();
     for (name, sign) in SIGNS {
         let (sum, column, row) = match sign {
@@ -306,7 +307,7 @@ fn horizontal([x, y]: [P; 2]) -> Vector<P> {
 /// Returns the steps for the contacts below a loaded sphere. The load is W = 3, so each v is a third of an increment.
 fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<Step> {
     let third = P::one().div_int(THREE);
-    let v = increments.clone().map(|w| w.div_int(THREE));
+    let v = increments.clone().each(|w| w.div_int(THREE));
     let at = |claim: &str| format!("first layer, {name}: {claim}");
     equations! {
         (at("Σv = 1")): sum(&v, |_| P::one()) => P::one(),
@@ -321,7 +322,7 @@ fn point_load(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
     // The horizontal step of a contact, from a sphere to the next one down its line.
     let steps_under = |directions: &[Vector<P>; 3]| -> [Vector<P>; 3] {
-        core::array::from_fn(|line| {
+        [0, 1, 2].each(|line| {
             let mut one = [P::zero(), P::zero(), P::zero()];
             one[line] = P::one();
             let Vector { x, y, .. } = (f.position)(&one, directions);
@@ -336,8 +337,8 @@ fn point_load(f: &Formulas) -> Vec<Step> {
     for (name, down) in &signs {
         steps.extend(first_layer(&setting.increments, name, down));
     }
-    let g = ["g_1", "g_2", "g_3"].map(symbol);
-    let r = horizontal(["x", "y"].map(symbol));
+    let g = ["g_1", "g_2", "g_3"].each(symbol);
+    let r = horizontal(["x", "y"].each(symbol));
     for (above, from) in &signs {
         for (below, to) in &signs {
             let passed = if above == below {
@@ -367,7 +368,7 @@ fn point_load(f: &Formulas) -> Vec<Step> {
             steps.extend(claims.into_iter().skip(kept));
         }
     }
-    let h = ["h_1", "h_2", "h_3"].map(symbol);
+    let h = ["h_1", "h_2", "h_3"].each(symbol);
     let both = transmitted(f, g.clone(), &h);
     let turned = transmitted(f, (f.half_turn)(&g), &(f.half_turn)(&h));
     let claim = "G(g+h) = Gg + Gh, for two loads";

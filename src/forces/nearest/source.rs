@@ -9,6 +9,7 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::Error;
+use crate::each::Each;
 use crate::engine::{Readout, Table, Unit, check_interrupt, fill_rows, split_front};
 use crate::error::bug;
 use crate::forces::layers::{Layer, Layers, check_lengths};
@@ -65,10 +66,10 @@ impl Layers<'_, BigRational> {
     ) -> Result<Source<F>, Error> {
         let terms = &self.terms;
         let by_direction = match asked {
-            Asked::Contacts => [(); 3].map(|()| units.contact.clone()),
+            Asked::Contacts => [(); 3].each(|()| units.contact.clone()),
             Asked::Along(axis) => {
                 let scale = &terms.direction_scale;
-                terms.directions_below(k).map(|direction| {
+                terms.directions_below(k).each(|direction| {
                     let component = direction.into_array()[axis].clone();
                     units.vector[axis].scaled(&BigRational::new(component, scale.clone()))
                 })
@@ -92,7 +93,7 @@ impl Layers<'_, BigRational> {
             }
         };
         if self.table.is_some() {
-            let units = by_direction.map(|unit| Unit::new(unit, terms.lines.scale(0)));
+            let units = by_direction.each(|unit| Unit::new(unit, terms.lines.scale(0)));
             let nearest = |n: i128, line: usize| {
                 let force = units[line].nearest(&terms.lines.ordinary(n.into(), line));
                 force.ok_or_else(|| asked.overflow::<F>())
@@ -105,7 +106,7 @@ impl Layers<'_, BigRational> {
         let changes = self.shape().changes_above(k + 1);
         let denominator = terms.lines.scale(changes);
         Ok(Source::Lines {
-            units: Box::new(by_direction.map(|unit| Unit::new(unit, denominator.clone()))),
+            units: Box::new(by_direction.each(|unit| Unit::new(unit, denominator.clone()))),
             readout: self.contacts_readout(changes),
         })
     }
@@ -117,7 +118,7 @@ impl Layers<'_, BigRational> {
         Some(Readout {
             // 3G is symmetric, so its columns equal its rows.
             combination: if sweep.turned_already() < changes {
-                lines.each_ref().map(tripled_half_turn)
+                lines.each_ref().each(tripled_half_turn)
             } else {
                 lines
             },
@@ -141,9 +142,9 @@ impl Layers<'_, BigRational> {
                 readout,
                 units,
             } => {
-                let mut counts = [(); 3].map(|()| alloc::vec![0; a.len()]);
-                table.fill_row(row, counts.each_mut().map(Vec::as_mut_slice))?;
-                let lines = counts.each_ref().map(Vec::as_slice);
+                let mut counts = [(); 3].each(|()| alloc::vec![0; a.len()]);
+                table.fill_row(row, counts.each_mut().each(Vec::as_mut_slice))?;
+                let lines = counts.each_ref().each(Vec::as_slice);
                 let defined = readout.write(units, &[lines], [a, b, c])?;
                 return if defined {
                     Ok(())

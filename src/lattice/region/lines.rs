@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use super::Region;
 use crate::Error;
+use crate::each::Each;
 use crate::error::bug;
 use crate::lattice::{Sign, count};
 
@@ -31,7 +32,7 @@ impl Region {
             return [0; 3];
         }
         let bounds = count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
-        bounds.map(|[m, a, b, c]| m.min(a).min(b).min(c))
+        bounds.each(|[m, a, b, c]| m.min(a).min(b).min(c))
     }
 
     /// Returns [`spheres_above`](Self::spheres_above) as a function of the position along row `j`, from the site (i, j)

@@ -6,6 +6,7 @@ use core::num::{NonZeroI64, NonZeroU32};
 use num_traits::{One, Zero};
 
 use super::{Polynomial, Symbol};
+use crate::each::Each;
 use crate::scalar::Algebra;
 
 impl Polynomial {
@@ -36,7 +37,7 @@ impl Polynomial {
         self.coefficients(symbol)
             .into_iter()
             .fold(Self::zero(), |sum, (power, coefficient)| {
-                let [end, start] = [&ends, &starts].map(|sums| &sums[power as usize]);
+                let [end, start] = [&ends, &starts].each(|sums| &sums[power as usize]);
                 sum + &(coefficient * &(end.clone() - start))
             })
     }
