@@ -32,7 +32,6 @@
 //! with more, and conversely. So [`on_base`] continues every stacking to its greatest height and examines it there,
 //! without pruning.
 
-use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
@@ -41,6 +40,7 @@ use num_traits::{One, Zero};
 
 use crate::engine::check_interrupt;
 use crate::lattice::{Region, Sign};
+use crate::sorted::Sorted;
 use crate::stacking::{Run, Stacking};
 use crate::{Error, Pile, Standing};
 
@@ -377,15 +377,17 @@ fn stackings_of(base: Region) -> BigUint {
     let enough = BigUint::from(10_u32).pow(40);
     let mut stackings = BigUint::zero();
     let mut one_of_two = base.is_its_own_mirror_image();
-    let ways_of = |remainders: &BTreeMap<usize, (Region, BigUint)>| {
-        remainders.values().map(|(_, ways)| ways).sum::<BigUint>()
+    let ways_of = |remainders: &Sorted<usize, (Region, BigUint)>| {
+        let ways = remainders.iter().map(|(_, (_, ways))| ways);
+        ways.sum::<BigUint>()
     };
     // The remaining region and the number of ways to it, by the number of + steps.
-    let mut remainders = BTreeMap::from([(0_usize, (base, BigUint::one()))]);
+    let mut remainders = Sorted::new();
+    remainders.entry(0_usize, (base, BigUint::one()));
     // Every way continues to at least one stacking of its own.
     while ways_of(&remainders) <= enough && !remainders.is_empty() {
-        let mut above: BTreeMap<usize, (Region, BigUint)> = BTreeMap::new();
-        for (plus, (region, ways)) in remainders {
+        let mut above: Sorted<usize, (Region, BigUint)> = Sorted::new();
+        for (plus, (region, ways)) in remainders.into_vec() {
             let mut higher = false;
             for (sign, plus) in [(Sign::Plus, plus + 1), (Sign::Minus, plus)] {
                 let Some(left) = region.eroded(sign) else {
@@ -396,10 +398,7 @@ fn stackings_of(base: Region) -> BigUint {
                 if one_of_two && sign == Sign::Minus {
                     continue;
                 }
-                above
-                    .entry(plus)
-                    .or_insert_with(|| (left, BigUint::zero()))
-                    .1 += &ways;
+                above.entry(plus, (left, BigUint::ZERO)).1 += &ways;
             }
             if !higher {
                 stackings += ways;

@@ -166,6 +166,7 @@ mod pile;
 pub mod scalar;
 mod sensitivity;
 pub mod shape;
+mod sorted;
 pub mod stability;
 pub mod stacking;
 mod standing;

@@ -366,7 +366,7 @@ impl Pile {
     pub fn weight(&self) -> BigRational {
         let ordinary =
             self.loading.ordinary_weight() * BigRational::from_integer(self.sphere_count().into());
-        let extras = self.loading.extras().map(|(_, extra)| extra.down);
+        let extras = self.loading.extras().map(|(_, extra, _)| extra.down);
         ordinary + sum_of(extras)
     }
 
@@ -572,7 +572,7 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &Load)> + '_ {
-        self.loading.loads()
+        self.loading.loads().into_iter()
     }
 
     /// Returns the spheres whose weight was changed, with their weights, in mg. A [`weightless`](Self::weightless) pile
@@ -664,7 +664,7 @@ impl Pile {
     pub fn horizontal_forces(
         &self,
     ) -> impl ExactSizeIterator<Item = (HorizontalContact, &BigRational)> + '_ {
-        self.loading.horizontal()
+        self.loading.horizontal().into_iter()
     }
 
     /// Returns the prescribed force of a horizontal contact, in f₀. It is 0 unless it was set.
@@ -771,7 +771,7 @@ impl Pile {
         let system = self.system();
         let ordinary = [Sign::Plus, Sign::Minus].each(|sign| system.ordinary(sign));
         let extras = self.loading.extras();
-        let extras = extras.map(|(site, _)| self.own_increments(site));
+        let extras = extras.map(|(site, ..)| self.own_increments(site));
         let mut all = ordinary.into_iter().chain(extras).flatten();
         !all.any(|increment| increment.is_negative())
     }

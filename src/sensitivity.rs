@@ -11,7 +11,6 @@
 //! All quantities are rational if (a/R)² is. For independent radii of relative standard deviation r, the variance of a
 //! force is r² times the sum of the squares of its changes.
 
-use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use num_rational::BigRational;
@@ -24,6 +23,7 @@ use crate::geometry::{Inclination, Load, Vector};
 use crate::lattice::{Dimension, Direction, Sign, Site};
 use crate::scalar::{Field, TWO};
 use crate::shape::Selection;
+use crate::sorted::Sorted;
 use crate::{Error, Packing, Pile};
 
 /// The greatest number of spheres of a pile whose forces are differentiated.
@@ -172,7 +172,7 @@ struct Network<'p, T> {
     /// W.
     increment_sum: T,
     /// The forces below each sphere above the floor.
-    forces: BTreeMap<Site, [T; 3]>,
+    forces: Sorted<Site, [T; 3]>,
 }
 
 impl<'p, T: Field> Network<'p, T> {
@@ -185,10 +185,10 @@ impl<'p, T: Field> Network<'p, T> {
             remedy,
         )?;
         let forces = pile.forces::<T>();
-        let mut below: BTreeMap<Site, [T; 3]> = BTreeMap::new();
+        let mut below: Sorted<Site, [T; 3]> = Sorted::new();
         for contact in forces.contacts(Selection::All)? {
             let contact = contact?;
-            let forces = below.entry(contact.site).or_insert_with(zeros);
+            let forces = below.entry(contact.site, zeros());
             forces[contact.direction.index()] = contact.force;
         }
         let across = pile.across();
@@ -207,31 +207,37 @@ impl<'p, T: Field> Network<'p, T> {
     /// Returns the change of every contact force per relative growth of one sphere.
     fn changes(&self, grown: Site) -> Result<Vec<ForceChange<T>>, Error> {
         let moved = self.displacements(grown)?;
-        let mut loads: BTreeMap<Site, Vector<T>> = BTreeMap::new();
-        for (site, forces) in &self.forces {
+        let mut forces_on = Vec::new();
+        for (site, forces) in self.forces.iter() {
             check_interrupt()?;
             for direction in self.pile.dimension().directions() {
                 let support = self.support(*site, *direction)?;
                 let along = self.along(site.k, *direction);
                 let longer = elongation::<T>(grown, [*site, support]);
                 // The bottom spheres do not move.
-                let of = |site: &Site| moved.get(site).cloned().unwrap_or_else(Vector::zero);
+                let of = |site: &Site| {
+                    let moved = self
+                        .forces
+                        .place(site)
+                        .ok()
+                        .map(|place| moved[place].clone());
+                    moved.unwrap_or_else(Vector::zero)
+                };
                 let turned = of(site) - &of(&support) - &along.scaled(&longer);
                 let force = turned.scaled(&forces[direction.index()]);
-                let mut add = |site, force: &Vector<T>| {
-                    let sum = loads.entry(site).or_insert_with(Vector::zero);
-                    *sum = sum.clone() + force;
-                };
-                add(support, &-force.clone());
-                add(*site, &force);
+                forces_on.extend([(support, -force.clone()), (*site, force)]);
             }
         }
         let in_mg = |part: T| {
             let share = part.checked_div(&self.increment_sum);
             share.ok_or_else(|| bug("the increments have a sum"))
         };
+        let mut loads = Sorted::new();
+        loads.merge(forces_on, |sum: &mut Vector<T>, force| {
+            *sum = sum.clone() + force;
+        });
         let mut directed = Vec::new();
-        for (site, Vector { x, y, z }) in loads {
+        for (site, Vector { x, y, z }) in loads.into_vec() {
             let (down, x, y) = (in_mg(z)?, in_mg(x)?, in_mg(y)?);
             directed.push((site, Load { down, x, y }));
         }
@@ -250,23 +256,25 @@ impl<'p, T: Field> Network<'p, T> {
         changes.collect()
     }
 
-    /// Returns the displacements of the spheres above the floor, from the bottom up, in units of 2Rδ.
-    fn displacements(&self, grown: Site) -> Result<BTreeMap<Site, Vector<T>>, Error> {
-        let mut moved: BTreeMap<Site, Vector<T>> = BTreeMap::new();
-        for site in self.forces.keys().rev() {
+    /// Returns the displacements of the spheres above the floor, in the order of `forces`, in units of 2Rδ.
+    fn displacements(&self, grown: Site) -> Result<Vec<Vector<T>>, Error> {
+        let forces = &self.forces;
+        let mut moved = alloc::vec![Vector::zero(); forces.len()];
+        // From the bottom up.
+        for (place, (site, _)) in forces.iter().enumerate().rev() {
             check_interrupt()?;
             let mut along = zeros();
             for direction in self.pile.dimension().directions() {
                 let support = self.support(*site, *direction)?;
-                let below = moved.get(&support).map(|moved| {
+                let below = self.forces.place(&support).ok().map(|place| {
                     let direction = self.along(site.k, *direction);
-                    self.product(&direction, moved)
+                    self.product(&direction, &moved[place])
                 });
                 let longer = elongation::<T>(grown, [*site, support]);
                 // The bottom spheres do not move.
                 along[direction.index()] = below.unwrap_or_else(T::zero) + &longer;
             }
-            moved.insert(*site, self.solve(site.k, along)?);
+            moved[place] = self.solve(site.k, along)?;
         }
         Ok(moved)
     }

@@ -17,7 +17,6 @@ mod base;
 
 pub use base::BaseExtremes;
 
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use num_bigint::{BigInt, BigUint};
@@ -33,7 +32,6 @@ use crate::error::{bug, named, refuse_beyond};
 use crate::formula;
 use crate::geometry::LayerGap;
 use crate::lattice::{Dimension, Direction, Sign, Site};
-use crate::pile::Extra;
 use crate::shape::{Selection, Shape};
 use crate::{ContactForce, Error, Packing, Pile};
 
@@ -294,9 +292,7 @@ impl Pile {
             direction,
             force: self.own_increments(site)[direction.index()].clone(),
         };
-        let pushed = loading.pushes();
-        let extras = loading.extras().map(|(site, _)| site);
-        let special: BTreeSet<Site> = extras.chain(pushed.keys().copied()).collect();
+        let special: Vec<Site> = loading.extras().map(|(site, ..)| site).collect();
         let directions = self.dimension().directions();
         // Every line through the top layer begins there. In each layer inside a run, lines begin in the first row.
         let layers = |sign| {
@@ -316,13 +312,13 @@ impl Pile {
             let mut fresh = sites
                 .flatten()
                 .filter(|site| begins(shape, *site, *direction));
-            if let Some(site) = fresh.find(|site| !special.contains(site)) {
+            if let Some(site) = fresh.find(|site| special.binary_search(site).is_err()) {
                 least.push(contact(site, *direction));
             }
         }
         let special = special
             .into_iter()
-            .filter(|site| site.k < floor && !pushed.contains_key(site));
+            .filter(|site| site.k < floor && loading.pushes(*site).is_none());
         let special = special.flat_map(|site| directions.iter().map(move |d| (site, *d)));
         let special = special.filter(|(site, direction)| begins(shape, *site, *direction));
         least.extend(special.map(|(site, direction)| contact(site, direction)));
@@ -336,20 +332,20 @@ impl Pile {
         let (shape, loading) = (system.shape, &system.loading);
         let falls = |sign| system.ordinary(sign).iter().any(Signed::is_negative);
         let everywhere = falls(Sign::Plus) || falls(Sign::Minus);
-        let is_negative = |extra: &Extra| {
-            let own = self.own_increments(extra.site);
-            own.iter().any(Signed::is_negative)
-        };
-        let extras = system.extras();
-        let extras = extras.filter(|extra| everywhere || is_negative(extra));
-        let mut sites: BTreeSet<Site> = loading.pushes().keys().copied().collect();
-        for Extra { site, .. } in extras {
-            sites.insert(site);
+        let mut sites = Vec::new();
+        for (site, _, pushes) in loading.extras() {
+            let own = self.own_increments(site);
+            let lessens = own.iter().any(Signed::is_negative);
+            if everywhere || lessens || pushes.is_some() {
+                sites.push(site);
+            }
             if everywhere {
                 let above = Direction::ALL.each(|direction| shape.above(site, direction));
                 sites.extend(above.into_iter().flatten());
             }
         }
+        sites.sort_unstable();
+        sites.dedup();
         let forces = self.forces::<BigRational>();
         let contacts = sites
             .into_iter()

@@ -91,8 +91,11 @@ impl Parts {
             weightless: loading.is_weightless(),
             tilt: Tilt { x, y },
             weights: loading.weights().map(weighed).collect(),
-            loads: loading.loads().map(loaded).collect(),
-            horizontal: loading.horizontal().map(|(c, f)| (c, f.clone())).collect(),
+            loads: loading.loads().into_iter().map(loaded).collect(),
+            horizontal: pile
+                .horizontal_forces()
+                .map(|(contact, force)| (contact, force.clone()))
+                .collect(),
         }
     }
 

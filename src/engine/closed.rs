@@ -78,7 +78,8 @@ impl<T: Algebra> Lines<'_, T> {
         }
         let [i, j] = site;
         let line = Line::through(Site { i, j, k }, direction, run);
-        let extras = self.extras.range((line, k - n)..(line, k));
-        extras.fold(ordinary, |sum, (_, extra)| formula::transmitted(sum, extra))
+        let extras = self.extras.range(&((line, k - n)..(line, k)));
+        let add = |sum, (_, extra): &(_, T::Numerator)| formula::transmitted(sum, extra);
+        extras.iter().fold(ordinary, add)
     }
 }

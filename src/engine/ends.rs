@@ -13,7 +13,6 @@
 //! ends     x     x        x     x
 //! ```
 
-use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use num_bigint::BigUint;
@@ -23,6 +22,7 @@ use crate::Error;
 use crate::lattice::Direction;
 use crate::scalar::Algebra;
 use crate::shape::Stretch;
+use crate::sorted::Sorted;
 
 /// The maximum number of ends in an ordinary row: the two ends of the row, and four sites for each of the three lines.
 const ENDS_OF_A_ROW: u32 = 14;
@@ -51,7 +51,7 @@ impl<T: Algebra> Lines<'_, T> {
         let special = self.ends_of_extras(k, run);
         let rows = self.shape.layer(k)?.rows(k);
         Ok(rows.map(move |row| {
-            let mut ends = BTreeSet::from([row.i.start, row.i.end - 1]);
+            let mut ends = Vec::from([row.i.start, row.i.end - 1]);
             if let Some(run) = run {
                 let steps = k - run.from;
                 let start = row.i.start;
@@ -79,6 +79,8 @@ impl<T: Algebra> Lines<'_, T> {
                 }
             }
             ends.extend(special.get(&row.j).into_iter().flatten());
+            ends.sort_unstable();
+            ends.dedup();
             let inside = ends.into_iter().filter(|i| row.i.contains(i));
             (row.j, inside.map(|i| [i, row.j]).collect())
         }))
@@ -86,10 +88,10 @@ impl<T: Algebra> Lines<'_, T> {
 
     /// Returns, by row, the sites of layer `k` with an extra weight, or with one above them on a line of the run `run`.
     /// Their neighbours in the row are included.
-    fn ends_of_extras(&self, k: i128, run: Option<Stretch>) -> BTreeMap<i128, Vec<i128>> {
-        let mut rows: BTreeMap<i128, Vec<i128>> = BTreeMap::new();
+    fn ends_of_extras(&self, k: i128, run: Option<Stretch>) -> Sorted<i128, Vec<i128>> {
+        let mut rows: Sorted<i128, Vec<i128>> = Sorted::new();
         let mut insert_around = |[i, j]: [i128; 2]| {
-            rows.entry(j).or_default().extend([i - 1, i, i + 1]);
+            rows.entry(j, Vec::new()).extend([i - 1, i, i + 1]);
         };
         for site in self.extras_in(k..k + 1) {
             insert_around([site.i, site.j]);

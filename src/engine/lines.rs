@@ -10,7 +10,7 @@
 //!
 //! A straight pile has no sign change, so every force has a closed form.
 
-use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -24,6 +24,7 @@ use crate::lattice::{Direction, Row, Sign, Site};
 use crate::pile::{Extra, System};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
+use crate::sorted::Sorted;
 
 /// The forces on a sphere, by direction, as numerators.
 #[derive(Clone, Debug)]
@@ -45,10 +46,10 @@ pub(crate) struct Lines<'p, T: Algebra> {
     /// Gravity on an ordinary sphere, in mg/W, where W is the sum of the three increments of a weight.
     gravity: Vector<T::Numerator>,
     /// The further increments of some spheres, by line and layer, from extra weights, loads and horizontal contacts.
-    pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
+    pub(super) extras: Sorted<(Line, i128), T::Numerator>,
     /// The forces of gravity and loads on some spheres, less gravity on an ordinary one, in mg/W. The value is 0 for a
     /// sphere with horizontal contacts only.
-    pub(super) extra_loads: BTreeMap<Site, Vector<T::Numerator>>,
+    pub(super) extra_loads: Sorted<Site, Vector<T::Numerator>>,
     scale: T::Numerator,
     /// 1/[`System::denominator`], whose numerator over `scale` is 1 in integers.
     least: BigRational,
@@ -62,6 +63,14 @@ pub(super) struct Line {
     run: usize,
     direction: Direction,
     place: [i128; 2],
+}
+
+/// The forces of a sphere, all over the denominator before any sign change: those on its three lines, and the load in
+/// mg/W that they balance.
+struct Own<N> {
+    site: Site,
+    lines: [N; 3],
+    load: Vector<N>,
 }
 
 /// Returns the numerator of a value over the denominator of `least`, which all numerators share.
@@ -121,21 +130,18 @@ impl<'p, T: Algebra> Lines<'p, T> {
             shape: system.shape,
             ordinary: [of_first, of_second],
             gravity,
-            extras: BTreeMap::new(),
-            extra_loads: BTreeMap::new(),
+            extras: Sorted::new(),
+            extra_loads: Sorted::new(),
             scale,
             least: least.clone(),
             triples: formula::triples::<T>(),
         };
-        for Extra {
+        let extras = system.extras().map(|Extra { site, load, lines }| Own {
             site,
-            load,
-            lines: own,
-        } in system.extras()
-        {
-            let load = vector(load, w).map(numerator);
-            lines.add(site, own.each(numerator), load);
-        }
+            lines: lines.each(numerator),
+            load: vector(load, w).map(numerator),
+        });
+        lines.add(extras.collect());
         lines
     }
 
@@ -144,12 +150,23 @@ impl<'p, T: Algebra> Lines<'p, T> {
         self.scaled(numerator::<T>(force, &self.least), changes)
     }
 
-    /// Adds to the load on a sphere, in a scalar that is its own numerator.
-    pub(crate) fn add_load(&mut self, system: &System<'_>, site: Site, load: Load<T::Numerator>) {
+    /// Adds to the loads on spheres, in a scalar that is its own numerator.
+    pub(crate) fn add_loads(
+        &mut self,
+        system: &System<'_>,
+        loads: Vec<(Site, Load<T::Numerator>)>,
+    ) {
         let (s, w) = Self::constants(system);
-        let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
-        let own = system.load_increments_of(&load, &s, sign);
-        self.add(site, own, vector(load, &w));
+        let mut forces = Vec::new();
+        for (site, load) in loads {
+            let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
+            forces.push(Own {
+                site,
+                lines: system.load_increments_of(&load, &s, sign),
+                load: vector(load, &w),
+            });
+        }
+        self.add(forces);
     }
 
     /// Adds to the tilt of gravity, in a scalar that is its own numerator.
@@ -170,9 +187,9 @@ impl<'p, T: Algebra> Lines<'p, T> {
             *lines = add(lines.clone(), &own);
         }
         self.gravity = self.gravity.clone() + &vector(ordinary, &w);
-        for (site, weight) in system.loading.extra_weights() {
-            self.add_load(system, site, leaning(weight));
-        }
+        let extras = system.loading.extra_weights();
+        let extras = extras.map(|(site, weight)| (site, leaning(weight)));
+        self.add_loads(system, extras.collect());
     }
 
     /// Returns s and W, in a scalar that is its own numerator.
@@ -182,21 +199,23 @@ impl<'p, T: Algebra> Lines<'p, T> {
         (s, w)
     }
 
-    /// Adds to the forces of a sphere, all over the denominator before any sign change: `own` on its three lines, and
-    /// the load in mg/W that they balance.
-    fn add(&mut self, site: Site, own: [T::Numerator; 3], load: Vector<T::Numerator>) {
-        let run_below = self.shape.stretch_to(site.k + 1);
-        if let Some(run) = run_below.filter(|run| site.k < run.to) {
-            for (direction, own) in Direction::ALL.into_iter().zip(own) {
-                let place = (Line::through(site, direction, run), site.k);
-                let sum = self.extras.entry(place);
-                sum.and_modify(|sum| *sum = transmitted(sum.clone(), &own))
-                    .or_insert(own);
+    /// Adds to the forces of spheres.
+    fn add(&mut self, forces: Vec<Own<T::Numerator>>) {
+        let (mut extras, mut loads) = (Vec::new(), Vec::new());
+        for Own { site, lines, load } in forces {
+            let run_below = self.shape.stretch_to(site.k + 1);
+            if let Some(run) = run_below.filter(|run| site.k < run.to) {
+                for (direction, own) in Direction::ALL.into_iter().zip(lines) {
+                    let place = (Line::through(site, direction, run), site.k);
+                    extras.push((place, own));
+                }
             }
+            loads.push((site, load));
         }
-        let sum = self.extra_loads.entry(site);
-        sum.and_modify(|sum| *sum = sum.clone() + &load)
-            .or_insert(load);
+        let add = |sum: &mut T::Numerator, own: &T::Numerator| *sum = transmitted(sum.clone(), own);
+        self.extras.merge(extras, add);
+        self.extra_loads
+            .merge(loads, |sum, load| *sum = sum.clone() + load);
     }
 
     /// Returns the denominator of forces after `changes` sign changes.
@@ -280,8 +299,8 @@ impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn extras_in_row(&self, row: &Row) -> impl Iterator<Item = Site> + '_ {
         let Row { k, j, ref i } = *row;
         let [start, end] = [i.start, i.end].each(|i| Site { i, j, k });
-        let sites = self.extra_loads.range(start..end.max(start));
-        sites.map(|(site, _)| *site)
+        let sites = self.extra_loads.range(&(start..end.max(start)));
+        sites.iter().map(|(site, _)| *site)
     }
 
     /// Returns the spheres of some layers whose weight is not ordinary, or that carry loads.
@@ -296,8 +315,8 @@ impl<'p, T: Algebra> Lines<'p, T> {
         };
         let sites = self
             .extra_loads
-            .range(first(layers.start)..first(layers.end));
-        sites.map(|(site, _)| *site)
+            .range(&(first(layers.start)..first(layers.end)));
+        sites.iter().map(|(site, _)| *site)
     }
 
     /// Returns the increments of an ordinary sphere of layer `k`, over the denominator of the forces below it.
@@ -342,7 +361,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         changes: usize,
     ) -> Received<T> {
         let mut forces = add(received, increments);
-        if !self.extra_loads.is_empty() && self.extra_loads.contains_key(&site) {
+        if self.extra_loads.contains_key(&site) {
             forces = add(forces, &self.extra(site));
         }
         Received { forces, changes }

@@ -13,7 +13,6 @@
 //! (1 − 32u)·m for m ≥ 2^−700. Values beyond these bounds are compared as exact integers, and so are spheres with extra
 //! weight. The same inequalities hold with the extremes found so far in place of the extremes of all.
 
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use num_rational::BigRational;
@@ -40,7 +39,7 @@ pub(super) struct Screen<'s, 'p> {
     /// 4cos²φ.
     across: f64,
     /// The spheres with loads or with a weight of their own.
-    extras: BTreeSet<Site>,
+    extras: Vec<Site>,
     least: f64,
     most: f64,
     /// The largest squared ratio so far.
@@ -82,7 +81,9 @@ impl<'s, 'p> Screen<'s, 'p> {
             return Ok(row.into_iter().collect());
         };
         let spheres = || row.clone().into_iter().zip(&floats);
-        for (_, (normal, ratio)) in spheres().filter(|(site, _)| !self.extras.contains(site)) {
+        for (_, (normal, ratio)) in
+            spheres().filter(|(site, _)| self.extras.binary_search(site).is_err())
+        {
             self.least = self.least.min(*normal);
             self.most = self.most.max(*normal);
             self.ratio = ratio.map_or(self.ratio, |ratio| self.ratio.max(ratio));
@@ -96,7 +97,7 @@ impl<'s, 'p> Screen<'s, 'p> {
             *normal <= self.least
                 || *normal >= self.most
                 || ratio.is_none_or(|ratio| ratio >= greatest)
-                || self.extras.contains(site)
+                || self.extras.binary_search(site).is_ok()
         };
         Ok(spheres().filter(can_be).map(|(site, _)| site).collect())
     }

@@ -152,7 +152,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
                 );
             }
         }
-        if system.loading.pushes().contains_key(&site) {
+        if system.loading.pushes(site).is_some() {
             for contact in horizontal_contacts(site) {
                 let force = lines.numerator(system.loading.horizontal_force(contact), changes);
                 let [a, b] = contact.axis.ends().each(Direction::index);

@@ -3,7 +3,6 @@
 //! Every line continues into the next layer. So the forces below a layer sum to the forces that the next layer
 //! receives. The increments and the half-turn act on these sums as on the forces of one sphere.
 
-use alloc::collections::BTreeMap;
 use core::ops::Range;
 
 use num_bigint::BigInt;
@@ -18,6 +17,7 @@ use crate::error::refuse_beyond;
 use crate::formula;
 use crate::formula::{force, half_turn, transmitted};
 use crate::shape::{Selection, Stretch};
+use crate::sorted::Sorted;
 
 /// The largest number of layers that are summed one by one.
 const MAX_SUMMED_LAYERS: u64 = 10_000_000;
@@ -65,14 +65,14 @@ impl Forces<'_, BigRational> {
             "ask for single layers",
         )?;
         // The sums by the number of sign changes above them. Sums with the same number share a denominator.
-        let mut sums: BTreeMap<usize, BigInt> = BTreeMap::new();
+        let mut sums: Sorted<usize, BigInt> = Sorted::new();
         let add = |[a, b, c]: &[BigInt; 3], changes| {
-            *sums.entry(changes).or_default() += a + b + c;
+            *sums.entry(changes, BigInt::ZERO) += a + b + c;
         };
         terms.sum_layers(layers, add);
         let quantity = "a sum of forces";
         let mut total = BigRational::zero();
-        for (changes, sum) in sums {
+        for (changes, sum) in sums.into_vec() {
             total += to_scalar::<BigRational>(quantity, sum, &terms.lines.scale(changes))?;
         }
         Ok(total)

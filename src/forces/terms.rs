@@ -52,13 +52,10 @@ impl<'p, T: Algebra> Terms<'p, T> {
 
     /// Adds to the loads on spheres.
     pub(super) fn add_loads(&mut self, loads: Vec<(Site, Load<T>)>) {
-        let mut rational = false;
+        let (mut rational, mut own) = (false, Vec::new());
         for (site, Load { down, x, y }) in loads {
             match T::into_numerators([down, x, y]) {
-                Ok([down, x, y]) => {
-                    self.lines.add_load(&self.system, site, Load { down, x, y });
-                    self.system.has_scalar_loads = true;
-                }
+                Ok([down, x, y]) => own.push((site, Load { down, x, y })),
                 Err([down, x, y]) => {
                     let loading = self.system.loading.to_mut();
                     loading.add_load(site, &Load { down, x, y });
@@ -68,6 +65,10 @@ impl<'p, T: Algebra> Terms<'p, T> {
         }
         if rational {
             *self = Self::new(self.system.clone());
+        }
+        if !own.is_empty() {
+            self.lines.add_loads(&self.system, own);
+            self.system.has_scalar_loads = true;
         }
     }
 

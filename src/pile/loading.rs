@@ -2,6 +2,7 @@
 
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -9,7 +10,7 @@ use num_traits::{One, Signed, Zero};
 use crate::Error;
 use crate::formula;
 use crate::geometry::Load;
-use crate::lattice::{HorizontalContact, Sign, Site};
+use crate::lattice::{Axis, HorizontalContact, Sign, Site};
 
 /// The weights of the spheres, in mg, the loads on them, and the forces of horizontal contacts, in f₀. No weight,
 /// downward load or horizontal contact force is negative.
@@ -20,12 +21,20 @@ pub(crate) struct Loading {
     weightless: bool,
     /// The horizontal part of gravity along x and y, per unit of its vertical part and tanθ.
     tilt: [BigRational; 2],
-    /// The weights of the spheres whose weight is not mg.
-    weights: BTreeMap<Site, BigRational>,
-    loads: BTreeMap<Site, Load>,
-    horizontal: BTreeMap<HorizontalContact, BigRational>,
-    /// The forces that the horizontal contacts of a sphere add to its lines, −σ H, by direction. Their sum is 0.
-    pushes: BTreeMap<Site, [BigRational; 3]>,
+    /// The spheres with a weight, a load or a horizontal contact force of their own.
+    spheres: BTreeMap<Site, Acting>,
+}
+
+/// What acts on a sphere besides ordinary gravity.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+struct Acting {
+    /// The weight, if it was set.
+    weight: Option<BigRational>,
+    load: Option<Load>,
+    /// The forces of the horizontal contacts that stand with this sphere, by axis.
+    horizontal: [Option<BigRational>; 3],
+    /// The forces that its horizontal contacts add to its lines, −σ H, by direction. Their sum is 0.
+    pushes: Option<[BigRational; 3]>,
 }
 
 impl Loading {
@@ -44,16 +53,20 @@ impl Loading {
         &self.tilt
     }
 
+    fn sphere(&mut self, site: Site) -> &mut Acting {
+        self.spheres.entry(site).or_default()
+    }
+
     /// Adds to the load on a sphere.
     pub(crate) fn add_load(&mut self, site: Site, load: &Load) {
-        let sum = self.loads.entry(site).or_default();
+        let sum = self.sphere(site).load.get_or_insert_default();
         *sum = core::mem::take(sum) + load;
     }
 
     /// Sets the weight of a sphere.
     pub(crate) fn set_weight(&mut self, site: Site, weight: BigRational) -> Result<(), Error> {
         let weight = not_negative("weight", site, weight)?;
-        self.weights.insert(site, weight);
+        self.sphere(site).weight = Some(weight);
         Ok(())
     }
 
@@ -72,45 +85,54 @@ impl Loading {
         }
         let push = &force * BigRational::from_integer(sign.factor().into());
         for (site, leads_away) in [(contact.site, true), (neighbour, false)] {
-            let pushes = self.pushes.entry(site).or_default();
+            let pushes = self.sphere(site).pushes.get_or_insert_default();
             let entries = formula::pushed(&push, contact.axis.ends(), leads_away);
             pushes
                 .iter_mut()
                 .zip(entries)
                 .for_each(|(line, entry)| *line -= entry);
         }
-        *self.horizontal.entry(contact).or_default() += force;
+        let horizontal = &mut self.sphere(contact.site).horizontal;
+        *horizontal[contact.axis as usize].get_or_insert_default() += force;
         Ok(())
     }
 
     /// Removes all forces of horizontal contacts.
     pub(crate) fn release(&mut self) {
-        self.horizontal.clear();
-        self.pushes.clear();
+        for sphere in self.spheres.values_mut() {
+            (sphere.horizontal, sphere.pushes) = Default::default();
+        }
+        let none = Acting::default();
+        self.spheres.retain(|_, sphere| *sphere != none);
     }
 
     /// Returns the horizontal contacts with a force, in their order.
-    pub(crate) fn horizontal(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (HorizontalContact, &BigRational)> + '_ {
-        self.horizontal
-            .iter()
-            .map(|(contact, force)| (*contact, force))
+    pub(crate) fn horizontal(&self) -> Vec<(HorizontalContact, &BigRational)> {
+        let mut forces = Vec::new();
+        for (site, sphere) in &self.spheres {
+            for (axis, force) in Axis::ALL.into_iter().zip(&sphere.horizontal) {
+                let contact = HorizontalContact { site: *site, axis };
+                forces.extend(force.iter().map(|force| (contact, force)));
+            }
+        }
+        forces
     }
 
     pub(crate) fn horizontal_force(&self, contact: HorizontalContact) -> BigRational {
+        let sphere = self.spheres.get(&contact.site);
+        let force = sphere.and_then(|sphere| sphere.horizontal[contact.axis as usize].clone());
         // A contact that is not in the list has no force.
-        self.horizontal.get(&contact).cloned().unwrap_or_default()
+        force.unwrap_or_default()
     }
 
-    /// Returns the forces that horizontal contacts add to the lines of spheres, by direction.
-    pub(crate) fn pushes(&self) -> &BTreeMap<Site, [BigRational; 3]> {
-        &self.pushes
+    /// Returns the forces that the horizontal contacts of a sphere add to its lines, by direction, if it has any.
+    pub(crate) fn pushes(&self, site: Site) -> Option<&[BigRational; 3]> {
+        self.spheres.get(&site)?.pushes.as_ref()
     }
 
     /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
     pub(crate) fn is_ordinary(&self) -> bool {
-        self.pushes.is_empty() && self.extras().next().is_none()
+        self.extras().next().is_none()
     }
 
     /// Returns the weight of an ordinary sphere.
@@ -138,19 +160,22 @@ impl Loading {
 
     /// Returns the weight of a sphere.
     pub(crate) fn weight(&self, site: Site) -> BigRational {
-        let special = self.special(site).cloned();
-        special.unwrap_or_else(|| self.ordinary_weight())
-    }
-
-    /// Returns the weight that was set for a sphere, unless the pile is weightless.
-    fn special(&self, site: Site) -> Option<&BigRational> {
-        self.weights.get(&site).filter(|_| !self.weightless)
+        let weight = self
+            .spheres
+            .get(&site)
+            .and_then(|sphere| sphere.weight.clone());
+        let weight = weight.filter(|_| !self.weightless);
+        weight.unwrap_or_else(|| self.ordinary_weight())
     }
 
     /// Returns the load on a sphere.
     pub(crate) fn load(&self, site: Site) -> Load {
+        let load = self
+            .spheres
+            .get(&site)
+            .and_then(|sphere| sphere.load.clone());
         // A sphere that is not in the list has no load.
-        self.loads.get(&site).cloned().unwrap_or_default()
+        load.unwrap_or_default()
     }
 
     /// Returns the sum of gravity and load on a sphere.
@@ -160,12 +185,15 @@ impl Loading {
 
     /// Returns the spheres whose weight was set, in their order, with their weights.
     pub(crate) fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
-        self.weights.iter().map(|(site, weight)| (*site, weight))
+        let spheres = self.spheres.iter();
+        spheres.filter_map(|(site, sphere)| Some((*site, sphere.weight.as_ref()?)))
     }
 
     /// Returns the loaded spheres, in their order, with their loads.
-    pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &Load)> + '_ {
-        self.loads.iter().map(|(site, load)| (*site, load))
+    pub(crate) fn loads(&self) -> Vec<(Site, &Load)> {
+        let spheres = self.spheres.iter();
+        let loads = spheres.filter_map(|(site, sphere)| Some((*site, sphere.load.as_ref()?)));
+        loads.collect()
     }
 
     pub(crate) fn is_weightless(&self) -> bool {
@@ -174,27 +202,27 @@ impl Loading {
 
     /// Returns the weights that differ from that of an ordinary sphere, with the difference.
     pub(crate) fn extra_weights(&self) -> impl Iterator<Item = (Site, BigRational)> + '_ {
-        self.weights.keys().filter_map(|site| {
-            let extra = self.special(*site)? - self.ordinary_weight();
-            (!extra.is_zero()).then_some((*site, extra))
+        let ordinary = self.ordinary_weight();
+        let weights = self.weights().filter(|_| !self.weightless);
+        weights.filter_map(move |(site, weight)| {
+            let extra = weight - &ordinary;
+            (!extra.is_zero()).then_some((site, extra))
         })
     }
 
-    /// Returns the spheres on which the force differs from gravity on an ordinary sphere, with the difference.
-    pub(crate) fn extras(&self) -> impl Iterator<Item = (Site, Load)> + '_ {
-        let loaded = self.loads.keys();
-        let others = self.weights.keys();
-        let others = others.filter(|site| !self.loads.contains_key(site));
-        let extra = |site: &Site| {
-            let load = self.load(*site);
-            let extra = match self.special(*site) {
-                Some(weight) => self.gravity_on(weight - self.ordinary_weight()) + &load,
-                None => load,
-            };
-            (*site, extra)
-        };
-        let extras = loaded.chain(others).map(extra);
-        extras.filter(|(_, extra)| !extra.is_zero())
+    /// Returns the spheres on which a force acts besides gravity on an ordinary sphere, in their order: that force, and
+    /// the forces that horizontal contacts add to the lines of the sphere, if it has any.
+    pub(crate) fn extras(
+        &self,
+    ) -> impl Iterator<Item = (Site, Load, Option<&[BigRational; 3]>)> + '_ {
+        self.spheres.iter().filter_map(|(site, sphere)| {
+            let mut extra = sphere.load.clone().unwrap_or_default();
+            if let (Some(weight), false) = (&sphere.weight, self.weightless) {
+                extra = self.gravity_on(weight - self.ordinary_weight()) + &extra;
+            }
+            let pushes = sphere.pushes.as_ref();
+            (pushes.is_some() || !extra.is_zero()).then_some((*site, extra, pushes))
+        })
     }
 }
 

@@ -1,7 +1,6 @@
 //! The data that determine the forces of a pile.
 
 use alloc::borrow::Cow;
-use alloc::collections::BTreeMap;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -63,21 +62,13 @@ impl System<'_> {
         self.load_increments(&self.loading.ordinary(), sign)
     }
 
-    /// Returns the spheres on which the force differs from gravity on an ordinary one, in any order.
+    /// Returns the spheres on which the force differs from gravity on an ordinary one, in their order.
     pub(crate) fn extras(&self) -> impl Iterator<Item = Extra> {
-        let pushes = self.loading.pushes();
-        let mut loads: BTreeMap<Site, Load> = self.loading.extras().collect();
-        for site in pushes.keys() {
-            loads.entry(*site).or_default();
-        }
-        loads.into_iter().map(move |(site, load)| {
+        self.loading.extras().map(|(site, load, pushes)| {
             // The sphere below which there is no step is on the floor, and its lines carry nothing.
             let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
             let mut lines = self.load_increments(&load, sign);
-            for (line, push) in lines
-                .iter_mut()
-                .zip(pushes.get(&site).into_iter().flatten())
-            {
+            for (line, push) in lines.iter_mut().zip(pushes.into_iter().flatten()) {
                 *line += push;
             }
             Extra { site, load, lines }
@@ -87,9 +78,10 @@ impl System<'_> {
     /// Returns a common denominator D of all increments, and of W times all loads. It is the denominator of 2s, times the
     /// common denominator of tilt, loads and horizontal forces. It need not be the least one.
     pub(crate) fn denominator(&self) -> BigInt {
-        let horizontal = self.loading.horizontal().map(|(_, force)| force);
+        let horizontal = self.loading.horizontal();
+        let horizontal = horizontal.into_iter().map(|(_, force)| force);
         let given = common_denominator(self.loading.tilt().iter().chain(horizontal));
-        let given = self.loading.extras().fold(given, |common, (_, load)| {
+        let given = self.loading.extras().fold(given, |common, (_, load, _)| {
             let denominators = [&load.down, &load.x, &load.y].each(BigRational::denom);
             denominators.into_iter().fold(common, common_multiple)
         });

@@ -3,7 +3,6 @@
 mod display;
 mod sum;
 
-use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::num::NonZeroI64;
@@ -15,6 +14,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
 use super::{Algebra, Exactness, OwnNumerators, Ring, common_multiple};
+use crate::sorted::Sorted;
 
 /// A symbol of a [`Polynomial`], identified by its name.
 ///
@@ -133,7 +133,7 @@ impl PartialOrd for Monomial {
 #[derive(Clone, Debug)]
 pub struct Polynomial {
     /// All coefficients are nonzero.
-    terms: BTreeMap<Monomial, BigInt>,
+    terms: Sorted<Monomial, BigInt>,
     /// Positive and coprime to the coefficients. For the fault it is zero, and `terms` is empty.
     denominator: BigInt,
 }
@@ -159,8 +159,7 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn constant(value: &BigRational) -> Self {
-        let terms = [(Monomial::default(), value.numer().clone())];
-        Self::canonical(terms.into_iter().collect(), value.denom().clone())
+        Self::term(Monomial::default(), value)
     }
 
     /// Returns Σ c_j · `symbol`^j / `denominator`, where c_j are the `coefficients`, or `None` for the `denominator` 0.
@@ -190,14 +189,14 @@ impl Polynomial {
                 };
                 (Monomial(powers), coefficient * sign)
             });
-        let polynomial = Self::canonical(terms.collect(), denominator * sign);
+        let polynomial = Self::canonical(collect_terms(terms.collect()), denominator * sign);
         polynomial.is_defined().then_some(polynomial)
     }
 
     /// Returns the fault, which is the result of an operation with an exponent that does not fit.
     fn fault() -> Self {
         Self {
-            terms: BTreeMap::new(),
+            terms: Sorted::new(),
             denominator: BigInt::zero(),
         }
     }
@@ -214,7 +213,7 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn to_constant(&self) -> Option<BigRational> {
-        match self.terms.iter().next_back() {
+        match self.terms.last() {
             None => self.is_defined().then(BigRational::zero),
             Some((greatest, numer)) => (greatest.degree() == 0)
                 .then(|| BigRational::new(numer.clone(), self.denominator.clone())),
@@ -233,9 +232,9 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn degree(&self) -> u64 {
-        let greatest = self.terms.keys().next_back();
+        let greatest = self.terms.last();
         // Zero and the fault have no terms, and their degree is 0 by definition.
-        greatest.map_or(0, Monomial::degree)
+        greatest.map_or(0, |(monomial, _)| monomial.degree())
     }
 
     /// Returns the degree in one symbol. It is 0 if the symbol does not occur.
@@ -251,8 +250,8 @@ impl Polynomial {
     #[must_use]
     pub fn degree_in(&self, symbol: Symbol) -> u32 {
         self.terms
-            .keys()
-            .map(|monomial| monomial.power(symbol))
+            .iter()
+            .map(|(monomial, _)| monomial.power(symbol))
             .max()
             // Zero and the fault have no terms, and their degree is 0 by definition.
             .unwrap_or(0)
@@ -274,8 +273,8 @@ impl Polynomial {
     pub fn symbols(&self) -> Vec<Symbol> {
         let mut symbols: Vec<Symbol> = self
             .terms
-            .keys()
-            .flat_map(|monomial| monomial.0.iter().map(|(s, _)| *s))
+            .iter()
+            .flat_map(|(monomial, _)| monomial.0.iter().map(|(s, _)| *s))
             .collect();
         symbols.sort_unstable();
         symbols.dedup();
@@ -339,7 +338,7 @@ impl Polynomial {
             return None;
         }
         let mut sum = T::zero();
-        for (monomial, numer) in &self.terms {
+        for (monomial, numer) in self.terms.iter() {
             let coefficient = BigRational::new(numer.clone(), self.denominator.clone());
             let mut term = T::from_rational(&coefficient);
             for (symbol, power) in &monomial.0 {
@@ -369,7 +368,7 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn divide_exactly(&self, divisor: &Self) -> Option<Self> {
-        let (leading, coefficient) = divisor.terms.iter().next_back()?;
+        let (leading, coefficient) = divisor.terms.last()?;
         let coefficient = BigRational::new(coefficient.clone(), divisor.denominator.clone());
         if !self.is_defined() {
             return None;
@@ -377,7 +376,7 @@ impl Polynomial {
         let (mut rest, mut quotient) = (self.clone(), Self::zero());
         // Multiplication preserves the order of monomials. So a term that the leading term of the divisor does not
         // divide remains in the remainder.
-        while let Some((monomial, numer)) = rest.terms.iter().next_back() {
+        while let Some((monomial, numer)) = rest.terms.last() {
             let numer = BigRational::new(numer.clone(), rest.denominator.clone());
             let factor = Self::term(monomial.over(leading)?, &(numer / &coefficient));
             rest = rest - &(factor.clone() * divisor);
@@ -390,42 +389,41 @@ impl Polynomial {
     /// it returns the fault as the only coefficient.
     #[doc(hidden)]
     #[must_use]
-    pub fn coefficients(&self, symbol: Symbol) -> BTreeMap<u32, Self> {
+    pub fn coefficients(&self, symbol: Symbol) -> Vec<(u32, Self)> {
         if !self.is_defined() {
-            return [(0, Self::fault())].into();
+            return Vec::from([(0, Self::fault())]);
         }
-        let mut by_power: BTreeMap<u32, BTreeMap<Monomial, BigInt>> = BTreeMap::new();
-        for (monomial, n) in &self.terms {
-            let terms = by_power.entry(monomial.power(symbol)).or_default();
-            terms.insert(monomial.without(symbol), n.clone());
+        let mut by_power: Sorted<u32, Vec<(Monomial, BigInt)>> = Sorted::new();
+        for (monomial, n) in self.terms.iter() {
+            let terms = by_power.entry(monomial.power(symbol), Vec::new());
+            terms.push((monomial.without(symbol), n.clone()));
         }
-        let coefficient = |terms| Self::canonical(terms, self.denominator.clone());
+        let coefficient = |terms| Self::canonical(collect_terms(terms), self.denominator.clone());
         by_power
+            .into_vec()
             .into_iter()
             .map(|(power, terms)| (power, coefficient(terms)))
             .collect()
     }
 
     fn term(monomial: Monomial, coefficient: &BigRational) -> Self {
-        let terms = [(monomial, coefficient.numer().clone())]
-            .into_iter()
-            .collect();
-        Self::canonical(terms, coefficient.denom().clone())
+        let terms = Vec::from([(monomial, coefficient.numer().clone())]);
+        Self::canonical(collect_terms(terms), coefficient.denom().clone())
     }
 
     /// Removes zero coefficients and reduces the fraction. `denominator` must not be negative.
-    fn canonical(mut terms: BTreeMap<Monomial, BigInt>, denominator: BigInt) -> Self {
+    fn canonical(mut terms: Sorted<Monomial, BigInt>, denominator: BigInt) -> Self {
         if denominator.is_zero() {
             return Self::fault();
         }
-        terms.retain(|_, coefficient| !coefficient.is_zero());
-        let common = terms.values().fold(denominator.clone(), |common, c| {
+        terms.retain(|coefficient| !coefficient.is_zero());
+        let mut common = denominator.clone();
+        for (_, coefficient) in terms.iter() {
             if common.is_one() {
-                common
-            } else {
-                common.gcd(c)
+                break;
             }
-        });
+            common = common.gcd(coefficient);
+        }
         if common.is_one() {
             return Self { terms, denominator };
         }
@@ -451,11 +449,18 @@ impl Polynomial {
                 .values_mut()
                 .for_each(|coefficient| *coefficient *= &own);
         }
-        for (monomial, coefficient) in &other.terms {
-            *self.terms.entry(monomial.clone()).or_default() += coefficient * &theirs;
-        }
+        let others = other.terms.iter();
+        let others = others.map(|(monomial, n)| (monomial.clone(), n * &theirs));
+        self.terms.merge(others.collect(), |sum, n| *sum += n);
         Self::canonical(self.terms, denominator)
     }
+}
+
+/// Returns the sum of terms in any order.
+fn collect_terms(entries: Vec<(Monomial, BigInt)>) -> Sorted<Monomial, BigInt> {
+    let mut terms = Sorted::new();
+    terms.merge(entries, |sum: &mut BigInt, n| *sum += n);
+    terms
 }
 
 impl From<Symbol> for Polynomial {
@@ -487,16 +492,16 @@ impl Mul<&Self> for Polynomial {
     type Output = Self;
 
     fn mul(self, rhs: &Self) -> Self {
-        let mut terms: BTreeMap<Monomial, BigInt> = BTreeMap::new();
-        for (a, x) in &self.terms {
-            for (b, y) in &rhs.terms {
+        let mut terms = Vec::new();
+        for (a, x) in self.terms.iter() {
+            for (b, y) in rhs.terms.iter() {
                 let Some(monomial) = a.times(b) else {
                     return Self::fault();
                 };
-                *terms.entry(monomial).or_default() += x * y;
+                terms.push((monomial, x * y));
             }
         }
-        Self::canonical(terms, self.denominator * &rhs.denominator)
+        Self::canonical(collect_terms(terms), self.denominator * &rhs.denominator)
     }
 }
 
@@ -516,7 +521,7 @@ impl Neg for Polynomial {
 impl Zero for Polynomial {
     fn zero() -> Self {
         Self {
-            terms: BTreeMap::new(),
+            terms: Sorted::new(),
             denominator: BigInt::one(),
         }
     }

@@ -164,11 +164,10 @@ fn exponential(x: &P, order: usize) -> P {
 
 /// Returns the terms of a polynomial below this power of t.
 fn lowest(p: &P, order: usize) -> P {
-    let coefficients = p.coefficients(Symbol("t"));
-    let terms = (0..order)
-        .zip(0..)
-        .filter_map(|(n, power)| Some((n, coefficients.get(&power)?)));
-    sum(terms.map(|(n, coefficient)| coefficient.clone() * &power(&symbol("t"), n)))
+    let terms = p.coefficients(Symbol("t")).into_iter();
+    let terms = terms.map(|(n, coefficient)| (n as usize, coefficient));
+    let lowest = terms.take_while(|(n, _)| *n < order);
+    sum(lowest.map(|(n, coefficient)| coefficient * &power(&symbol("t"), n)))
 }
 
 /// Returns λ³Q(y/λ), for the sums T₁, T₂ and S.
