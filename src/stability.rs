@@ -18,7 +18,7 @@
 
 use alloc::vec::Vec;
 
-use num_bigint::BigUint;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
@@ -26,10 +26,10 @@ use crate::each::Each;
 use crate::engine::check_interrupt;
 use crate::error::bug;
 use crate::lattice::{Dimension, Direction, Site};
-use crate::scalar::{Algebra, Field, FixedRational, Ring};
+use crate::scalar::{Field, Ring};
 use crate::shape::{Anchor, Selection};
 use crate::stacking::{Run, Stacking};
-use crate::{ContactForce, Error, Forces, Pile};
+use crate::{Error, Forces, Pile};
 
 /// The greatest number of contacts for which [`Pile::margin`] computes all forces.
 const MOST_EXAMINED: u64 = 20_000;
@@ -76,21 +76,12 @@ impl<T: Ring> Affine<T> {
     }
 }
 
-impl<T: Field> Affine<T> {
-    /// Returns the gradient by the tilt, (a, b/4cos²φ), and its square a² + b²/4cos²φ. `across` is 4cos²φ. `None` for numbers
-    /// that are undefined.
-    fn gradient(&self, across: &T) -> Option<([T; 2], T)> {
-        let gradient = [self.a.clone(), self.b.checked_div(across)?];
-        let [a, b] = &gradient;
-        let square = a.clone() * &self.a + &(b.clone() * &self.b);
-        square.is_defined().then_some((gradient, square))
-    }
-}
-
 impl Affine {
     /// Returns the tilt of least |t| at which the function is zero, and |t|². `across` is 4cos²φ. `None` for a constant.
     fn nearest_zero(&self, across: &BigRational) -> Option<(BigRational, Tilt)> {
-        let (gradient, square) = self.gradient(across)?;
+        // The gradient by the tilt, and its square a² + b²/4cos²φ.
+        let gradient = [self.a.clone(), self.b.checked_div(across)?];
+        let square = &gradient[0] * &self.a + &gradient[1] * &self.b;
         let along = (-&self.c).checked_div(&square)?;
         let tilt = gradient.each(|part| part * &along);
         Some((&self.c * &self.c / square, tilt))
@@ -185,12 +176,7 @@ impl Pile {
             return Ok(pile.stability()?.margin);
         }
         check_weight(pile)?;
-        // Few piles need more than the fast rationals.
-        let first = match pile.first_to_open::<FixedRational<i128>>() {
-            Err(Error::Overflow { .. }) => pile.first_to_open::<BigRational>(),
-            first => first,
-        };
-        let Some((site, direction)) = first? else {
+        let Some((site, direction)) = pile.first_to_open()? else {
             return Ok(None);
         };
         let force = pile.force_by_tilt(site, direction)?;
@@ -199,38 +185,39 @@ impl Pile {
 
     /// Returns the contact that opens at the least tilt, the first of several, from all contact forces. `None` if the pile
     /// does not stand upright.
-    fn first_to_open<T: Field + PartialOrd>(&self) -> Result<Option<(Site, Direction)>, Error> {
+    fn first_to_open(&self) -> Result<Option<(Site, Direction)>, Error> {
+        // The numerators share one denominator, so it cancels from the squares of margins c²/g², with the gradient g.
         let forces = self.under_three_tilts(|forces| {
-            let contacts = forces.contacts(Selection::All)?;
-            contacts.collect::<Result<Vec<ContactForce<T>>, _>>()
+            let layers = forces.layers(Selection::All)?.numerators::<BigInt>()?;
+            let spheres = layers.slice_len()?;
+            let mut lines = [(); 3].each(|()| alloc::vec![BigInt::ZERO; spheres]);
+            layers.fill(lines.each_mut().each(Vec::as_mut_slice))?;
+            Ok(lines)
         })?;
-        let [upright, along_x, along_y] = forces.each(Vec::into_iter);
-        let across = T::from_rational(&self.across());
-        let overflow = || Error::overflow("the margin", T::NAME);
-        // The square of a margin is c²/g², with the gradient g.
-        let mut first: Option<([T; 2], (Site, Direction))> = None;
-        for ((contact, x), y) in upright.zip(along_x).zip(along_y) {
-            let force = Affine::through([contact.force, x.force, y.force]);
-            if force.c < T::zero() {
-                return Ok(None);
-            }
-            let (_, gradient) = force.gradient(&across).ok_or_else(overflow)?;
-            if gradient.is_zero() {
-                continue;
-            }
-            let square = force.c.clone() * &force.c;
-            let is_less = match &first {
-                None => true,
-                Some(([least, over], _)) => {
-                    let [one, other] = [square.clone() * over, least.clone() * &gradient];
-                    if !(one.is_defined() && other.is_defined()) {
-                        return Err(overflow());
-                    }
-                    one < other
+        let across = self.across();
+        let mut first: Option<([BigInt; 2], (Site, Direction))> = None;
+        let spheres = 0..forces[0][0].len();
+        for (n, site) in spheres.zip(self.sites(Selection::All)?) {
+            for direction in self.dimension().directions() {
+                let at = forces
+                    .each_ref()
+                    .each(|lines| lines[direction.index()][n].clone());
+                let Affine { c, a, b } = Affine::through(at);
+                if c.is_negative() {
+                    return Ok(None);
                 }
-            };
-            if is_less {
-                first = Some(([square, gradient], (contact.site, contact.direction)));
+                let gradient = across.numer() * &a * &a + across.denom() * &b * &b;
+                if gradient.is_zero() {
+                    continue;
+                }
+                let square = &c * &c;
+                let is_less = match &first {
+                    None => true,
+                    Some(([least, of_least], _)) => &square * of_least < least * &gradient,
+                };
+                if is_less {
+                    first = Some(([square, gradient], (site, *direction)));
+                }
             }
         }
         Ok(first.map(|(_, contact)| contact))
@@ -273,14 +260,14 @@ impl Pile {
 
     /// Returns what `read` finds in the forces under the further tilts (0, 0), (1, 0) and (0, 1). For discs the last one is
     /// (0, 0).
-    fn under_three_tilts<T: Algebra, V>(
+    fn under_three_tilts<V>(
         &self,
-        read: impl Fn(&Forces<'_, T>) -> Result<V, Error>,
+        read: impl Fn(&Forces<'_, BigRational>) -> Result<V, Error>,
     ) -> Result<[V; 3], Error> {
         let along_y = i128::from(self.dimension() == Dimension::Three);
         let at = |tilt: [i128; 2]| {
-            let forces = self.forces::<T>();
-            read(&forces.with_tilt(tilt.each(T::from_i128))?)
+            let forces = self.forces::<BigRational>();
+            read(&forces.with_tilt(tilt.each(BigRational::from_i128))?)
         };
         Ok([at([0, 0])?, at([1, 0])?, at([0, along_y])?])
     }
