@@ -19,6 +19,7 @@
 //! | [`laws`] | the law suite of scalars on operands chosen to break it | |
 //! | [`oracles`] | slow, simple computations that the library is compared with | some |
 //! | [`pair`] | two scalars in parallel, and the first operation at which they differ | |
+//! | [`processes`] | child processes whose waits end, and reports of missing programs | |
 //! | [`proofs`] | checks of the theorems of a crate, and wrong formulas that the theorems must refute | |
 //! | [mod@properties] | the runner that tests a claim on random bytes | |
 //! | [`python_checker`] | the second certificate checker, as a Python process | |
@@ -57,6 +58,7 @@ pub mod judge;
 pub mod laws;
 pub mod oracles;
 pub mod pair;
+pub mod processes;
 pub mod proofs;
 pub mod properties;
 pub mod python_checker;
