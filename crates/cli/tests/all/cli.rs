@@ -9,7 +9,6 @@ mod export;
 mod found_tables;
 mod man;
 mod mean;
-mod memory;
 mod plot;
 mod scene;
 mod stackings;
@@ -21,69 +20,126 @@ use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
+use crate::binary::{command, without_times};
+use cannonpile_testkit::processes::{Process, within};
 use tempfile::TempDir;
 
-/// A file in its own temporary folder, which dropping this value removes.
-struct Temporary {
-    _folder: TempDir,
-    path: PathBuf,
-}
+/// A temporary folder in which commands run, so that command lines name files without its path. The path may contain blanks
+/// and any letters.
+struct Folder(TempDir);
 
-impl Temporary {
-    fn new(name: &str, text: &str) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join(name);
-        fs::write(&path, text).expect("a file is written");
-        Self {
-            _folder: folder,
-            path,
-        }
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
     }
 
-    fn path(&self) -> &str {
-        self.path.to_str().expect("text")
+    /// Creates a folder with one file.
+    fn with(name: &str, content: impl AsRef<[u8]>) -> Self {
+        let folder = Self::new();
+        folder.write(name, content);
+        folder
+    }
+
+    /// Returns the path of a file in this folder.
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).expect("a file is written");
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).expect(name)
+    }
+
+    /// Returns the names of the files in a folder below this one, or in this one if `below` is empty, sorted.
+    fn names(&self, below: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(below)).expect("a folder");
+        let names = entries.map(|entry| entry.expect("an entry").file_name());
+        let mut names: Vec<String> = names
+            .map(|name| name.into_string().expect("text"))
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// Runs a command, whose arguments are separated by blanks.
+    fn cannonpile(&self, arguments: &str) -> Output {
+        let mut command = command();
+        command.args(arguments.split_whitespace());
+        output(command.current_dir(self.path("")))
+    }
+
+    /// Returns the output of a successful command.
+    ///
+    /// Only two kinds of notes may appear on stderr: the reasons of empty columns of a summary, and the definition of a
+    /// mean.
+    fn stdout(&self, arguments: &str) -> String {
+        let output = self.cannonpile(arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
+        let reasons = arguments.starts_with("summary") && only_reasons(&output.stderr);
+        let said = String::from_utf8_lossy(&output.stderr);
+        let mut said = said.lines();
+        let of_means = arguments.starts_with("plot response --fault-probability")
+            && said.all(|line| line.starts_with("note: the mean is over all stackings"));
+        assert!(
+            output.stderr.is_empty() || reasons || of_means,
+            "{arguments}: {output:?}"
+        );
+        String::from_utf8(output.stdout).expect("text")
+    }
+
+    /// Returns the error of a command: one line on stderr, with nothing on stdout and exit status 2.
+    fn refusal(&self, arguments: &str) -> String {
+        let output = self.cannonpile(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {output:?}");
+        assert!(output.stdout.is_empty(), "{arguments}: {output:?}");
+        let line = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(line.lines().count(), 1, "{arguments}: {line}");
+        line
     }
 }
 
+/// Runs a command to its end.
+fn output(command: &mut Command) -> Output {
+    let piped = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let process = Process::start(piped).expect("the binary runs");
+    without_times(process.output())
+}
+
+/// Sends this text to a command and returns the output.
+fn output_of(command: &mut Command, text: String) -> Output {
+    use std::io::Write as _;
+
+    let piped = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let process = Process::start(piped).expect("the binary runs");
+    // The command may end before it has read everything.
+    without_times(process.output_of(move |mut stdin| drop(stdin.write_all(text.as_bytes()))))
+}
+
+/// Runs a command in an empty folder.
 fn cannonpile(arguments: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-        .args(arguments.split_whitespace())
-        .output()
-        .expect("the binary runs")
+    Folder::new().cannonpile(arguments)
 }
 
-/// Returns the output of a successful command.
-///
-/// Only two kinds of notes may appear on stderr: the reasons of empty columns of a summary, and the definition of a mean.
+/// Returns the output of a successful command in an empty folder, as [`Folder::stdout`] does.
 fn stdout(arguments: &str) -> String {
-    let output = cannonpile(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
-    let reasons = arguments.starts_with("summary") && only_reasons(&output.stderr);
-    let said = String::from_utf8_lossy(&output.stderr);
-    let mut said = said.lines();
-    let of_means = arguments.starts_with("plot response --fault-probability")
-        && said.all(|line| line.starts_with("note: the mean is over all stackings"));
-    assert!(
-        output.stderr.is_empty() || reasons || of_means,
-        "{arguments}: {output:?}"
-    );
-    String::from_utf8(output.stdout).expect("text")
+    Folder::new().stdout(arguments)
+}
+
+/// Returns the error of a command in an empty folder, as [`Folder::refusal`] does.
+fn refusal(arguments: &str) -> String {
+    Folder::new().refusal(arguments)
 }
 
 /// Returns whether stderr contains only the reasons of empty columns.
 fn only_reasons(stderr: &[u8]) -> bool {
     let said = String::from_utf8_lossy(stderr);
     said.lines().all(|line| line.starts_with("note: no "))
-}
-
-/// Returns the error of a command: one line on stderr, with nothing on stdout and exit status 2.
-fn refusal(arguments: &str) -> String {
-    let output = cannonpile(arguments);
-    assert_eq!(output.status.code(), Some(2), "{arguments}: {output:?}");
-    assert!(output.stdout.is_empty(), "{arguments}: {output:?}");
-    let line = String::from_utf8(output.stderr).expect("text");
-    assert_eq!(line.lines().count(), 1, "{arguments}: {line}");
-    line
 }
 
 #[test]
@@ -288,41 +344,55 @@ fn errors_name_option_and_remedy() {
 
 #[test]
 fn output_file_is_written_atomically() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("base.csv");
-    let target = path.display();
-    assert!(stdout(&format!("base --layers 2 --format csv --output {target}")).is_empty());
-    let written = fs::read_to_string(&path).expect("the file");
+    let folder = Folder::new();
+    let said = folder.stdout("base --layers 2 --format csv --output base.csv");
+    assert!(said.is_empty());
+    let written = folder.read("base.csv");
     assert_eq!(written, stdout("base --layers 2 --format csv"));
     // A failed command does not change the file, and leaves no other file.
-    refusal(&format!(
-        "base --mass 1e999 --units si --number f64 --output {target}"
-    ));
-    refusal(&format!(
-        "base --output {}",
-        folder.path().join("none/base.csv").display()
-    ));
-    assert_eq!(fs::read_to_string(&path).expect("the file"), written);
-    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1);
+    folder.refusal("base --mass 1e999 --units si --number f64 --output base.csv");
+    folder.refusal("base --output none/base.csv");
+    assert_eq!(folder.read("base.csv"), written);
+    assert_eq!(folder.names(""), ["base.csv"]);
 }
 
 #[test]
 fn file_extension_selects_the_format() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     for (name, option) in [
         ("base.csv", "csv"),
         ("base.json", "json"),
         ("base.txt", "table"),
         ("base", "table"),
     ] {
-        let path = folder.path().join(name);
-        stdout(&format!("base --layers 3 --output {}", path.display()));
-        let written = fs::read_to_string(path).expect("a file");
+        folder.stdout(&format!("base --layers 3 --output {name}"));
         assert_eq!(
-            written,
+            folder.read(name),
             stdout(&format!("base --layers 3 --format {option}"))
         );
     }
+}
+
+/// Paths may be absolute, and contain blanks and letters beyond ASCII.
+#[test]
+fn any_path_is_read_and_written() {
+    let folder = Folder::new();
+    let pile = folder.path("four layers, größer ⚪");
+    let mut export = command();
+    export.args(["export", "--layers", "4"]).arg(&pile);
+    let exported = output(&mut export);
+    assert_eq!(exported.status.code(), Some(0), "{exported:?}");
+    let table = pile.join("contacts.csv");
+    let mut verify = command();
+    verify.args(["verify", "--accept", "0"]).arg(&table);
+    let scene = pile.join("scene.toml");
+    let verified = output(verify.arg("--scene").arg(scene));
+    assert_eq!(verified.status.code(), Some(0), "{verified:?}");
+    let missing = pile.join("no table.csv");
+    let refused = output(command().arg("verify").arg(&missing));
+    let said = String::from_utf8(refused.stderr).expect("text");
+    let expected = "four layers, größer ⚪/no table.csv cannot be read: ";
+    assert!(said.contains(expected), "{said}");
 }
 
 #[test]
@@ -345,24 +415,36 @@ fn single_sphere_skips_stability_check() {
 
 #[test]
 fn closed_pipe_is_not_an_error() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-        .args(["contacts", "--layers", "2000", "--format", "csv"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the binary runs");
-    let mut start = [0; 64];
-    child
-        .stdout
-        .take()
-        .expect("a pipe")
-        .read_exact(&mut start)
-        .expect("some rows");
-    let output = child.wait_with_output().expect("it ends");
+    let mut command = command();
+    let command = command.args(["contacts", "--layers", "2000", "--format", "csv"]);
+    let piped = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut process = Process::start(piped).expect("the binary runs");
+    let mut stdout = process.stdout();
+    within(move || stdout.read_exact(&mut [0; 64]).expect("some rows"));
+    let output = without_times(process.output());
     assert_eq!(output.status.code(), Some(0));
     assert!(
         output.stderr.is_empty(),
         "{:?}",
         String::from_utf8_lossy(&output.stderr)
     );
+}
+
+#[test]
+fn times_are_removed_from_errors() {
+    use std::process::ExitStatus;
+
+    let left = |stderr: &str| {
+        let output = Output {
+            status: ExitStatus::default(),
+            stdout: Vec::new(),
+            stderr: stderr.into(),
+        };
+        String::from_utf8(without_times(output).stderr).expect("text")
+    };
+    let kept = "note: no plan: a reason, after all\nerror: x\n";
+    let times =
+        "note: working, after 00:01:00\n12 rows and 345 bytes in 3 files in 1.2 s: 10 rows/s\n";
+    assert_eq!(left(&format!("{times}{kept}{times}")), kept);
+    assert_eq!(left("no end of line"), "no end of line");
 }

@@ -2,4 +2,5 @@
 //!
 //! The tests in `culprit.rs` cover the option that causes an error.
 
+mod binary;
 mod cli;

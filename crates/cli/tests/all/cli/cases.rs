@@ -2,37 +2,34 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 
 use cannonpile_dem::scene::{Floor, cases};
 
-use super::{cannonpile, refusal, stdout};
+use super::{Folder, cannonpile, stdout};
 
-/// Runs `export`, and ignores notes about unstable piles.
-fn export(folder: &Path, arguments: &str) {
-    let output = cannonpile(&format!("export {} {arguments}", folder.display()));
-    assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
-}
+impl Folder {
+    /// Runs `export`, and ignores notes about unstable piles.
+    fn export(&self, into: &str, arguments: &str) {
+        let output = self.cannonpile(&format!("export {into} {arguments}"));
+        assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
+    }
 
-/// Returns the files of a folder, sorted by name.
-fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let entries = fs::read_dir(folder).expect("a folder");
-    let files = entries.map(|entry| {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().to_string_lossy().into_owned();
-        (name, fs::read(entry.path()).expect("a file"))
-    });
-    let mut files: Vec<_> = files.collect();
-    files.sort();
-    files
+    /// Returns the files of a folder below this one, sorted by name.
+    fn files(&self, below: &str) -> Vec<(String, Vec<u8>)> {
+        let files = self.names(below).into_iter().map(|name| {
+            let content = fs::read(self.path(below).join(&name));
+            (name, content.expect("a file"))
+        });
+        files.collect()
+    }
 }
 
 #[test]
 fn case_equals_its_scene() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     for case in cases() {
         let name = case.name();
-        let at = |what: &str| folder.path().join(format!("{name}-{what}"));
+        let at = |what: &str| format!("{name}-{what}");
         let is_rough = case.scene().expect("a scene").floor == Floor::Rough;
         let (formats, count) = if is_rough {
             ("--to lammps,yade", 5)
@@ -40,25 +37,20 @@ fn case_equals_its_scene() {
             ("--to csv,lammps,vtp,yade", 11)
         };
         let file = at("scene.toml");
-        fs::write(&file, case.toml()).expect("a scene");
-        export(&at("case"), &format!("--case {name} {formats}"));
-        export(
-            &at("scene"),
-            &format!("--scene {} {formats}", file.display()),
-        );
-        let [of_case, of_scene] = [at("case"), at("scene")].map(|folder| files(&folder));
+        folder.write(&file, case.toml());
+        folder.export(&at("case"), &format!("--case {name} {formats}"));
+        folder.export(&at("scene"), &format!("--scene {file} {formats}"));
+        let [of_case, of_scene] = [at("case"), at("scene")].map(|below| folder.files(&below));
         assert_eq!(of_case.len(), count, "{name}");
         assert!(of_case == of_scene, "{name}");
         if is_rough {
             continue;
         }
         // The exported forces are exact, so verify accepts them.
-        let contacts = at("case").join("contacts.csv");
-        let arguments = format!(
-            "verify {} --case {name} --accept 0 --format csv",
-            contacts.display()
-        );
-        let said = cannonpile(&arguments);
+        let contacts = at("case") + "/contacts.csv";
+        let said = folder.cannonpile(&format!(
+            "verify {contacts} --case {name} --accept 0 --format csv"
+        ));
         assert_eq!(said.status.code(), Some(0), "{name}: {said:?}");
         assert!(
             said.stdout.windows(5).any(|part| part == b"\nyes,"),
@@ -69,7 +61,7 @@ fn case_equals_its_scene() {
 
 #[test]
 fn command_of_each_case_runs() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let csv = stdout("cases --format csv");
     let mut reader = ::csv::Reader::from_reader(csv.as_bytes());
     let rows: Vec<_> = reader.records().map(|row| row.expect("a row")).collect();
@@ -83,9 +75,8 @@ fn command_of_each_case_runs() {
             (into, &row[0], &row[1]),
             (case.name(), case.name(), case.title())
         );
-        let into = folder.path().join(into);
-        export(&into, arguments);
-        let card = fs::read_to_string(into.join("card.md")).expect("a card");
+        folder.export(into, arguments);
+        let card = folder.read(&format!("{into}/card.md"));
         assert!(card.starts_with(&format!("# {}: {}\n", case.name(), case.title())));
         let summary = cannonpile(&format!(
             "summary --case {} --state isostatic --format csv",
@@ -105,6 +96,7 @@ fn command_of_each_case_runs() {
 
 #[test]
 fn case_excludes_scene_options() {
+    let folder = Folder::new();
     for option in [
         "--layers 4",
         "--stacking hcp",
@@ -120,7 +112,7 @@ fn case_excludes_scene_options() {
         "--gravity 2",
         "--stiffness-ratio 2",
     ] {
-        let line = refusal(&format!("export pile --case C2 {option}"));
+        let line = folder.refusal(&format!("export pile --case C2 {option}"));
         let name = option.split(' ').next().expect("an option");
         for part in ["--case <NAME>", name, "leave one of the two out"] {
             assert!(line.contains(part), "{line}");
@@ -149,22 +141,22 @@ fn case_excludes_scene_options() {
             ["--stiffness-ratio", "use 1"],
         ),
     ] {
-        let line = refusal(arguments);
+        let line = folder.refusal(arguments);
         for part in parts {
             assert!(line.contains(part), "{line}");
         }
     }
-    assert!(!Path::new("pile").exists());
+    assert!(folder.names("").is_empty());
 }
 
 /// With another `--state` the scene is not the case any more, so the card does not have its name.
 #[test]
 fn card_names_its_case() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let head = |arguments: &str| {
-        let into = folder.path().join(arguments.replace(' ', "-"));
-        export(&into, &format!("{arguments} --to card"));
-        let card = fs::read_to_string(into.join("card.md")).expect("a card");
+        let into = arguments.replace([' ', '-'], "");
+        folder.export(&into, &format!("{arguments} --to card"));
+        let card = folder.read(&format!("{into}/card.md"));
         card.lines().next().expect("a head").to_owned()
     };
     assert!(head("--case C10 --state elastic").starts_with("# C10: "));

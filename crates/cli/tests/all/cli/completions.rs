@@ -3,6 +3,8 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
+use cannonpile_testkit::processes::{Process, left_out};
+
 use super::{refusal, stdout};
 
 const SHELLS: [&str; 5] = ["bash", "zsh", "fish", "elvish", "powershell"];
@@ -63,17 +65,32 @@ fn scripts_contain_commands_and_options() {
 #[test]
 fn shells_parse_their_scripts() {
     for shell in ["bash", "zsh"] {
-        let child = Command::new(shell)
+        let mut command = Command::new(shell);
+        command
             .arg("-n")
             .stdin(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn();
-        let Ok(mut child) = child else { continue };
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        // Without the user's files that a shell reads at its start, and in a locale that every system has.
+        for variable in [
+            "BASH_ENV",
+            "ENV",
+            "ZDOTDIR",
+            "SHELLOPTS",
+            "BASHOPTS",
+            "HOME",
+        ] {
+            command.env_remove(variable);
+        }
+        command.env("LC_ALL", "C");
+        let Ok(process) = Process::start(&mut command) else {
+            left_out(&format!("the syntax of completions: there is no {shell}"));
+            continue;
+        };
         let script = stdout(&format!("completions {shell}"));
-        let mut pipe = child.stdin.take().expect("a pipe");
-        pipe.write_all(script.as_bytes()).expect("written");
-        drop(pipe);
-        let output = child.wait_with_output().expect("it ends");
+        let output = process.output_of(move |mut stdin| {
+            stdin.write_all(script.as_bytes()).expect("written");
+        });
         assert!(output.status.success(), "{shell}: {output:?}");
         assert!(output.stderr.is_empty(), "{shell}: {output:?}");
     }

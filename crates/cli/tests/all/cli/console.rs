@@ -9,15 +9,18 @@
 //! | `! …` | a line on stderr |
 //! | `…` | any number of lines |
 //!
-//! All other lines are stdout. `OVERWRITE=1 cargo test -p cannonpile-cli --test all console` updates the snapshots that
+//! All other lines are stdout. `CANNONPILE_OVERWRITE=1 cargo test -p cannonpile-cli --test all console` updates the snapshots that
 //! differ. Read the difference before you commit it.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::{env, iter};
 
 use tempfile::TempDir;
+
+use super::output;
+use crate::binary;
 
 macro_rules! console {
     ($($name:ident: $commands:literal;)*) => {
@@ -151,12 +154,8 @@ fn run(command: &str, folder: &Path) -> Vec<String> {
         return text.lines().map(String::from).collect();
     }
     assert_eq!(program, "cannonpile");
-    let output = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(input)
-        .output()
-        .expect("the binary runs");
+    let mut binary = binary::command();
+    let output = output(binary.args(arguments).current_dir(folder).stdin(input));
     let status = output.status.code().expect("no signal");
     let status = (status != 0).then(|| format!("? {status}"));
     let [stdout, stderr] =
@@ -234,7 +233,7 @@ fn holds(name: &str, commands: usize) {
             ]);
         }
     }
-    if env::var_os("OVERWRITE").is_some() {
+    if env::var_os("CANNONPILE_OVERWRITE").is_some() {
         fs::write(&path, now).expect("written again");
     } else {
         assert!(differences.is_empty(), "{}:\n{differences}", path.display());

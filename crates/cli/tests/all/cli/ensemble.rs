@@ -1,34 +1,16 @@
 //! The commands `ensemble` and `merge`: parts, merged records, invalid parts.
 
-use std::fs;
-use std::path::Path;
-use std::process::Command;
-
 use num_rational::BigRational;
 use num_traits::Signed;
 use serde_json::Value;
-use tempfile::TempDir;
 
-use super::{cannonpile, refusal, stdout};
-
-/// A temporary folder.
-struct Folder(TempDir);
+use super::{Folder, cannonpile, command, output, stdout};
 
 impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().expect("a folder"))
-    }
-
-    fn file(&self, name: &str) -> String {
-        self.0.path().join(name).to_str().expect("text").to_owned()
-    }
-
-    /// Writes a part of an ensemble, and returns its file name.
-    fn part(&self, scene: &str, shard: &str, name: &str) -> String {
-        let file = self.file(name);
-        let said = stdout(&format!("ensemble {scene} --shard {shard} --output {file}"));
+    /// Writes a part of an ensemble.
+    fn part(&self, scene: &str, shard: &str, name: &str) {
+        let said = self.stdout(&format!("ensemble {scene} --shard {shard} --output {name}"));
         assert_eq!(said, "");
-        file
     }
 }
 
@@ -45,7 +27,10 @@ const SCENES: [&str; 6] = [
 fn merged_parts_equal_the_whole_in_any_order() {
     for scene in SCENES {
         let folder = Folder::new();
-        let parts = [1, 2, 3].map(|i| folder.part(scene, &format!("{i}/3"), &format!("{i}.json")));
+        let parts = ["1.json", "2.json", "3.json"];
+        for (i, part) in (1..).zip(parts) {
+            folder.part(scene, &format!("{i}/3"), part);
+        }
         let whole = stdout(&format!("ensemble {scene} --format json"));
         for [a, b, c] in [
             [0, 1, 2],
@@ -55,19 +40,13 @@ fn merged_parts_equal_the_whole_in_any_order() {
             [2, 0, 1],
             [2, 1, 0],
         ] {
-            let merged = stdout(&format!("merge {} {} {}", parts[a], parts[b], parts[c]));
+            let merged = folder.stdout(&format!("merge {} {} {}", parts[a], parts[b], parts[c]));
             assert!(merged == whole, "{scene}: {a} {b} {c}");
         }
         // Merging a merged record again does not change it.
-        let file = folder.file("whole.json");
-        assert_eq!(
-            stdout(&format!(
-                "merge {} {} {} --output {file}",
-                parts[0], parts[1], parts[2]
-            )),
-            ""
-        );
-        assert_eq!(stdout(&format!("merge {file}")), whole);
+        let said = folder.stdout("merge 1.json 2.json 3.json --output whole.json");
+        assert_eq!(said, "");
+        assert_eq!(folder.stdout("merge whole.json"), whole);
     }
 }
 
@@ -80,12 +59,16 @@ fn result_does_not_depend_on_thread_count() {
         "--base hexagon:5 --layers 8 --all",
     ] {
         let arguments = format!("ensemble {scene} --format json");
-        let output = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-            .args(arguments.split_whitespace())
-            .env("RAYON_NUM_THREADS", "1")
-            .output()
-            .expect("the binary runs");
-        assert!(output.stdout == stdout(&arguments).into_bytes(), "{scene}");
+        let of_threads = |number: &str| {
+            let mut command = command();
+            command.args(arguments.split_whitespace());
+            output(command.env("RAYON_NUM_THREADS", number)).stdout
+        };
+        // Also on a machine with one core there are several threads.
+        let expected = stdout(&arguments).into_bytes();
+        for number in ["1", "3"] {
+            assert!(of_threads(number) == expected, "{scene}: {number}");
+        }
     }
 }
 
@@ -159,11 +142,11 @@ fn ensemble_on_a_base_covers_its_piles() {
 fn distribution_on_a_base_names_the_base() {
     let folder = Folder::new();
     let scene = "--base hexagon:4 --layers 4 --all";
-    let whole = folder.part(scene, "1/1", "whole.json");
-    let svg = stdout(&format!("plot distribution {whole}"));
+    folder.part(scene, "1/1", "whole.json");
+    let svg = folder.stdout("plot distribution whole.json");
     assert!(svg.contains("4 layers, base hexagon:4, "), "{svg}");
-    let none = folder.part("--base triangle:3 --layers 3 --all", "1/1", "none.json");
-    let said = refusal(&format!("plot distribution {none} --fault-probability 1"));
+    folder.part("--base triangle:3 --layers 3 --all", "1/1", "none.json");
+    let said = folder.refusal("plot distribution none.json --fault-probability 1");
     assert!(
         said.contains("none.json has no stackings at this fault probability"),
         "{said}"
@@ -216,9 +199,8 @@ fn probabilities_are_exact_or_intervals() {
 fn merge_rejects_parts_of_other_ensembles() {
     let folder = Folder::new();
     let scene = "--layers 6 --samples 90 --seed 7";
-    let first = folder.part(scene, "1/3", "first.json");
-    let third = folder.part(scene, "3/3", "third.json");
-    let of = |scene: &str| folder.part(scene, "2/3", "other.json");
+    folder.part(scene, "1/3", "first.json");
+    folder.part(scene, "3/3", "third.json");
     for (other, what) in [
         (
             "--layers 7 --samples 90 --seed 7",
@@ -265,35 +247,36 @@ fn merge_rejects_parts_of_other_ensembles() {
             "the load is ",
         ),
     ] {
-        let other = of(other);
-        let said = refusal(&format!("merge {first} {other} {third}"));
+        folder.part(other, "2/3", "other.json");
+        let said = folder.refusal("merge first.json other.json third.json");
         assert!(
             said.contains(what) && said.contains("other.json: "),
             "{said}"
         );
     }
     // With --all the counts do not depend on the fault probability, but the records differ.
-    let all = folder.part("--layers 6 --all", "1/2", "all.json");
-    let other = folder.part(
+    folder.part("--layers 6 --all", "1/2", "all.json");
+    folder.part(
         "--layers 6 --all --fault-probability 1/3",
         "2/2",
         "other.json",
     );
-    assert!(refusal(&format!("merge {all} {other}")).contains("the fault probability is "));
+    let said = folder.refusal("merge all.json other.json");
+    assert!(said.contains("the fault probability is "), "{said}");
 }
 
 #[test]
 fn merge_rejects_modified_parts() {
     let folder = Folder::new();
     let scene = "--layers 6 --samples 90 --seed 7";
-    let [first, second, third] =
-        [1, 2, 3].map(|i| folder.part(scene, &format!("{i}/3"), &format!("part{i}.json")));
-    let text = fs::read_to_string(&second).expect("a part");
+    for i in 1..=3 {
+        folder.part(scene, &format!("{i}/3"), &format!("part{i}.json"));
+    }
+    let text = folder.read("part2.json");
     let changed = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
-        let file = folder.file("changed.json");
-        fs::write(&file, text.replacen(from, to, 1)).expect("written");
-        refusal(&format!("merge {first} {file} {third}"))
+        folder.write("changed.json", text.replacen(from, to, 1));
+        folder.refusal("merge part1.json changed.json part3.json")
     };
     let version = env!("CARGO_PKG_VERSION");
     for (from, to) in [
@@ -316,23 +299,18 @@ fn merge_rejects_modified_parts() {
         );
     }
 
-    let said = refusal(&format!("merge {third} {first}"));
+    let said = folder.refusal("merge part3.json part1.json");
     assert!(said.contains("1 part is missing, 2/3: "), "{said}");
-    let said = refusal(&format!("merge {first} {second} {first} {third}"));
+    let said = folder.refusal("merge part1.json part2.json part1.json part3.json");
     assert!(said.contains("part1.json: part 1/3 occurs twice"), "{said}");
-    let said = refusal(&format!("merge {first} nothing.json"));
+    let said = folder.refusal("merge part1.json nothing.json");
     assert!(
         said.contains("nothing.json cannot be read: no such file"),
         "{said}"
     );
     // A failed merge writes no file.
-    let file = folder.file("none.json");
-    refusal(&format!("merge {first} {third} --output {file}"));
-    assert!(!Path::new(&file).exists());
-    assert_eq!(
-        cannonpile(&format!("merge {first} {second} {third}"))
-            .status
-            .code(),
-        Some(0)
-    );
+    folder.refusal("merge part1.json part3.json --output none.json");
+    assert!(!folder.path("none.json").exists());
+    let merged = folder.cannonpile("merge part1.json part2.json part3.json");
+    assert_eq!(merged.status.code(), Some(0));
 }

@@ -4,7 +4,8 @@
 //! with all twelve contacts, or refused for the reason that the test names.
 
 use std::path::Path;
-use std::process::Command;
+
+use super::{command, output};
 
 /// The right answer.
 enum Answer {
@@ -24,12 +25,12 @@ const ROUNDED: Answer = Accepted(2e-16);
 /// Runs `verify` in the folder of a table.
 fn verify(folder: &str, arguments: &[&str]) -> (Option<i32>, String, String) {
     let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/all/cli/tables");
-    let output = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+    let mut command = command();
+    command
         .current_dir(tables.join(folder))
         .args(["verify", "--layers", "3", "--format", "json"])
-        .args(arguments)
-        .output()
-        .expect("the binary runs");
+        .args(arguments);
+    let output = output(&mut command);
     let text = |bytes| String::from_utf8(bytes).expect("text");
     (
         output.status.code(),

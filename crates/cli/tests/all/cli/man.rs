@@ -1,16 +1,17 @@
 //! Manual pages: each command has one, with all its options.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::{env, fs};
 
-use super::{cannonpile, completions, stdout};
+use cannonpile_testkit::processes::{Process, left_out};
+
+use super::{Folder, completions};
 
 #[test]
 fn every_command_has_a_page() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path().join("share/man1");
-    let listed = stdout(&format!("man {}", folder.display()));
+    let folder = Folder::new();
+    let listed = folder.stdout("man share/man1");
     let mut commands = vec![String::new()];
     let below = |above| {
         completions::commands(above)
@@ -23,7 +24,7 @@ fn every_command_has_a_page() {
     let mut names = BTreeSet::new();
     for command in &commands {
         let name = format!("cannonpile {command}").trim_end().replace(' ', "-") + ".1";
-        let page = fs::read_to_string(folder.join(&name)).expect(&name);
+        let page = folder.read(&format!("share/man1/{name}"));
         assert!(page.contains(".TH cannonpile"), "{name}: {page}");
         let text = page.replace('\\', "");
         for option in completions::options(command) {
@@ -38,24 +39,32 @@ fn every_command_has_a_page() {
         );
         names.insert(name);
     }
-    let written = fs::read_dir(&folder).expect("it is there");
-    let written = written.map(|file| {
-        file.expect("a file")
-            .file_name()
-            .into_string()
-            .expect("text")
-    });
-    assert_eq!(written.collect::<BTreeSet<_>>(), names);
+    let written = folder.names("share/man1");
+    assert_eq!(BTreeSet::from_iter(written), names);
     assert_eq!(listed.lines().count(), names.len());
 
     // If groff is installed, it formats the pages without a warning.
     for name in &names {
-        let page = folder.join(name);
-        let groff = Command::new("groff")
-            .args(["-man", "-Kutf8", "-Tutf8", "-ww"])
-            .arg(&page)
-            .output();
-        let Ok(output) = groff else { continue };
+        let mut groff = Command::new("groff");
+        groff
+            .args(["-man", "-Kutf8", "-Tutf8", "-ww", name])
+            .current_dir(folder.path("share/man1"))
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        // Without PATH groff does not start its own programs. The other variables change what it does.
+        groff.env(
+            "PATH",
+            env::var_os("PATH").unwrap_or("/usr/bin:/bin".into()),
+        );
+        for variable in ["GROFF_TYPESETTER", "GROFF_TMAC_PATH", "GROFF_ENCODING"] {
+            groff.env_remove(variable);
+        }
+        let Ok(process) = Process::start(&mut groff) else {
+            left_out("the format of the manual pages: there is no groff");
+            return;
+        };
+        let output = process.output();
         assert!(output.status.success(), "{name}: {output:?}");
         assert!(output.stderr.is_empty(), "{name}: {output:?}");
     }
@@ -63,27 +72,24 @@ fn every_command_has_a_page() {
 
 #[test]
 fn rejects_a_file_as_folder() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("file");
-    fs::write(&file, "here").expect("written");
-    let output = cannonpile(&format!("man {}/man1", file.display()));
+    let folder = Folder::with("file", "here");
+    let output = folder.cannonpile("man ./file/man1");
     assert_eq!(output.status.code(), Some(2), "{output:?}");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(
         said.starts_with("error: cannot write ") && said.contains("/file/man1: "),
         "{said}"
     );
-    assert_eq!(fs::read_to_string(&file).expect("it stays"), "here");
+    assert_eq!(folder.read("file"), "here");
 }
 
 #[test]
 fn writes_all_pages_or_none() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let taken = folder.path().join("cannonpile-verify.1");
-    fs::create_dir(&taken).expect("made");
-    let output = cannonpile(&format!("man {}", folder.path().display()));
+    let folder = Folder::new();
+    fs::create_dir(folder.path("cannonpile-verify.1")).expect("made");
+    let output = folder.cannonpile("man .");
     assert_eq!(output.status.code(), Some(2), "{output:?}");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.contains("cannonpile-verify.1: "), "{said}");
-    assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
+    assert_eq!(folder.names(""), ["cannonpile-verify.1"]);
 }

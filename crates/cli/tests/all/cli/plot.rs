@@ -1,9 +1,8 @@
 //! The command `plot`: figures on stdout and in files, errors.
 
-use super::{cannonpile, refusal, stdout};
+use super::{Folder, cannonpile, refusal, stdout};
 use cannonpile_dem::table::FileFormat;
 use cannonpile_dem::verify::{Level, Refinement, RefinementReport, RefinementStudy};
-use std::fs;
 
 const KINDS: [&str; 7] = [
     "pile", "indexing", "sphere", "shear", "base", "network", "response",
@@ -46,20 +45,16 @@ fn defaults_are_the_figures_of_the_paper() {
 
 #[test]
 fn file_equals_stdout() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("shear.svg");
-    let printed = stdout(&format!("plot shear --output {}", path.display()));
+    let folder = Folder::new();
+    let printed = folder.stdout("plot shear --output shear.svg");
     assert_eq!(printed, "");
-    assert_eq!(fs::read_to_string(&path).unwrap(), stdout("plot shear"));
+    assert_eq!(folder.read("shear.svg"), stdout("plot shear"));
     // A failed command does not change the file.
-    let refused = refusal(&format!(
-        "plot shear --layers 9999 --output {}",
-        path.display()
-    ));
+    let refused = folder.refusal("plot shear --layers 9999 --output shear.svg");
     assert!(refused.contains("--layers"));
-    assert_eq!(fs::read_to_string(&path).unwrap(), stdout("plot shear"));
-    let nowhere = folder.path().join("missing/shear.svg");
-    assert!(refusal(&format!("plot shear --output {}", nowhere.display())).contains("--output"));
+    assert_eq!(folder.read("shear.svg"), stdout("plot shear"));
+    let refused = folder.refusal("plot shear --output missing/shear.svg");
+    assert!(refused.contains("--output"));
 }
 
 #[test]
@@ -191,43 +186,37 @@ fn mean_responses_are_maps_and_curves() {
 
 #[test]
 fn distribution_of_a_record() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let (whole, part) = (path("whole.json"), path("part.json"));
-    stdout(&format!("ensemble --layers 5 --all --output {whole}"));
-    stdout(&format!(
-        "ensemble --layers 5 --all --shard 1/2 --output {part}"
-    ));
-    let svg = stdout(&format!("plot distribution {whole}"));
+    let folder = Folder::new();
+    folder.stdout("ensemble --layers 5 --all --output whole.json");
+    folder.stdout("ensemble --layers 5 --all --shard 1/2 --output part.json");
+    let svg = folder.stdout("plot distribution whole.json");
     assert!(svg.contains("stable stackings") && svg.contains("q = 1/2"));
-    let normals = stdout(&format!(
-        "plot distribution {whole} --histogram normals --fault-probability 1/4"
-    ));
+    let normals =
+        folder.stdout("plot distribution whole.json --histogram normals --fault-probability 1/4");
     assert!(normals.contains("q = 1/4") && normals.contains("on the floor"));
-    assert!(refusal(&format!("plot distribution {part}")).contains("merge"));
+    let refused = folder.refusal("plot distribution part.json");
+    assert!(refused.contains("merge"), "{refused}");
     assert!(refusal("plot distribution nowhere.json").contains("nowhere.json"));
 }
 
 #[test]
 fn refinement_of_a_record() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
     let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 30, 4.0 / k, 1.0 / k));
     let study = RefinementStudy::new(Refinement::Stiffness, levels).unwrap();
     let mut json = Vec::new();
     RefinementReport::new(&study)
         .write(FileFormat::Json, &mut json)
         .unwrap();
-    let (whole, cut) = (path("whole.json"), path("cut.json"));
-    fs::write(&whole, &json).unwrap();
-    fs::write(&cut, &json[..json.len() / 2]).unwrap();
-    let svg = stdout(&format!("plot refinement {whole}"));
+    let folder = Folder::with("whole.json", &json);
+    folder.write("cut.json", &json[..json.len() / 2]);
+    folder.write("Cargo.toml", "[package]\nname = \"cannonpile-cli\"\n");
+    let svg = folder.stdout("plot refinement whole.json");
     assert_eq!(
         svg,
         cannonpile_figure::refinement(&study).to_string() + "\n"
     );
-    for wrong in [&cut, "Cargo.toml"] {
-        let refused = refusal(&format!("plot refinement {wrong}"));
+    for wrong in ["cut.json", "Cargo.toml"] {
+        let refused = folder.refusal(&format!("plot refinement {wrong}"));
         assert!(
             refused.contains("is not a refinement study")
                 && refused.contains("verify --refinement"),

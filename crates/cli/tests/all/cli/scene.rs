@@ -1,41 +1,47 @@
 //! Scene files: read by every command, overridden by options, written by `scene`.
 
-use std::fs;
-use std::io::Write;
-use std::process::{Command, Stdio};
+use super::{Folder, command, output_of, refusal, stdout};
 
-use super::{Temporary, cannonpile, refusal, stdout};
-
-/// A scene in a temporary file.
-struct Scratch(Temporary);
+/// A scene in a temporary file with this name.
+struct Scratch(Folder, String);
 
 impl Scratch {
     fn new(name: &str, text: &str) -> Self {
-        Self(Temporary::new(&format!("{name}.toml"), text))
+        let name = format!("{name}.toml");
+        Self(Folder::with(&name, text), name)
     }
 
     /// Returns stdout, and ignores notes on stderr.
     fn printed(&self, question: &str) -> String {
-        printed(&self.arguments(question))
+        printed_in(&self.0, &self.arguments(question))
     }
 
     /// Returns stdout of a command with this scene. There must be no note.
     fn output(&self, question: &str) -> String {
-        stdout(&self.arguments(question))
+        self.0.stdout(&self.arguments(question))
     }
 
     fn refused(&self, question: &str) -> String {
-        refusal(&self.arguments(question))
+        self.0.refusal(&self.arguments(question))
+    }
+
+    /// Writes other content to the file.
+    fn write(&self, content: impl AsRef<[u8]>) {
+        self.0.write(&self.1, content);
     }
 
     fn arguments(&self, question: &str) -> String {
         let (command, options) = question.split_once(' ').unwrap_or((question, ""));
-        format!("{command} --scene {} {options}", self.0.path())
+        format!("{command} --scene {} {options}", self.1)
     }
 }
 
 fn printed(arguments: &str) -> String {
-    let output = cannonpile(arguments);
+    printed_in(&Folder::new(), arguments)
+}
+
+fn printed_in(folder: &Folder, arguments: &str) -> String {
+    let output = folder.cannonpile(arguments);
     assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
     String::from_utf8(output.stdout).expect("text")
 }
@@ -125,7 +131,6 @@ fn options_override_the_file() {
 #[test]
 fn errors_name_the_line_of_the_file_or_the_option() {
     let file = Scratch::new("refusal", PILE);
-    let name = file.0.path().to_owned();
     for (question, parts) in [
         (
             "base --sin-phi 1/3",
@@ -167,7 +172,7 @@ fn errors_name_the_line_of_the_file_or_the_option() {
             assert!(line.contains(part), "{question}: no '{part}' in {line}");
         }
         assert_eq!(
-            line.contains(&name),
+            line.contains(&file.1),
             line.contains("--scene"),
             "{question}: {line}"
         );
@@ -185,18 +190,18 @@ fn errors_name_the_line_of_the_file_or_the_option() {
     ] {
         let file = Scratch::new("text", text);
         let line = file.refused("summary");
-        assert!(line.contains(file.0.path()), "{line}");
+        assert!(line.contains(&file.1), "{line}");
         for part in parts {
             assert!(line.contains(part), "{text}: no '{part}' in {line}");
         }
     }
-    let nowhere = refusal("summary --scene /nowhere/pile.toml");
+    let nowhere = refusal("summary --scene nowhere/pile.toml");
     assert!(
-        nowhere.contains("/nowhere/pile.toml") && nowhere.contains("no such file"),
+        nowhere.contains("nowhere/pile.toml") && nowhere.contains("no such file"),
         "{nowhere}"
     );
     let file = Scratch::new("bytes", "");
-    fs::write(&file.0.path, b"mass = '\xff'").expect("a file");
+    file.write(b"mass = '\xff'");
     assert!(file.refused("summary").contains("invalid"));
 }
 
@@ -217,26 +222,21 @@ fn scene_is_written_and_read() {
             stdout(&format!("summary --units si {options}")),
             "{options}"
         );
-        let target = file.0.path.with_extension("out");
-        assert!(
-            file.output(&format!("scene --output {}", target.display()))
-                .is_empty()
-        );
-        assert_eq!(fs::read_to_string(&target).expect("the file"), text);
-        fs::remove_file(target).expect("cleaned up");
+        assert!(file.output("scene --output again.out").is_empty());
+        assert_eq!(file.0.read("again.out"), text);
     }
     // An invalid scene is not written.
     assert!(refusal("scene --spacing 3").contains("--spacing"));
-    assert!(refusal("scene --output /nowhere/pile.toml").contains("--output"));
+    assert!(refusal("scene --output nowhere/pile.toml").contains("--output"));
 }
 
 #[test]
 fn rejects_files_that_are_not_utf8() {
     let file = Scratch::new("bytes", "");
-    fs::write(&file.0.path, b"layers = 3 # \xff\n").expect("a file");
+    file.write(b"layers = 3 # \xff\n");
     assert!(file.refused("base").contains("not text in UTF-8"));
     // After the first byte each letter has two bytes, so the cut at an even length splits a letter.
-    fs::write(&file.0.path, format!("#{}", "é".repeat(17 << 20))).expect("a file");
+    file.write(format!("#{}", "é".repeat(17 << 20)));
     assert!(file.refused("base").contains("longer than 16777216 bytes"));
 }
 
@@ -248,16 +248,8 @@ fn stdin_is_read_once() {
 
 #[test]
 fn scene_from_a_pipe() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-        .args(["base", "--scene", "-"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the binary runs");
-    let mut pipe = child.stdin.take().expect("a pipe");
-    pipe.write_all(PILE.as_bytes()).expect("written");
-    drop(pipe);
-    let output = child.wait_with_output().expect("it ends");
+    let mut command = command();
+    let output = output_of(command.args(["base", "--scene", "-"]), PILE.to_owned());
     assert_eq!(
         String::from_utf8_lossy(&output.stdout),
         stdout(&format!("base {OPTIONS}"))

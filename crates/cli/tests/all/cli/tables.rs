@@ -1,76 +1,63 @@
 //! Tests of the command `verify` on tables of other codes: columns, presets, positions, refinement studies, records,
 //! errors.
 
-use std::fs;
-
 use serde_json::Value;
 
-use super::{cannonpile, refusal, stdout};
+use super::Folder;
 
-/// A temporary folder with the exports of ten layers at a = 1.2 R.
-struct Exported(tempfile::TempDir);
-
-impl Exported {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().to_str().expect("text");
-        stdout(&format!(
-            "export {path}/pile --to csv,vtp --layers 10 --spacing 1.2"
-        ));
-        Self(folder)
+impl Folder {
+    /// Creates a folder with the exports of ten layers at a = 1.2 R.
+    fn exported() -> Self {
+        let folder = Self::new();
+        folder.stdout("export pile --to csv,vtp --layers 10 --spacing 1.2");
+        folder
     }
 
-    fn path(&self, name: &str) -> String {
-        self.0.path().join(name).to_str().expect("text").to_owned()
-    }
-
-    /// Writes a table with a header and one line for each row of contacts.csv. Returns its path.
-    fn table(&self, name: &str, header: &str, line: impl Fn(&[&str]) -> String) -> String {
-        let contacts = fs::read_to_string(self.path("pile/contacts.csv")).expect("a table");
+    /// Writes a table with a header and one line for each row of contacts.csv.
+    fn table(&self, name: &str, header: &str, line: impl Fn(&[&str]) -> String) {
+        let contacts = self.read(CONTACTS);
         let rows = contacts.lines().skip(1).map(|row| {
             let fields: Vec<&str> = row.split(',').collect();
             line(&fields)
         });
         let lines: Vec<String> = std::iter::once(header.to_owned()).chain(rows).collect();
-        let path = self.path(name);
-        fs::write(&path, lines.join("\n") + "\n").expect("written");
-        path
+        self.write(name, lines.join("\n") + "\n");
     }
 }
+
+const CONTACTS: &str = "pile/contacts.csv";
 
 const SCENE: &str = "--layers 10 --spacing 1.2";
 
 #[test]
 fn accepts_tables_of_other_codes() {
-    let exported = Exported::new();
-    let counted = exported.table("a.txt", "# A B Fn", |row| {
+    let exported = Folder::exported();
+    exported.table("a.txt", "# A B Fn", |row| {
         let less = |id: &str| id.parse::<u64>().expect("a number") - 1;
         format!("{} {} -{}", less(row[0]), less(row[1]), row[2])
     });
     let columns = "--columns id1=A,id2=B,force=-Fn --first-id 0";
-    assert!(
-        stdout(&format!("verify {counted} {columns} {SCENE} --accept 0"))
-            .starts_with("accepted       yes")
-    );
-    let lines = exported.path("pile/contacts.vtp");
+    let table = exported.stdout(&format!("verify a.txt {columns} {SCENE} --accept 0"));
+    assert!(table.starts_with("accepted       yes"), "{table}");
+    let lines = "pile/contacts.vtp";
     for matching in ["numbers", "place", "place --within 0.01"] {
-        let table = stdout(&format!(
+        let table = exported.stdout(&format!(
             "verify {lines} --match {matching} {SCENE} --accept 0"
         ));
         assert!(table.contains("\nframe          -\n"), "{table}");
     }
-    assert!(stdout(&format!("verify {lines} --preset lethe {SCENE} --accept 0")).contains("yes"));
+    let table = exported.stdout(&format!("verify {lines} --preset lethe {SCENE} --accept 0"));
+    assert!(table.contains("yes"), "{table}");
 }
 
 #[test]
 fn residual_forces_are_written_to_a_file() {
-    let exported = Exported::new();
-    let contacts = exported.path("pile/contacts.csv");
+    let exported = Folder::exported();
     for ending in ["csv", "json"] {
-        let rest = exported.path(&format!("rest.{ending}"));
-        let table = stdout(&format!("verify {contacts} {SCENE} --unbalanced {rest}"));
+        let rest = format!("rest.{ending}");
+        let table = exported.stdout(&format!("verify {CONTACTS} {SCENE} --unbalanced {rest}"));
         assert!(table.contains("\nunbalanced     "), "{table}");
-        let text = fs::read_to_string(&rest).expect("written");
+        let text = exported.read(&rest);
         let rows = match ending {
             "csv" => text.lines().count() - 1,
             _ => serde_json::from_str::<Vec<Value>>(&text)
@@ -84,51 +71,49 @@ fn residual_forces_are_written_to_a_file() {
 
 #[test]
 fn record_contains_scene_and_hash() {
-    let exported = Exported::new();
-    let contacts = exported.path("pile/contacts.csv");
-    let json = stdout(&format!("verify {contacts} {SCENE} --format json"));
+    let exported = Folder::exported();
+    let json = exported.stdout(&format!("verify {CONTACTS} {SCENE} --format json"));
     let record: Value = serde_json::from_str(&json).expect("json");
     let source = &record[0]["source"];
     assert_eq!(source["version"], env!("CARGO_PKG_VERSION"));
-    assert_eq!(source["file"], contacts);
-    let bytes = fs::read(&contacts).expect("a file");
-    assert_eq!(source["bytes"], bytes.len());
+    assert_eq!(source["file"], CONTACTS);
+    assert_eq!(source["bytes"], exported.read(CONTACTS).len());
     // The program `sha256sum` computed the expected digest.
-    let header = exported.path("header.csv");
-    fs::write(&header, "id1,id2,force\n1,2,1\n").expect("written");
-    let json = cannonpile(&format!("verify {header} {SCENE} --format json")).stdout;
+    exported.write("header.csv", "id1,id2,force\n1,2,1\n");
+    let json = exported.cannonpile(&format!("verify header.csv {SCENE} --format json"));
+    let json = json.stdout;
     let other: Value = serde_json::from_slice(&json).expect("json");
     assert_eq!(
         other[0]["source"]["sha256"],
         "d7d1f779ebeb0e29bfc61d26069ec90ea5f96c47c9edcb9eb89a3bf3d95aaa80"
     );
-    let scene = exported.path("again.toml");
-    fs::write(&scene, source["scene"].as_str().expect("text")).expect("written");
-    assert!(stdout(&format!("verify {contacts} --scene {scene} --accept 0")).contains("yes"));
+    exported.write("again.toml", source["scene"].as_str().expect("text"));
+    let table = exported.stdout(&format!("verify {CONTACTS} --scene again.toml --accept 0"));
+    assert!(table.contains("yes"), "{table}");
 }
 
 #[test]
 fn refinement_has_an_order_and_a_figure() {
-    let exported = Exported::new();
+    let exported = Folder::exported();
     let mut files = Vec::new();
     for stiffness in ["1e4", "1e5", "1e6", "1e7"] {
         let k: f64 = stiffness.parse().expect("a number");
-        let name = exported.table(stiffness, "id1,id2,force", |row| {
+        exported.table(stiffness, "id1,id2,force", |row| {
             let force: f64 = row[2].parse().expect("a number");
             format!("{},{},{:?}", row[0], row[1], force * (1.0 + 4.0 / k))
         });
-        files.push(format!("{stiffness}={name}"));
+        files.push(format!("{stiffness}={stiffness}"));
     }
-    let (list, json) = (files.join(","), exported.path("refinement.json"));
-    let table = stdout(&format!("verify --refinement {list} {SCENE} --accept 1e-3"));
+    let (list, json) = (files.join(","), "refinement.json");
+    let table = exported.stdout(&format!("verify --refinement {list} {SCENE} --accept 1e-3"));
     assert!(
         table.contains("stiffness") && table.contains("order"),
         "{table}"
     );
-    stdout(&format!(
+    exported.stdout(&format!(
         "verify --refinement {list} {SCENE} --format json --output {json}"
     ));
-    let text = fs::read_to_string(&json).expect("written");
+    let text = exported.read(json);
     let record: Value = serde_json::from_str(&text).expect("json");
     assert_eq!(record["files"].as_array().expect("an array").len(), 4);
     assert_eq!(record["levels"].as_array().expect("an array").len(), 4);
@@ -138,13 +123,11 @@ fn refinement_has_an_order_and_a_figure() {
             .expect("text")
             .contains("layers = 10")
     );
-    let svg = stdout(&format!("plot refinement {json}"));
+    let svg = exported.stdout(&format!("plot refinement {json}"));
     assert!(svg.starts_with("<svg"));
     // Errors that do not depend on the time step have no observed order, so the exit status is 1.
-    let same = exported.path("1e4");
-    let flat = ["1e-3", "1e-4", "1e-5"].map(|step| format!("{step}={same}"));
-    let flat = flat.join(",");
-    let output = cannonpile(&format!(
+    let flat = "1e-3=1e4,1e-4=1e4,1e-5=1e4";
+    let output = exported.cannonpile(&format!(
         "verify --refinement {flat} --parameter time-step {SCENE}"
     ));
     assert_eq!(output.status.code(), Some(1));
@@ -152,8 +135,7 @@ fn refinement_has_an_order_and_a_figure() {
 
 #[test]
 fn usage_errors_of_tables() {
-    let exported = Exported::new();
-    let contacts = exported.path("pile/contacts.csv");
+    let exported = Folder::exported();
     for (options, said) in [
         ("--columns mass=A", "'mass' is not one of id1"),
         ("--columns id1=A", "no column 'A' for id1"),
@@ -168,7 +150,7 @@ fn usage_errors_of_tables() {
         ("--parameter time-step", "--refinement"),
         ("--refinement 1e5=a.csv", "cannot be used with"),
     ] {
-        let line = refusal(&format!("verify {contacts} {options} {SCENE}"));
+        let line = exported.refusal(&format!("verify {CONTACTS} {options} {SCENE}"));
         assert!(line.contains(said), "{options}: {line}");
     }
     for (list, said) in [
@@ -177,11 +159,11 @@ fn usage_errors_of_tables() {
         ("0=a.csv", "0"),
         ("1e5=,1e6=b.csv", "1e5="),
     ] {
-        let line = refusal(&format!("verify --refinement {list} {SCENE}"));
+        let line = exported.refusal(&format!("verify --refinement {list} {SCENE}"));
         assert!(line.contains(said), "{list}: {line}");
     }
-    let line = refusal(&format!(
-        "verify --refinement 1e5={contacts},1e6=/not/there {SCENE}"
+    let line = exported.refusal(&format!(
+        "verify --refinement 1e5={CONTACTS},1e6=/not/there {SCENE}"
     ));
     assert!(line.contains("/not/there cannot be read"), "{line}");
 }

@@ -1,15 +1,13 @@
 //! The command `verify`: accepted files, rejected files, usage errors.
 
-use std::fs;
 use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
-use super::{Temporary, cannonpile, refusal, stdout};
+use cannonpile_testkit::processes::Process;
 
-const LAMMPS: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/../dem/tests/all/verify/lammps.dump"
-);
+use super::{Folder, command, output_of, refusal, stdout};
+
+const LAMMPS: &[u8] = include_bytes!("../../../../dem/tests/all/verify/lammps.dump");
 
 /// Returns the exact contact forces of a scene as a table for `verify`, built from the tables of the command line.
 fn exact(scene: &str) -> String {
@@ -41,12 +39,12 @@ fn exact(scene: &str) -> String {
     csv
 }
 
-fn no(arguments: &str) -> String {
+fn no(folder: &Folder, arguments: &str) -> String {
     let Output {
         status,
         stdout,
         stderr,
-    } = cannonpile(arguments);
+    } = folder.cannonpile(arguments);
     assert_eq!(status.code(), Some(1), "{arguments}");
     assert!(stderr.is_empty(), "{arguments}");
     String::from_utf8(stdout).expect("text")
@@ -68,8 +66,8 @@ fn exact_forces_have_zero_error() {
         "--layers 3",
         "--layers 4 --mass 0.3 --gravity 9.81 --radius 0.01 --spacing 5/4",
     ] {
-        let file = Temporary::new("exact.csv", &exact(scene));
-        let table = stdout(&format!("verify {} {scene} --accept 0", file.path()));
+        let folder = Folder::with("exact.csv", exact(scene));
+        let table = folder.stdout(&format!("verify exact.csv {scene} --accept 0"));
         for (name, want) in [
             ("accepted", "yes"),
             ("missing", "0"),
@@ -84,11 +82,12 @@ fn exact_forces_have_zero_error() {
 
 #[test]
 fn simulation_is_accepted_within_the_error_of_its_springs() {
+    let folder = Folder::with("lammps.dump", LAMMPS);
     let Output {
         status,
         stdout,
         stderr,
-    } = cannonpile(&format!("verify {LAMMPS} --layers 4 --format csv"));
+    } = folder.cannonpile("verify lammps.dump --layers 4 --format csv");
     assert_eq!(status.code(), Some(0));
     let csv = String::from_utf8(stdout).expect("text");
     let header = "accepted,accept,contacts,matched,repeated,missing,extra,noise,fixed,largest_error,rms_error,worst,beyond,factor,\
@@ -102,19 +101,19 @@ fn simulation_is_accepted_within_the_error_of_its_springs() {
         "{csv}"
     );
     let note = String::from_utf8(stderr).expect("text");
-    let want = format!("note: {LAMMPS} has 2 steps; this report is about step 40000\n");
+    let want = "note: lammps.dump has 2 steps; this report is about step 40000\n";
     assert_eq!(note, want);
-    let strict = cannonpile(&format!("verify {LAMMPS} --layers 4 --accept 1e-7"));
+    let strict = folder.cannonpile("verify lammps.dump --layers 4 --accept 1e-7");
     assert_eq!(strict.status.code(), Some(1));
-    let other = cannonpile(&format!("verify {LAMMPS} --layers 4 --spacing 1.21"));
+    let other = folder.cannonpile("verify lammps.dump --layers 4 --spacing 1.21");
     assert_eq!(other.status.code(), Some(1));
 }
 
 #[test]
 fn wrong_missing_and_extra_contacts_are_named() {
     let csv = exact("--layers 3").replace("\n1,4,0.46225016352102427,", "\n1,4,0.5,");
-    let file = Temporary::new("wrong.csv", &csv);
-    let table = no(&format!("verify {} --layers 3", file.path()));
+    let folder = Folder::with("wrong.csv", csv);
+    let table = no(&folder, "verify wrong.csv --layers 3");
     assert_eq!(value(&table, "accepted"), "no");
     let worst = "contact of sphere 1 (k=0, i=0, j=0) with sphere 4 along gamma: measured 0.5 N, exact 0.46225016352102427 N";
     assert_eq!(value(&table, "worst"), worst);
@@ -123,8 +122,8 @@ fn wrong_missing_and_extra_contacts_are_named() {
         .lines()
         .filter(|line| !line.starts_with("3,"))
         .fold(String::new(), |text, line| text + line + "\n");
-    let file = Temporary::new("gone.csv", &(gone + "2,3,0.25,0,0,0\n"));
-    let table = no(&format!("verify {} --layers 3", file.path()));
+    folder.write("gone.csv", gone + "2,3,0.25,0,0,0\n");
+    let table = no(&folder, "verify gone.csv --layers 3");
     assert_eq!(
         (value(&table, "missing "), value(&table, "extra ")),
         ("3", "1")
@@ -135,7 +134,7 @@ fn wrong_missing_and_extra_contacts_are_named() {
         "extra: spheres 2 (k=1, i=0, j=0) and 3 (k=1, i=1, j=0) have no contact: measured 0.25 N";
     assert!(table.ends_with(&format!("{extra}\n")), "{table}");
 
-    let json = no(&format!("verify {} --layers 3 --format json", file.path()));
+    let json = no(&folder, "verify gone.csv --layers 3 --format json");
     let rows: serde_json::Value = serde_json::from_str(&json).expect("json");
     let row = &rows[0];
     assert_eq!(row["accepted"], false);
@@ -151,12 +150,12 @@ fn wrong_missing_and_extra_contacts_are_named() {
 
 #[test]
 fn wrong_gravity_is_reported_as_a_factor() {
-    let file = Temporary::new("g.csv", &exact("--layers 3 --gravity 9.81"));
-    let table = no(&format!("verify {} --layers 3", file.path()));
+    let folder = Folder::with("g.csv", exact("--layers 3 --gravity 9.81"));
+    let table = no(&folder, "verify g.csv --layers 3");
     assert_eq!(value(&table, "beyond"), value(&table, "contacts"));
     let factor: f64 = value(&table, "factor").parse().expect("a number");
     assert!((factor - 9.81).abs() < 1e-12);
-    let right = stdout(&format!("verify {} --layers 3 --gravity 9.81", file.path()));
+    let right = folder.stdout("verify g.csv --layers 3 --gravity 9.81");
     assert_eq!(
         (value(&right, "beyond"), value(&right, "factor")),
         ("0", "-")
@@ -165,17 +164,18 @@ fn wrong_gravity_is_reported_as_a_factor() {
 
 #[test]
 fn infinite_table_is_rejected_at_the_third_row_of_a_pair() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+    let mut command = command();
+    let piped = command
         .args(["verify", "-"])
         .stdin(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the binary runs");
-    let mut stdin = child.stdin.take().expect("piped");
-    stdin.write_all(b"id1,id2,force\n").expect("read");
-    // Write until the reader closes the pipe.
-    while stdin.write_all(b"1,2,0.5\n").is_ok() {}
-    let output = child.wait_with_output().expect("ends");
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let process = Process::start(piped).expect("the binary runs");
+    let output = process.output_of(|mut stdin| {
+        stdin.write_all(b"id1,id2,force\n").expect("read");
+        // Write until the reader closes the pipe.
+        while stdin.write_all(b"1,2,0.5\n").is_ok() {}
+    });
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(
         String::from_utf8(output.stderr).expect("text"),
@@ -186,74 +186,71 @@ fn infinite_table_is_rejected_at_the_third_row_of_a_pair() {
 
 #[test]
 fn missing_contacts_are_counted_and_the_first_are_named() {
-    let file = Temporary::new("one.csv", "id1,id2,force\n1,2,0.46225016352102427\n");
-    let table = no(&format!("verify {} --layers 5", file.path()));
+    let folder = Folder::with("one.csv", "id1,id2,force\n1,2,0.46225016352102427\n");
+    let table = no(&folder, "verify one.csv --layers 5");
     assert_eq!(value(&table, "missing "), "59");
     assert!(table.ends_with("missing: 54 more\n"));
 }
 
 #[test]
 fn a_table_without_contacts_has_no_verdict() {
-    let none = Temporary::new("none.csv", "id1,id2,force\n");
-    let floor = Temporary::new("floor.csv", "id1,id2,force\n8,9,1\n");
+    let folder = Folder::with("none.csv", "id1,id2,force\n");
+    folder.write("floor.csv", "id1,id2,force\n8,9,1\n");
     for (file, reason) in [
         (
-            &none,
+            "none.csv",
             "the file has no rows: did the simulation write any contact?",
         ),
-        (&floor, "1 row was read, but none is a contact of the scene"),
+        (
+            "floor.csv",
+            "1 row was read, but none is a contact of the scene",
+        ),
     ] {
-        let line = refusal(&format!("verify {} --layers 3", file.path()));
+        let line = folder.refusal(&format!("verify {file} --layers 3"));
         assert!(line.contains(reason), "{line}");
     }
 }
 
 #[test]
 fn dash_reads_stdin() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-        .args(["verify", "-", "--layers", "3", "--accept", "0"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the binary runs");
-    let mut stdin = child.stdin.take().expect("piped");
-    stdin
-        .write_all(exact("--layers 3").as_bytes())
-        .expect("read");
-    drop(stdin);
-    assert_eq!(child.wait().expect("ends").code(), Some(0));
+    let mut command = command();
+    command.args(["verify", "-", "--layers", "3", "--accept", "0"]);
+    let output = output_of(&mut command, exact("--layers 3"));
+    assert_eq!(output.status.code(), Some(0));
 }
 
 #[test]
 fn usage_errors_are_one_line() {
-    let good = Temporary::new("good.csv", &exact("--layers 3"));
-    let good = good.path();
-    let bad = Temporary::new("bad.csv", "id1,id2,force\n1,2,one\n");
-    let beyond = Temporary::new("beyond.csv", "id1,id2,force\n1,99,1\n");
+    let folder = Folder::with("good.csv", exact("--layers 3"));
+    folder.write("bad.csv", "id1,id2,force\n1,2,one\n");
+    folder.write("beyond.csv", "id1,id2,force\n1,99,1\n");
     for (arguments, want) in [
-        (format!("verify {}", bad.path()), format!("error: {}, line 2: force 'one' is not a number such as 0.46 or 1e-3\n", bad.path())),
         (
-            format!("verify {} --layers 3", beyond.path()),
-            format!("error: {}, line 2: no sphere 99: the spheres of this scene are numbered 1 to 10, from the top; does the table have more layers, or several numbers for one wall?\n", beyond.path()),
+            "verify bad.csv",
+            "error: bad.csv, line 2: force 'one' is not a number such as 0.46 or 1e-3\n",
         ),
         (
-            "verify no/such.csv".into(),
-            "error: no/such.csv cannot be read: no such file or folder; give a readable file, or - for stdin\n".into(),
+            "verify beyond.csv --layers 3",
+            "error: beyond.csv, line 2: no sphere 99: the spheres of this scene are numbered 1 to 10, from the top; does the table have more layers, or several numbers for one wall?\n",
         ),
         (
-            format!("verify {good} --layers 3 --mass 1e-350"),
-            "error: --mass: a contact force of this scene does not fit in f64: measure mass or gravity in another unit\n".into(),
+            "verify no/such.csv",
+            "error: no/such.csv cannot be read: no such file or folder; give a readable file, or - for stdin\n",
         ),
         (
-            format!("verify {good} --layers 1000"),
+            "verify good.csv --layers 3 --mass 1e-350",
+            "error: --mass: a contact force of this scene does not fit in f64: measure mass or gravity in another unit\n",
+        ),
+        (
+            "verify good.csv --layers 1000",
             "error: --layers: a comparison of all contacts would take 499999500 numbers, more than 100000000: use fewer layers, or \
-             a smaller top or base\n".into(),
+             a smaller top or base\n",
         ),
     ] {
-        assert_eq!(refusal(&arguments), want);
+        assert_eq!(folder.refusal(arguments), want);
     }
     for accept in ["-1e-6", "nan", "inf", "1e999", "x", "-0"] {
-        let line = refusal(&format!("verify {good} --accept {accept}"));
+        let line = folder.refusal(&format!("verify good.csv --accept {accept}"));
         assert!(
             line.contains("--accept <E>")
                 && line.contains("not a relative error such as 1e-6, or 0"),
@@ -267,19 +264,20 @@ fn usage_errors_are_one_line() {
             "'ab' is not a separator: one character, tab or blanks",
         ),
     ] {
-        let line = refusal(&format!("verify {good} {option}"));
+        let line = folder.refusal(&format!("verify good.csv {option}"));
         let name = option.split(' ').next().expect("a name");
         assert!(line.contains(name) && line.contains(said), "{line}");
     }
     assert!(refusal("verify").contains("<FILE>"));
-    assert!(refusal(&format!("verify {good} --spacing 0.9")).starts_with("error: --spacing"));
+    let line = folder.refusal("verify good.csv --spacing 0.9");
+    assert!(line.starts_with("error: --spacing"), "{line}");
 }
 
 #[test]
 fn unstable_pile_is_compared_with_a_note() {
-    let file = Temporary::new("falls.csv", "id1,id2,force\n1,2,1\n");
-    let scene = "--stacking hcp --layers 12";
-    let Output { status, stderr, .. } = cannonpile(&format!("verify {} {scene}", file.path()));
+    let folder = Folder::with("falls.csv", "id1,id2,force\n1,2,1\n");
+    let Output { status, stderr, .. } =
+        folder.cannonpile("verify falls.csv --stacking hcp --layers 12");
     assert_eq!(status.code(), Some(1));
     let note = String::from_utf8(stderr).expect("text");
     assert!(note.starts_with("note: this pile is unstable"), "{note}");
@@ -287,17 +285,9 @@ fn unstable_pile_is_compared_with_a_note() {
 
 #[test]
 fn report_is_written_to_a_file() {
-    let file = Temporary::new("exact-too.csv", &exact("--layers 3"));
-    let report = Temporary::new("report.json", "");
-    let said = stdout(&format!(
-        "verify {} --layers 3 --format json --output {}",
-        file.path(),
-        report.path()
-    ));
+    let folder = Folder::with("exact-too.csv", exact("--layers 3"));
+    folder.write("report.json", "");
+    let said = folder.stdout("verify exact-too.csv --layers 3 --format json --output report.json");
     assert_eq!(said, "");
-    assert!(
-        fs::read_to_string(&report.path)
-            .expect("written")
-            .starts_with("[\n")
-    );
+    assert!(folder.read("report.json").starts_with("[\n"));
 }
