@@ -142,12 +142,12 @@ mod tests {
         lower + upper
     }
 
-    /// Two items wait for each other, so the test would never end without parallel work.
+    /// Two items wait for each other, which never ends without parallel work.
     #[test]
     fn items_are_worked_on_at_once() {
         use std::sync::Barrier;
         let two = || alloc::vec![1, 2];
-        pool(2).install(|| {
+        let work = move || {
             assert_eq!(threads(), 2);
             let barrier = Barrier::new(2);
             let twice = map(two(), |n| {
@@ -160,7 +160,8 @@ mod tests {
                 Ok::<(), ()>(())
             });
             assert_eq!(waited, Ok(()));
-        });
+        };
+        cannonpile_testkit::processes::within(move || pool(2).install(work));
     }
 
     #[test]
