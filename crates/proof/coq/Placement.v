@@ -1,5 +1,5 @@
 (** Forces as linear forms in the loads. A table has the forces under unit loads, one sphere and one axis at a time. The
-    function [places] accepts it only if it gives the forces under all loads. `.ci/placement.py` applies it to the forces
+    function [places] accepts it only if it gives the forces under all loads. `scripts/placement.py` applies it to the forces
     that `contacts` and `base` print. *)
 
 From Coq Require Import ZArith QArith Setoid Morphisms Lia Lqa Bool List.

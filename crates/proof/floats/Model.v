@@ -1,7 +1,7 @@
 (** The arithmetic of `f64`, as real numbers that are rounded, and the functions of `exact-surd` on it.
 
     Every definition between the marks `begin` and `end` has the tokens of the Rust function that is named there.
-    `.ci/floats` compares them. In these definitions + - * / are rounded operations, as in Rust. *)
+    `crates/proof/check` compares them. In these definitions + - * / are rounded operations, as in Rust. *)
 
 From Coq Require Import ZArith Reals Lra Lia.
 From Flocq Require Import Core.

@@ -1,6 +1,6 @@
 //! Answers questions about exact numbers, one a line, from standard input.
 //!
-//! `.ci/surd.py` asks random and adversarial questions, and compares the answers with another library. By hand:
+//! `peers/surd.py` asks random and adversarial questions, and compares the answers with another library. By hand:
 //!
 //! ```text
 //! $ echo 'round 5/6*sqrt(3) -1/6*sqrt(39)' | cargo run -p exact-surd --example evaluate

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Has Coq check that the engines put every force in its place: placement.py CANNONPILE FOLDER few|all.
+"""Has Coq check that the engines put every force in its place: placement.py CANNONPILE FOLDER few|all JOBS.
 
 FOLDER has the compiled files of `cannonpile prove --to coq`, up to Placement. For each pile, CANNONPILE computes all forces once,
 under loads 1, B, B², …: a power of B = 2^20 for gravity, for each component of its tilt, and for each component of the load
@@ -8,13 +8,13 @@ digits and writes them as a table. Coq must accept the table (`places`), by `vm_
 force, for all loads (`placed`). Coq must refuse changed tables.
 
 `all` takes every stacking of up to six layers under small tops, and of small bases; `few` takes a part of them. The exit status is 1
-if Coq rejects a table, or accepts a changed one. COQ_JOBS is the number of files that Coq checks in parallel.
+if Coq rejects a table, or accepts a changed one. JOBS is the number of files that Coq
+checks in parallel.
 """
 
 import csv
 import itertools
 import math
-import os
 import subprocess
 import sys
 import tempfile
@@ -196,9 +196,9 @@ Open Scope Z_scope.
 
 
 def main():
-    binary, folder, selection = sys.argv[1:4]
+    binary, folder, selection, jobs = sys.argv[1:]
     folder = Path(folder).resolve()
-    with tempfile.TemporaryDirectory() as work, ThreadPoolExecutor(int(os.environ.get("COQ_JOBS", "1"))) as pool:
+    with tempfile.TemporaryDirectory() as work, ThreadPoolExecutor(int(jobs)) as pool:
         work = Path(work)
 
         def accept(text):

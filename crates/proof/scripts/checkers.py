@@ -16,7 +16,7 @@ import tempfile
 from fractions import Fraction
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "crates/horizontal"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "horizontal"))
 sys.dont_write_bytecode = True
 import check_certificate  # noqa: E402
 
