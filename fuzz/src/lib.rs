@@ -13,7 +13,9 @@ mod polynomial;
 
 use arbitrary::Unstructured;
 use cannonpile_testkit::claims;
-use cannonpile_testkit::claims::{Checked, Claim, Failure};
+#[cfg(feature = "all")]
+use cannonpile_testkit::claims::Checked;
+use cannonpile_testkit::claims::{Claim, Failure};
 use libfuzzer_sys::Corpus;
 
 /// For any sin φ, every sphere of a small pile and one sphere of any pile are in exact equilibrium. Other sites are errors.
@@ -46,6 +48,7 @@ pub fn overlap(bytes: &[u8]) -> Corpus {
 }
 
 /// No parser panics, and each reads its own output. A scene, a scene file or a JSON text gives a pile or an error.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn parsers(bytes: &[u8]) -> Corpus {
     // Parsers of the same text share a claim, because the inputs in `seeds` were collected this way.
@@ -137,6 +140,7 @@ pub fn regions(bytes: &[u8]) -> Corpus {
 
 /// The forces of a small pile solve the equations of equilibrium, by every method and in every scalar. Their extremes and
 /// sums agree.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn engine(bytes: &[u8]) -> Corpus {
     holds(
@@ -153,6 +157,7 @@ pub fn engine(bytes: &[u8]) -> Corpus {
 }
 
 /// Tallies of ensembles agree with plain enumeration, parts merge to the whole, and any file is read or rejected.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn ensemble(bytes: &[u8]) -> Corpus {
     holds(
@@ -166,12 +171,14 @@ pub fn ensemble(bytes: &[u8]) -> Corpus {
 }
 
 /// The bounds of a tiny pile with horizontal contacts have certificates, and agree with an exact linear program.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn horizontal(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::horizontal::small_pile])
 }
 
 /// A modified certificate or certificate file is accepted only if its claim is true.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn certificates(bytes: &[u8]) -> Corpus {
     holds(
@@ -181,12 +188,14 @@ pub fn certificates(bytes: &[u8]) -> Corpus {
 }
 
 /// The checker in Python and that of the library give the same verdict.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn python_checker(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::certificates::checkers_agree])
 }
 
 /// The mean over random stackings agrees with the enumeration of all stackings.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn mean(bytes: &[u8]) -> Corpus {
     holds(
@@ -197,6 +206,7 @@ pub fn mean(bytes: &[u8]) -> Corpus {
 
 /// Tables of measured forces are read correctly or rejected. Exact forces are accepted, and a wrong force is found.
 /// Refinement studies have the order of their generator, and their records are read back or rejected.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn measured(bytes: &[u8]) -> Corpus {
     holds(
@@ -215,12 +225,14 @@ pub fn measured(bytes: &[u8]) -> Corpus {
 }
 
 /// Any bytes are read as a table, or rejected.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn bytes(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::measured::any_file])
 }
 
 /// A table of exact forces is read whole in any dialect, and a planted fault is found.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn dialect(bytes: &[u8]) -> Corpus {
     holds(
@@ -230,12 +242,14 @@ pub fn dialect(bytes: &[u8]) -> Corpus {
 }
 
 /// Exact forces are accepted by position, in any frame and any order.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn placed(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::measured::by_place])
 }
 
 /// Contacts in files of VTK are read as written. Any file is read or rejected, and a file without contacts is rejected.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn vtk(bytes: &[u8]) -> Corpus {
     holds(
@@ -249,6 +263,7 @@ pub fn vtk(bytes: &[u8]) -> Corpus {
 }
 
 /// The definitions for Coq have the values of the formulas in rationals.
+#[cfg(feature = "all")]
 #[must_use]
 pub fn recorded(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::recorded::any_values])
@@ -276,6 +291,7 @@ fn kept(outcome: arbitrary::Result<()>) -> Corpus {
 }
 
 /// Checks several claims on the same bytes.
+#[cfg(feature = "all")]
 fn each(u: &mut Unstructured<'_>, claims: &[Claim]) -> Checked {
     let bytes = u.peek_bytes(u.len()).unwrap_or_default();
     claims
