@@ -69,7 +69,7 @@ class Shown:
 
     def at(self, sphere):
         """Returns the position of a sphere in the window."""
-        x, y = self.run(f"cannonpile.project({sphere}, 0)")
+        x, y, *_ = self.run(f"cannonpile.project({sphere}, 0)")
         return self.box[0] + x, self.box[1] + y
 
     def is_ground(self, x, y):
