@@ -1,14 +1,13 @@
 //! A reader that computes the SHA-256 of its input.
 
-use std::fmt::Write;
 use std::io::{self, BufRead, Read};
 
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 /// A reader with the SHA-256 of the bytes read so far.
 pub(crate) struct Hashed<R> {
     input: R,
-    digest: Sha256,
+    digest: Hash,
     bytes: u64,
 }
 
@@ -16,18 +15,15 @@ impl<R: BufRead> Hashed<R> {
     pub(crate) fn new(input: R) -> Self {
         Self {
             input,
-            digest: Sha256::new(),
+            digest: Hash::new(),
             bytes: 0,
         }
     }
 
     /// Returns the number of bytes read, and their hash in hexadecimal digits.
     pub(crate) fn finish(self) -> (u64, String) {
-        let mut digits = String::new();
-        for byte in self.digest.finalize() {
-            // Writing to a `String` never fails.
-            let _ = write!(digits, "{byte:02x}");
-        }
+        let digest = self.digest.finalize();
+        let digits = digest.map(|byte| format!("{byte:02x}")).concat();
         (self.bytes, digits)
     }
 }

@@ -3,9 +3,9 @@
 use core::iter::successors;
 
 use cannonpile::lattice::Sign;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use num_traits::ToPrimitive;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::choice::Samples;
 use crate::Error;
@@ -81,7 +81,7 @@ mod tests {
     /// A generator that returns given words.
     struct Given(Vec<u64>);
 
-    impl rand_chacha::rand_core::TryRng for Given {
+    impl chacha20::rand_core::TryRng for Given {
         type Error = core::convert::Infallible;
 
         fn try_next_u32(&mut self) -> Result<u32, Self::Error> {

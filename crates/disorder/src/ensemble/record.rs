@@ -3,11 +3,11 @@
 use std::io::{self, BufReader, Read, Write};
 
 use cannonpile::data::number;
+use hmac_sha256::Hash;
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use serde::{Deserialize, Serialize};
 use serde_json::Number;
-use sha2::{Digest, Sha256};
 
 use super::{Choice, ContactSet, Ensemble, Shard, Tally, Unmergeable, WithFaults};
 use crate::Error;
@@ -191,10 +191,10 @@ impl TallyRecord {
 
     /// Returns the SHA-256 of the entries, in hexadecimal digits.
     fn digest(&self) -> io::Result<String> {
-        let mut digest = Sha256::new();
-        self.write_entries(&mut digest)?;
-        let bytes = digest.finalize();
-        Ok(format!("{bytes:x}"))
+        let mut entries = Vec::new();
+        self.write_entries(&mut entries)?;
+        let digest = Hash::hash(&entries);
+        Ok(digest.map(|byte| format!("{byte:02x}")).concat())
     }
 
     /// Writes all entries but the digest.

@@ -4,10 +4,10 @@ use cannonpile::lattice::Region;
 use cannonpile_disorder::{
     Choice, Distribution, Ensemble, FirstSign, RandomStackings, Samples, Shard, TallyRecord,
 };
+use hmac_sha256::Hash;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
-use sha2::{Digest, Sha256};
 
 use cannonpile_testkit::answers::ratio;
 
@@ -82,7 +82,9 @@ fn split(text: &str) -> (&str, &str) {
 }
 
 fn with_digest(entries: &str) -> String {
-    let digest = format!("{:x}", Sha256::digest(entries));
+    let digest = Hash::hash(entries.as_ref())
+        .map(|byte| format!("{byte:02x}"))
+        .concat();
     format!("{entries},\n  \"sha256\": \"{digest}\"\n}}\n")
 }
 
