@@ -1,9 +1,5 @@
 //! The spheres of a pile, found by position.
 
-use core::num::NonZero;
-
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
-
 use super::entry::{Force, Place};
 use super::measured::{MAX_ENTRIES, Measured, norm};
 use super::refusal::{Fault, Refusal};
@@ -15,7 +11,7 @@ use cannonpile::engine::refuse_beyond_memory;
 
 /// The centres of all spheres of a pile, in a k-d tree.
 pub(super) struct Places {
-    tree: ImmutableKdTree<f64, 3>,
+    tree: Vec<Numbered>,
     centres: Vec<[f64; 3]>,
     first_on_floor: u64,
     radius: f64,
@@ -37,7 +33,8 @@ pub(super) enum Found {
 /// The memory of a centre, its copy in the tree, and its index there.
 const BYTES_A_SPHERE: usize = size_of::<[f64; 6]>() + size_of::<u64>();
 
-const TWO: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(1);
+/// The centre of a sphere, and the number of the sphere.
+type Numbered = ([f64; 3], u64);
 
 impl Places {
     pub(super) fn new(pile: &NumberedPile<'_>, radius: f64) -> Result<Self, Refusal> {
@@ -47,12 +44,10 @@ impl Places {
             (MAX_ENTRIES, BYTES_A_SPHERE),
             "use fewer layers, or a smaller top or base",
         )?;
-        let mut centres = Vec::new();
-        for centre in pile.centres()? {
-            let (_, centre) = centre?;
-            centres.push(centre);
-        }
-        let tree = ImmutableKdTree::new_from_slice(&centres);
+        let centres = pile.centres()?.map(|centre| Ok(centre?.1));
+        let centres: Vec<[f64; 3]> = centres.collect::<Result<_, Error>>()?;
+        let mut tree: Vec<Numbered> = centres.iter().copied().zip(1..).collect();
+        sort_into_tree(&mut tree, 0);
         Ok(Self {
             tree,
             centres,
@@ -76,7 +71,7 @@ impl Places {
     pub(super) fn nearest(&self, place: &Place, within: f64) -> (Option<Found>, f64) {
         match place {
             Place::Centres([first, second]) => {
-                let [one, other] = [first, second].map(|centre| self.sphere(*centre));
+                let [one, other] = [first, second].map(|centre| self.spheres::<1>(*centre)[0]);
                 let off = one.1.max(other.1);
                 if off <= within {
                     return (Some(Found::Spheres([one.0, other.0])), off);
@@ -91,14 +86,13 @@ impl Places {
                 found.unwrap_or((None, off))
             }
             Place::Point(point) => {
-                let two = self.tree.nearest_n::<SquaredEuclidean>(point, TWO);
                 // The centres are one radius from the contact point.
-                let off = |distance: f64| (distance.sqrt() - self.radius).abs();
-                let [one, other] = two[..] else {
-                    return (None, f64::INFINITY);
-                };
-                let [sphere, second] = [one.item + 1, other.item + 1];
-                let off = off(one.distance).max(off(other.distance));
+                let off = |distance: f64| (distance - self.radius).abs();
+                let [(sphere, one), (second, other)] = self.spheres(*point);
+                if other == f64::INFINITY {
+                    return (None, other);
+                }
+                let off = off(one).max(off(other));
                 if off <= within {
                     let ids = [sphere.min(second), sphere.max(second)];
                     return (Some(Found::Spheres(ids)), off);
@@ -114,10 +108,12 @@ impl Places {
         }
     }
 
-    /// Returns the number of the sphere nearest to a point, and the distance of its centre.
-    fn sphere(&self, point: [f64; 3]) -> (u64, f64) {
-        let nearest = self.tree.nearest_one::<SquaredEuclidean>(&point);
-        (nearest.item + 1, nearest.distance.sqrt())
+    /// Returns the numbers of the `N` spheres nearest to a point, and the distances of their centres. Missing spheres
+    /// have the number 0 and an infinite distance.
+    fn spheres<const N: usize>(&self, point: [f64; 3]) -> [(u64, f64); N] {
+        let mut nearest = [(0, f64::INFINITY); N];
+        search(&self.tree, 0, point, &mut nearest);
+        nearest.map(|(sphere, square)| (sphere, square.sqrt()))
     }
 
     /// Returns the distance of a point from the vertical line between two depths below the centre of a bottom sphere.
@@ -127,6 +123,45 @@ impl Places {
         }
         let [x, y, depth] = minus(self.centre(sphere).ok()?, point);
         Some(norm([x, y, depth - depth.max(least).min(most)]))
+    }
+}
+
+/// Sorts centres into a k-d tree: the median along `axis` is in the middle, and each half is a tree along the next axis.
+fn sort_into_tree(centres: &mut [Numbered], axis: usize) {
+    let middle = centres.len() / 2;
+    if middle == 0 {
+        return;
+    }
+    let (below, _, above) =
+        centres.select_nth_unstable_by(middle, |(a, _), (b, _)| a[axis].total_cmp(&b[axis]));
+    sort_into_tree(below, (axis + 1) % 3);
+    sort_into_tree(above, (axis + 1) % 3);
+}
+
+/// Inserts the spheres of a k-d tree into a list of the nearest ones, with the squares of their distances.
+fn search(tree: &[Numbered], axis: usize, point: [f64; 3], nearest: &mut [(u64, f64)]) {
+    let (below, rest) = tree.split_at(tree.len() / 2);
+    let Some(((centre, sphere), above)) = rest.split_first() else {
+        return;
+    };
+    let off = minus(point, *centre);
+    let square = dot(off, off);
+    if let Some(place) = nearest.iter().position(|(_, best)| square < *best) {
+        nearest[place..].rotate_right(1);
+        nearest[place] = (*sphere, square);
+    }
+    let (near, far) = if off[axis] < 0.0 {
+        (below, above)
+    } else {
+        (above, below)
+    };
+    search(near, (axis + 1) % 3, point, nearest);
+    // A sphere beyond the dividing plane is at least as far as the plane.
+    if nearest
+        .last()
+        .is_some_and(|(_, worst)| off[axis] * off[axis] < *worst)
+    {
+        search(far, (axis + 1) % 3, point, nearest);
     }
 }
 
