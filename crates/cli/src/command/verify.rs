@@ -38,7 +38,7 @@ Findings explain the differences: a constant factor, swapped axes, a missing lay
 the scene, the SHA-256 of the file and the version of this program.
 
 The kind of FILE is known by its content: a text table, a LAMMPS dump local file, a VTK file (.vtp, .vtu, .vtk), or a file of
-ParaView that names such files (.pvtp, .pvtu, .vtm, .pvd). It may be compressed by gzip or zstd. Of a text table the first
+ParaView that names such files (.pvtp, .pvtu, .vtm, .pvd). It may be compressed by gzip. Of a text table the first
 lines decide the dialect: separator, quotes, comments, decimal sign, header, row of units. The report shows it, and the
 options under Table override it. Only the columns that are needed are read.
 

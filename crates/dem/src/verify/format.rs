@@ -15,6 +15,7 @@ mod cut;
 mod detect;
 mod dialect;
 pub(super) mod dump;
+mod encoding;
 mod header;
 mod lines;
 mod number;

@@ -33,10 +33,11 @@ pub enum FileKind {
 
 const AS_CSV: &str = "save the table as CSV";
 const NO_TABLE: &str = "give the table of contacts itself";
-const DECOMPRESSED: &str = "decompress it, or compress it with gzip or zstd";
+const BY_ZSTD: &str = "decompress it with 'zstd -d', or compress it with gzip";
+const DECOMPRESSED: &str = "decompress it, or compress it with gzip";
 
 /// The first bytes of files that are not read.
-const OTHERS: [(&[u8], &str, &str); 15] = [
+const OTHERS: [(&[u8], &str, &str); 16] = [
     (
         b"PK\x03\x04",
         "a spreadsheet or another ZIP archive",
@@ -57,6 +58,7 @@ const OTHERS: [(&[u8], &str, &str); 15] = [
     (b"SQLite format 3", "a database of SQLite", AS_CSV),
     (b"BZh", "compressed by bzip2", DECOMPRESSED),
     (b"\xfd7zXZ", "compressed by xz", DECOMPRESSED),
+    (b"(\xb5/\xfd", "compressed by zstd", BY_ZSTD),
     (b"7z\xbc\xaf", "a 7z archive", DECOMPRESSED),
     (b"\x04\x22\x4d\x18", "compressed by lz4", DECOMPRESSED),
     (b"\x1f\x9d", "compressed by compress", DECOMPRESSED),
@@ -136,6 +138,7 @@ mod tests {
                 "a spreadsheet or another ZIP archive",
             ),
             (b"\x00\x01\x02", "a binary file"),
+            (b"(\xb5/\xfd\x04X", "compressed by zstd"),
             (b"  {\"a\": 1}", "JSON"),
             (b"[\n {\"a\": 1}]", "JSON"),
             (b"{\\rtf1", "a document of a word processor"),

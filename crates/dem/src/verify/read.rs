@@ -344,7 +344,7 @@ impl Reader {
     }
 
     /// Reads a file, and compares it with the exact forces of a packing. The first bytes determine its
-    /// [kind](FileKind). It may be compressed by gzip or zstd.
+    /// [kind](FileKind). It may be compressed by gzip.
     ///
     /// A text table may have cells between commas, semicolons, tabs, blanks or vertical bars, quotes, comments, lines
     /// above and below it, a row of units, and decimal commas: its [`Dialect`]. Columns that are not needed may hold

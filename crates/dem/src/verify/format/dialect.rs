@@ -3,9 +3,8 @@
 use core::fmt;
 use core::str::FromStr;
 
-use encoding_rs::Encoding;
-
 use super::cut::cut;
+use super::encoding::Encoding;
 use crate::Error;
 
 /// The separator between the cells of a line.
@@ -64,7 +63,7 @@ impl fmt::Display for Separator {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DialectOptions {
-    /// The encoding, by its name of the web, such as `utf-16le` or `shift_jis`.
+    /// The encoding. A text that is not in UTF-8 is converted in memory.
     pub encoding: Option<TextEncoding>,
     /// The separator of cells.
     pub separator: Option<Separator>,
@@ -124,7 +123,10 @@ impl<T: FromStr> FromStr for Mark<T> {
     }
 }
 
-/// The encoding of a text.
+/// The readable encodings, and the remedy for all others.
+const READABLE: &str = "utf-8, utf-16le, utf-16be or windows-1252 (iconv converts a file to utf-8)";
+
+/// The encoding of a text: UTF-8, UTF-16 or Windows-1252, which contains Latin-1.
 ///
 /// # Examples
 /// ```
@@ -135,7 +137,7 @@ impl<T: FromStr> FromStr for Mark<T> {
 /// # Ok::<(), cannonpile_dem::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TextEncoding(&'static Encoding);
+pub struct TextEncoding(Encoding);
 
 impl TextEncoding {
     /// Returns the name of the encoding.
@@ -149,10 +151,15 @@ impl TextEncoding {
     /// ```
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.0.name()
+        match self.0 {
+            Encoding::Utf8 => "UTF-8",
+            Encoding::Utf16Le => "UTF-16LE",
+            Encoding::Utf16Be => "UTF-16BE",
+            Encoding::Windows1252 => "windows-1252",
+        }
     }
 
-    pub(in crate::verify) fn get(self) -> &'static Encoding {
+    pub(in crate::verify) fn get(self) -> Encoding {
         self.0
     }
 }
@@ -161,10 +168,13 @@ impl FromStr for TextEncoding {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let found = Encoding::for_label(text.as_bytes()).map(Self);
-        found.ok_or_else(|| {
-            Error::syntax(text, "an encoding such as utf-8, utf-16le or windows-1252")
-        })
+        Ok(Self(match text.to_ascii_lowercase().as_str() {
+            "utf-8" | "utf8" => Encoding::Utf8,
+            "utf-16" | "utf-16le" => Encoding::Utf16Le,
+            "utf-16be" => Encoding::Utf16Be,
+            "windows-1252" | "cp1252" | "iso-8859-1" | "latin1" | "ascii" => Encoding::Windows1252,
+            _ => return Err(Error::syntax(text, READABLE)),
+        }))
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::io::BufRead;
 
-use encoding_rs::WINDOWS_1252;
 use memchr::memchr2;
 
+use super::encoding::windows_1252;
 use crate::verify::refusal::{Fault, Refusal};
 
 /// The maximum length of a line, in bytes.
@@ -66,8 +66,7 @@ impl<R: BufRead> Lines<R> {
         let text = if let Ok(text) = core::str::from_utf8(&self.bytes) {
             text
         } else {
-            let (text, _) = WINDOWS_1252.decode_without_bom_handling(&self.bytes);
-            self.decoded = text.into_owned();
+            self.decoded = windows_1252(&self.bytes);
             &self.decoded
         };
         let text = match text.strip_prefix(BYTE_ORDER_MARK) {
