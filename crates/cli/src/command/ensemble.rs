@@ -151,7 +151,7 @@ impl RunEnsemble {
         let tally = {
             // Fails here if there are too many stackings, before the progress line appears.
             let part = ensemble.size(&choice, self.shard)?;
-            let progress = Progress::of_stackings("analysing stackings", part);
+            let progress = Progress::of_rows("analysing stackings", Some(part));
             ensemble.run_judged(&choice, self.shard, &|more| progress.advance(more), &stands)?
         };
         let record = TallyRecord::new(tally, q.clone()).map_err(of_option("fault-probability"))?;

@@ -346,12 +346,12 @@ impl Export {
         let there = path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         let there = there.ancestors().find(|folder| folder.exists());
         // If the free space is unknown, a full disk is reported while writing.
-        let room = there.and_then(|folder| fs4::available_space(folder).ok());
+        let room = there.and_then(free_space);
         if let Some(room) = room.filter(|room| *room < bytes) {
             return Err(Failure::Message(format!(
-                "{folder} needs about {gigabytes} GB, but its disk has only {} free: use another disk, fewer formats or \
+                "{folder} needs about {gigabytes} GB, but its disk has only {} MB free: use another disk, fewer formats or \
                  fewer layers",
-                indicatif::DecimalBytes(room)
+                room / 1_000_000
             )));
         }
         print_message(&format!(
@@ -359,6 +359,18 @@ impl Export {
         ));
         Ok(())
     }
+}
+
+/// Returns the free space of the disk of a folder, in bytes, where the system tells it.
+#[cfg(unix)]
+fn free_space(folder: &Path) -> Option<u64> {
+    let disk = rustix::fs::statvfs(folder).ok()?;
+    disk.f_bavail.checked_mul(disk.f_frsize)
+}
+
+#[cfg(not(unix))]
+fn free_space(_: &Path) -> Option<u64> {
+    None
 }
 
 /// Checks that an exported file can contain the stress.
