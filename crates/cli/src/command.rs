@@ -9,7 +9,6 @@ pub(crate) mod ensemble;
 pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod forces;
-pub(crate) mod man;
 pub(crate) mod mean;
 pub(crate) mod plot;
 pub(crate) mod prove;

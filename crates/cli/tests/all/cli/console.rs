@@ -51,7 +51,7 @@ console! {
     ensemble: 56;
     explain: 12;
     export: 51;
-    help: 19;
+    help: 18;
     mean: 49;
     merge: 18;
     plot: 44;
