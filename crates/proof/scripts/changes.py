@@ -119,8 +119,9 @@ def changed(text, found, patterns, equivalent):
         for m in what.finditer(text, start, end)
         if m.start() not in ends and not any(m.start() in part for part in skipped)
     )
-    # The definition is only a parameter.
-    places = places or [(end - 1, end - 1, " + 1")]
+    if patterns is FORMULAS and not places:
+        # The definition is only a parameter.
+        places = [(end - 1, end - 1, " + 1")]
     line = lambda at: text[text.rindex("\n", 0, at) + 1 : text.index("\n", at)].strip()
     return [(text[:a] + new + text[b:], f"{found['name']}: {line(a)} [{text[a:b].strip()} -> {new.strip()}]") for a, b, new in places]
 
