@@ -1,6 +1,6 @@
 //! Numbers that are hard to round, with floats of an independent implementation.
 //!
-//! `hard_cases.txt` lists each number as printed, and the bits of its `f64` and `f32`. `.ci/surd_cases.py` computed the floats
+//! `hard_cases.txt` lists each number as printed, and the bits of its `f64` and `f32`. `peers/surd.py` recomputes the floats
 //! with python-flint. Other implementations may read the file too.
 
 use exact_surd::num_bigint::Sign;
@@ -101,7 +101,7 @@ fn hard_cases_round_correctly() {
     assert!(surds > 250 && sums > 60, "{surds} surds and {sums} sums");
 }
 
-/// The number lies between both neighbours of its float. Only `.ci/surd_cases.py` finds a wrong last digit of a long number.
+/// The number lies between both neighbours of its float. Only `peers/surd.py` finds a wrong last digit of a long number.
 #[test]
 fn hard_cases_compare_with_their_floats() {
     for Case { number, double, .. } in cases() {

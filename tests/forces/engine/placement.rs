@@ -4,8 +4,8 @@
 //! coefficient. Gravity is the load 1, and the components of its tilt are B and B². One run of an exact engine then shows
 //! all coefficients. In scalars of a fixed width, one load at a time is applied, and the results are whole numbers.
 //!
-//! `.ci/placement.py` applies the same loads on the command line, which calls [`Forces::contacts`] and [`Forces::base`]. Coq
-//! checks these digits, for all loads. Here the other engines are compared with these calls.
+//! `crates/proof/scripts/placement.py` applies the same loads on the command line, which calls [`Forces::contacts`] and
+//! [`Forces::base`]. Coq checks these digits, for all loads. Here the other engines are compared with these calls.
 
 use cannonpile::lattice::{Direction, Sign, Site};
 use cannonpile::scalar::{Algebra, DoubleDouble, FixedRational, Polynomial, Ring, Symbol};

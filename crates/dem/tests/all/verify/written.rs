@@ -1,5 +1,5 @@
 //! Tables of contacts as DEM codes wrote them themselves, at rest: three layers at a = 6/5 R, with linear springs of
-//! 10⁷ mg/R and without friction. `examples/peers/README.md` has the commands; `.ci/peers` runs them.
+//! 10⁷ mg/R and without friction. `examples/peers/README.md` has the commands; `peers/run` runs them.
 
 use cannonpile::Pile;
 use cannonpile_dem::verify::{Comparison, Preset, Reader};
