@@ -44,11 +44,9 @@
 //! assert_eq!(pile.standing()?.least.unwrap().force.to_string(), "2/9");
 //! # Ok::<(), cannonpile::Error>(())
 //! ```
-//! Forces in newtons and positions in metres contain square roots. They are exact too: a [`Packing`] returns them as
-//! numbers c·√n ([`scalar::Surd`]), which convert to correctly rounded floats.
+//! Forces in newtons and positions in metres are exact too: a [`Packing`] returns numbers c·√n ([`scalar::Surd`]).
 //!
 //! # What to call
-//!
 //! | I want | call |
 //! |---|---|
 //! | one contact force, in any scalar, in multiples of f₀ | [`pile.forces::<T>()`](Pile::forces)[`.contact(site, direction)`](Forces::contact) |
@@ -91,13 +89,12 @@
 //! The crate needs Rust 1.88 or later. The types of `num-bigint` 0.4 and `num-rational` 0.4 are part of its public API,
 //! which re-exports the crates as [`num_bigint`] and [`num_rational`].
 //!
-//! The [`Plan`] of each query names its method. Two piles that compare equal give the same results.
-//!
 //! # Map
 //! A module may use only the modules above it in the following table. A test reads the `use` lines and this table.
 //!
 //! | layer | module | contents |
 //! |---|---|---|
+//! | arrays | `each`, `sorted` | arrays of two and three; a map in one sorted vector |
 //! | numbers | [`scalar`] | the number traits, the scalars, the law suite; surds c·√n |
 //! | positions | [`lattice`] | sites, directions, the Hägg sign, six-sided regions, counts along lines |
 //! | | [`stacking`] | sequences of Hägg signs as runs, in four notations |

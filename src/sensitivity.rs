@@ -214,13 +214,13 @@ impl<'p, T: Field> Network<'p, T> {
                 let support = self.support(*site, *direction)?;
                 let along = self.along(site.k, *direction);
                 let longer = elongation::<T>(grown, [*site, support]);
-                // The bottom spheres do not move.
                 let of = |site: &Site| {
                     let moved = self
                         .forces
                         .place(site)
                         .ok()
                         .map(|place| moved[place].clone());
+                    // The bottom spheres do not move.
                     moved.unwrap_or_else(Vector::zero)
                 };
                 let turned = of(site) - &of(&support) - &along.scaled(&longer);

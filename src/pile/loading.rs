@@ -216,6 +216,7 @@ impl Loading {
         &self,
     ) -> impl Iterator<Item = (Site, Load, Option<&[BigRational; 3]>)> + '_ {
         self.spheres.iter().filter_map(|(site, sphere)| {
+            // A sphere without a load has none.
             let mut extra = sphere.load.clone().unwrap_or_default();
             if let (Some(weight), false) = (&sphere.weight, self.weightless) {
                 extra = self.gravity_on(weight - self.ordinary_weight()) + &extra;
