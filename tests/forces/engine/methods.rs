@@ -441,6 +441,10 @@ fn a_sweep_replaces_a_tree_that_is_too_large_for_one_sphere() {
     // Each exact value takes the words of its `BigInt` and of its digits.
     let words = plan.planes + size_of::<BigInt>().div_ceil(8);
     assert_eq!(plan.bytes, &plan.numbers * words * 8_u32);
+    // Release builds run the sweep too. It takes debug builds eight seconds.
+    if cfg!(debug_assertions) {
+        return;
+    }
     let counters = Counters::default();
     let forces = pile.forces::<f64>().with_counters(&counters);
     let three = all(forces.contacts(Selection::One(site)).unwrap()).unwrap();

@@ -98,6 +98,10 @@ fn a_sweep_replaces_a_tree_that_is_too_large() {
     let by_tree = forces.clone().with_method(Method::Tree).unwrap();
     let refused = by_tree.contact(middle, Direction::Alpha);
     assert!(matches!(refused, Err(Error::TooLarge { .. })));
+    // Release builds run the sweep too, twice. It takes debug builds ten seconds.
+    if cfg!(debug_assertions) {
+        return;
+    }
     let one = forces.contact(middle, Direction::Alpha).unwrap();
     let mut contacts = forces
         .contacts(Selection::Layer(398))

@@ -37,8 +37,8 @@ fn every_stacking_on_bases_with_sides_up_to_5() {
 
 #[test]
 fn every_stacking_on_bases_with_a_side_of_6() {
-    // Release builds compare all stackings. Debug builds compare every seventh, because checked arithmetic is slow.
-    agree_on(6..=6, if cfg!(debug_assertions) { 7 } else { 1 });
+    // Release builds compare all stackings. Debug builds compare one in 29, because checked arithmetic is slow.
+    agree_on(6..=6, if cfg!(debug_assertions) { 29 } else { 1 });
 }
 
 #[test]
