@@ -15,6 +15,7 @@ pub trait Each<T> {
 impl<T> Each<T> for [T; 2] {
     type Of<U> = [U; 2];
 
+    #[inline]
     fn each<U>(self, mut f: impl FnMut(T) -> U) -> [U; 2] {
         let [a, b] = self;
         [f(a), f(b)]
@@ -24,6 +25,7 @@ impl<T> Each<T> for [T; 2] {
 impl<T> Each<T> for [T; 3] {
     type Of<U> = [U; 3];
 
+    #[inline]
     fn each<U>(self, mut f: impl FnMut(T) -> U) -> [U; 3] {
         let [a, b, c] = self;
         [f(a), f(b), f(c)]
