@@ -52,6 +52,7 @@ pub fn half_turn<T: Algebra>(g: &[T::Numerator; 3]) -> [T::Numerator; 3] {
 ///
 /// assert_eq!(tripled_half_turn(&[3_i64, 0, 0]), [-3, 6, 6]);
 /// ```
+#[inline]
 #[must_use]
 pub fn tripled_half_turn<T>(g: &[T; 3]) -> [T; 3]
 where
