@@ -258,13 +258,10 @@ impl<'p> Solver<'p> {
                 unknowns = unknowns.map(|unknowns| orbits.unknowns(&unknowns));
                 multipliers = multipliers.map(|multipliers| orbits.multipliers(&multipliers));
             }
-            let horizontal = unknowns.map(|unknowns| {
-                let forces = network.horizontal(&unknowns);
-                forces.map(|(contact, x)| (contact, x * &scale)).collect()
-            });
+            let horizontal = unknowns.map(|unknowns| network.horizontal(&unknowns, &scale));
             let field = multipliers.map(|multipliers| {
                 let multipliers: Vec<_> = multipliers.into_iter().map(|y| y * &sign).collect();
-                network.field(&multipliers).collect()
+                network.field(&multipliers)
             });
             match (horizontal, field) {
                 (Some(horizontal), Some(field)) => {
@@ -349,14 +346,16 @@ impl<'p> Solver<'p> {
 fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational; 3]> {
     let directions = network.pile.dimension().directions().len();
     let one = |l: usize| BigRational::from_integer(i32::from(l < directions).into());
-    match end {
-        End::Least => BTreeMap::new(),
-        End::Greatest => network
-            .spheres
-            .iter()
-            .map(|site| (*site, [one(0), one(1), one(2)]))
-            .collect(),
+    let mut field = BTreeMap::new();
+    if let End::Greatest = end {
+        field.extend(
+            network
+                .spheres
+                .iter()
+                .map(|site| (*site, [one(0), one(1), one(2)])),
+        );
     }
+    field
 }
 
 #[cfg(test)]

@@ -1,10 +1,12 @@
 //! The elastic state: equilibrium of linear unilateral springs in the rigid limit.
 
+use std::collections::BTreeMap;
+
 use cannonpile::Pile;
 use cannonpile::engine::{bug, check_interrupt};
 use cannonpile::lattice::{Dimension, Site, count};
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::certificate::{Certificate, Claim};
 use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
@@ -12,7 +14,7 @@ use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::springs::{Springs, State};
 use crate::stand::cannot_stand;
 use crate::straight::factor_of;
-use crate::{Error, formula};
+use crate::{Each, Error, formula};
 
 /// The elastic state of a pile at a = R, from [`elastic`].
 ///
@@ -172,27 +174,27 @@ fn certified(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, 
 fn of_straight(pile: &Pile, stiffness_ratio: &BigRational) -> Certificate {
     let directions = pile.dimension().directions();
     let (floor, sigma) = (pile.layers() - 1, factor_of(pile));
-    let sites = pile.shape().sites().take_while(|site| site.k < floor);
-    let field = sites.map(|site| {
+    let mut field = BTreeMap::new();
+    for site in pile.shape().sites().take_while(|site| site.k < floor) {
         let Site { i, j, k } = site;
         let height = BigRational::from_integer((floor - k).into());
-        let mut field = [(); 3].map(|()| BigRational::zero());
+        let mut along = [(); 3].each(|()| BigRational::zero());
         for (direction, n) in directions
             .iter()
             .zip(count::above(&(sigma * i), &(sigma * j), &k))
         {
             let n = BigRational::from_integer(n.into());
-            field[direction.index()] = formula::elastic_field(&n, &height);
+            along[direction.index()] = formula::elastic_field(&n, &height);
         }
-        (site, field)
-    });
+        field.insert(site, along);
+    }
     Certificate {
         pile: pile.clone(),
         claim: Claim::Elastic {
             stiffness_ratio: stiffness_ratio.clone(),
         },
-        horizontal: [].into(),
-        field: field.collect(),
+        horizontal: BTreeMap::new(),
+        field,
     }
 }
 
@@ -256,13 +258,14 @@ fn with_light_spheres(weights: &[BigRational]) -> Option<Vec<BigRational>> {
 
 /// Returns the certificate of an elastic state.
 fn certificate(springs: &Springs<'_>, state: &State) -> Certificate {
+    let network = &springs.network;
     Certificate {
-        pile: springs.network.pile.clone(),
+        pile: network.pile.clone(),
         claim: Claim::Elastic {
             stiffness_ratio: springs.stiffness_ratio.clone(),
         },
-        horizontal: springs.network.horizontal(&state.forces).collect(),
-        field: springs.network.field(&state.field).collect(),
+        horizontal: network.horizontal(&state.forces, &BigRational::one()),
+        field: network.field(&state.field),
     }
 }
 

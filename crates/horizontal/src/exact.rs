@@ -4,9 +4,10 @@
 //! rounded to fractions with growing denominators, and x follows exactly: first (0, 1), then (1/3, 2/3). The first
 //! solution that the caller accepts is returned.
 
+use core::cmp::Reverse;
 use core::mem;
 use core::num::NonZeroI64;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BinaryHeap;
 
 use cannonpile::engine::check_interrupt;
 use cannonpile::scalar::{Algebra, Field, FixedRational};
@@ -18,8 +19,11 @@ use crate::ONE;
 /// The limits for the denominators of rounded unknowns, tried in this order.
 const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
 
+/// The numbers that are not zero, with their indices, in ascending order of the indices.
+pub(crate) type Sparse<T = BigRational> = Vec<(usize, T)>;
+
 /// A linear equation: coefficients by unknown, and the right-hand side.
-pub(crate) type Equation<T = BigRational> = (BTreeMap<usize, T>, T);
+pub(crate) type Equation<T = BigRational> = (Sparse<T>, T);
 
 /// Equations in triangular form. Each one determines its pivot from unknowns with later pivots and free unknowns.
 struct Triangular<T>(Vec<(usize, Equation<T>)>);
@@ -45,7 +49,7 @@ enum Failure {
 pub(crate) fn near(
     equations: Vec<Equation>,
     guess: &[f64],
-    accepted: impl Fn(&[BigRational]) -> bool,
+    accepted: &dyn Fn(&[BigRational]) -> bool,
 ) -> Option<Vec<BigRational>> {
     let in_words = match Triangular::of(equations.iter().map(in_words).collect()) {
         Ok(triangular) => Some(triangular),
@@ -93,80 +97,90 @@ pub(crate) fn null_space(mut equations: Vec<Equation>) -> Option<Vec<Vec<BigRati
 
 /// Returns the equation in machine words. Values that do not fit become undefined.
 fn in_words((coefficients, sum): &Equation) -> Equation<FixedRational<i64>> {
-    let coefficients = coefficients
-        .iter()
-        .map(|(unknown, coefficient)| (*unknown, FixedRational::from_rational(coefficient)));
-    (coefficients.collect(), FixedRational::from_rational(sum))
+    let mut in_words = Vec::with_capacity(coefficients.len());
+    for (unknown, coefficient) in coefficients {
+        in_words.push((*unknown, FixedRational::from_rational(coefficient)));
+    }
+    (in_words, FixedRational::from_rational(sum))
 }
 
 impl<T: Field> Triangular<T> {
     /// Eliminates with the Markowitz rule: it takes the shortest equation, and as its pivot the unknown that occurs in
     /// the fewest other equations.
     fn of(mut equations: Vec<Equation<T>>) -> Result<Self, Failure> {
-        let mut with: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        // The equations with each unknown, in any order.
+        let mut with: Vec<Vec<usize>> = Vec::new();
+        let mut queue = BinaryHeap::with_capacity(equations.len());
         for (number, (coefficients, sum)) in equations.iter().enumerate() {
-            if !coefficients.values().chain([sum]).all(T::is_defined) {
+            let mut numbers = coefficients.iter().map(|(_, c)| c).chain([sum]);
+            if !numbers.all(T::is_defined) {
                 return Err(Failure::Overflow);
             }
-            for unknown in coefficients.keys() {
-                with.entry(*unknown).or_default().insert(number);
+            for (unknown, _) in coefficients {
+                with.resize(with.len().max(unknown + 1), Vec::new());
+                with[*unknown].push(number);
             }
+            queue.push(Reverse((coefficients.len(), number)));
         }
-        let lengths = equations.iter().map(|(coefficients, _)| coefficients.len());
-        let mut queue: BTreeSet<(usize, usize)> = lengths.zip(0..).collect();
+        let mut is_left = vec![true; equations.len()];
         let mut solved = Vec::new();
-        while let Some((_, number)) = queue.pop_first() {
-            check_interrupt().map_err(|_| Failure::Interrupted)?;
-            let (coefficients, sum) = mem::replace(&mut equations[number], none());
-            for unknown in coefficients.keys() {
-                with.entry(*unknown).or_default().remove(&number);
+        while let Some(Reverse((length, number))) = queue.pop() {
+            // An equation is in the queue once for each length that it had.
+            if !is_left[number] || equations[number].0.len() != length {
+                continue;
             }
-            let Some(pivot) = coefficients
-                .keys()
-                .copied()
-                .min_by_key(|unknown| with[unknown].len())
-            else {
+            check_interrupt().map_err(|_| Failure::Interrupted)?;
+            is_left[number] = false;
+            let (coefficients, sum) = mem::replace(&mut equations[number], (Vec::new(), T::zero()));
+            for (unknown, _) in &coefficients {
+                remove(&mut with[*unknown], number);
+            }
+            let rarest = coefficients.iter().min_by_key(|(u, _)| with[*u].len());
+            let Some((pivot, of_pivot)) = rarest else {
                 if sum.is_zero() {
                     continue;
                 }
                 return Err(Failure::Contradiction);
             };
-            for other in mem::take(with.entry(pivot).or_default()) {
+            for other in mem::take(&mut with[*pivot]) {
                 let (coefficients_of_other, sum_of_other) = &mut equations[other];
-                queue.remove(&(coefficients_of_other.len(), other));
-                let of_pivot = coefficients_of_other.remove(&pivot);
-                let factor = of_pivot.and_then(|c| c.checked_div(&coefficients[&pivot]));
+                let entry = place(coefficients_of_other, *pivot).ok();
+                let entry = entry.map(|entry| &coefficients_of_other[entry].1);
+                let factor = entry.and_then(|entry| entry.clone().checked_div(of_pivot));
                 let factor = factor.ok_or(Failure::Overflow)?;
-                let rest = coefficients
-                    .iter()
-                    .filter(|(unknown, _)| **unknown != pivot);
-                for (unknown, coefficient) in rest {
-                    let entry = coefficients_of_other
-                        .entry(*unknown)
-                        .or_insert_with(T::zero);
-                    subtract(entry, &(coefficient.clone() * &factor))?;
-                    let with = with.entry(*unknown).or_default();
-                    if entry.is_zero() {
-                        coefficients_of_other.remove(unknown);
-                        with.remove(&other);
-                    } else {
-                        with.insert(other);
+                let mut is_defined = true;
+                merge(coefficients_of_other, &coefficients, |unknown, entry, c| {
+                    if unknown == *pivot {
+                        return None;
                     }
+                    let was_zero = entry.is_none();
+                    let entry = entry.unwrap_or_else(T::zero) - &(c.clone() * &factor);
+                    is_defined &= entry.is_defined();
+                    match (was_zero, entry.is_zero()) {
+                        (true, false) => with[unknown].push(other),
+                        (false, true) => remove(&mut with[unknown], other),
+                        _ => {}
+                    }
+                    Some(entry).filter(|entry| !entry.is_zero())
+                });
+                *sum_of_other = mem::replace(sum_of_other, T::zero()) - &(sum.clone() * &factor);
+                if !(is_defined && sum_of_other.is_defined()) {
+                    return Err(Failure::Overflow);
                 }
-                subtract(sum_of_other, &(sum.clone() * &factor))?;
-                queue.insert((coefficients_of_other.len(), other));
+                queue.push(Reverse((coefficients_of_other.len(), other)));
             }
-            solved.push((pivot, (coefficients, sum)));
+            solved.push((*pivot, (coefficients, sum)));
         }
         Ok(Self(solved))
     }
 
     /// Returns the free unknowns among `unknowns` unknowns.
     fn free(&self, unknowns: usize) -> Vec<usize> {
-        let given: BTreeSet<usize> = self.0.iter().map(|(pivot, _)| *pivot).collect();
-        (0..unknowns)
-            .filter(|unknown| !given.contains(unknown))
-            .collect()
+        let mut is_free = vec![true; unknowns];
+        for (pivot, _) in &self.0 {
+            is_free[*pivot] = false;
+        }
+        (0..unknowns).filter(|unknown| is_free[*unknown]).collect()
     }
 
     /// Returns the solution for given values of the free unknowns, as numerators and denominators. `None` on
@@ -176,25 +190,49 @@ impl<T: Field> Triangular<T> {
         let mut solution: Vec<T> = free.iter().map(fraction).collect();
         for (pivot, (coefficients, sum)) in self.0.iter().rev() {
             check_interrupt().ok()?;
-            let others = coefficients.iter().filter(|(unknown, _)| *unknown != pivot);
-            let rest = others.fold(sum.clone(), |rest, (unknown, coefficient)| {
-                rest - &(coefficient.clone() * &solution[*unknown])
-            });
-            solution[*pivot] = rest.checked_div(&coefficients[pivot])?;
+            let (mut rest, mut of_pivot) = (sum.clone(), None);
+            for (unknown, coefficient) in coefficients {
+                if unknown == pivot {
+                    of_pivot = Some(coefficient);
+                } else {
+                    rest = rest - &(coefficient.clone() * &solution[*unknown]);
+                }
+            }
+            solution[*pivot] = rest.checked_div(of_pivot?)?;
         }
         Some(solution)
     }
 }
 
-/// Returns the equation 0 = 0.
-fn none<T: Field>() -> Equation<T> {
-    (BTreeMap::new(), T::zero())
+/// Returns the position of the number at an index, or the position at which to insert it.
+pub(crate) fn place<T>(numbers: &Sparse<T>, index: usize) -> Result<usize, usize> {
+    numbers.binary_search_by_key(&index, |(index, _)| *index)
 }
 
-fn subtract<T: Field>(from: &mut T, number: &T) -> Result<(), Failure> {
-    let difference = mem::replace(from, T::zero()) - number;
-    *from = difference;
-    from.is_defined().then_some(()).ok_or(Failure::Overflow)
+/// Replaces the number at each index of `from` by what `combine` returns for the index, this number, and that of `from`.
+pub(crate) fn merge<T>(
+    to: &mut Sparse<T>,
+    from: &Sparse<T>,
+    mut combine: impl FnMut(usize, Option<T>, &T) -> Option<T>,
+) {
+    let merged = Vec::with_capacity(to.len() + from.len());
+    let mut before = mem::replace(to, merged).into_iter().peekable();
+    for (index, number) in from {
+        while let Some(entry) = before.next_if(|(at, _)| at < index) {
+            to.push(entry);
+        }
+        let here = before.next_if(|(at, _)| at == index);
+        let combined = combine(*index, here.map(|(_, number)| number), number);
+        to.extend(combined.map(|number| (*index, number)));
+    }
+    to.extend(before);
+}
+
+/// Removes a number from a list that contains it once.
+fn remove(list: &mut Vec<usize>, number: usize) {
+    if let Some(place) = list.iter().position(|other| *other == number) {
+        list.swap_remove(place);
+    }
 }
 
 /// Returns numerator and denominator of a convergent of the continued fraction of a float.
@@ -294,19 +332,19 @@ mod tests {
             equations.push(equation(&[(3, great)], 1));
             equations
         };
-        let solution = near(chain(), &[0.0; 4], |_| true).unwrap();
+        let solution = near(chain(), &[0.0; 4], &|_| true).unwrap();
         let power = |exponent: u32| {
             BigRational::from_integer(num_bigint::BigInt::from(great).pow(exponent))
         };
         assert_eq!(solution, [power(2), power(1), power(0), power(1).recip()]);
         let mut contradiction = chain();
         contradiction.push((
-            [(0, power(0))].into(),
+            vec![(0, power(0))],
             power(2) + BigRational::from_integer(1.into()),
         ));
-        assert_eq!(near(contradiction, &[0.0; 4], |_| true), None);
-        let beyond = vec![(<_>::from([(0, power(3))]), power(4))];
-        assert_eq!(near(beyond, &[0.0], |_| true).unwrap(), [power(1)]);
+        assert_eq!(near(contradiction, &[0.0; 4], &|_| true), None);
+        let beyond = vec![(vec![(0, power(3))], power(4))];
+        assert_eq!(near(beyond, &[0.0], &|_| true).unwrap(), [power(1)]);
     }
 
     #[test]
@@ -319,7 +357,7 @@ mod tests {
             ]
         };
         let guess = [1.4, 0.07, 0.8];
-        let solution = near(equations(), &guess, |_| true).unwrap();
+        let solution = near(equations(), &guess, &|_| true).unwrap();
         for (coefficients, sum) in equations() {
             let total: BigRational = coefficients
                 .iter()
@@ -329,6 +367,6 @@ mod tests {
         }
         let mut contradiction = equations();
         contradiction.push(equation(&[(0, 4), (1, 5), (2, -1)], 8));
-        assert_eq!(near(contradiction, &guess, |_| true), None);
+        assert_eq!(near(contradiction, &guess, &|_| true), None);
     }
 }

@@ -9,7 +9,7 @@ use cannonpile::formula::force;
 use cannonpile::lattice::{Direction, Sign, count};
 use cannonpile::scalar::{Algebra, Ring};
 
-use crate::TWO;
+use crate::{Each, TWO};
 
 /// Returns the drop D of a sloping contact: the approach of its two spheres to each other under the virtual
 /// displacement φ.
@@ -41,7 +41,7 @@ pub fn contact_drop<T: Ring>(here: T, below: &T) -> T {
 /// assert_eq!(compression(&here, &there, Axis::AlphaBeta.ends(), Sign::Plus), 2.0);
 /// ```
 pub fn compression<T: Ring>(here: &[T; 3], there: &[T; 3], ends: [Direction; 2], sign: Sign) -> T {
-    let [a, b] = ends.map(Direction::index);
+    let [a, b] = ends.each(Direction::index);
     let difference = |field: &[T; 3]| field[b].clone() - &field[a];
     signed(difference(here) - &difference(there), sign)
 }
@@ -73,7 +73,7 @@ pub fn elastic_field<T: Algebra>(n: &T, d: &T) -> T {
 /// ```
 #[must_use]
 pub fn corner_field<T: Ring>(edge: Direction, all: bool) -> [T; 3] {
-    Direction::ALL.map(|line| {
+    Direction::ALL.each(|line| {
         if all || line == edge {
             T::one()
         } else {

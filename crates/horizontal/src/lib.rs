@@ -81,6 +81,8 @@ mod beginning;
 mod bounds;
 pub mod census;
 pub mod certificate;
+#[doc(hidden)]
+pub mod each;
 mod edge;
 mod elastic;
 mod error;
@@ -99,6 +101,8 @@ pub mod theorem;
 mod upper;
 
 use core::num::NonZeroI64;
+
+use each::Each;
 
 pub use base::{BaseBounds, base_bounds};
 pub use bounds::{NormalBound, NormalBounds, bounds};

@@ -4,7 +4,8 @@
 //! unknowns are six forces of sloping contacts and one horizontal force. The degree of static indeterminacy is the
 //! number of horizontal forces, here 1.
 
-use std::collections::HashMap;
+use crate::Each;
+use std::collections::{BTreeMap, HashMap};
 
 use cannonpile::engine::{bug, refuse_beyond_memory};
 use cannonpile::formula::{pushed, tripled_half_turn};
@@ -13,6 +14,8 @@ use cannonpile::{Error, Pile};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
+
+use crate::exact::{Sparse, place};
 
 /// The maximum number of equations of a program that is solved: 31 layers under one sphere have 14,880.
 pub(crate) const MAX_EQUATIONS: u64 = 15_000;
@@ -23,9 +26,6 @@ const BYTES_AN_EQUATION: usize = 8_000;
 /// The maximum number of spheres in a certificate that lists all of them, if a shorter proof exists.
 pub(crate) const MAX_CERTIFIED: u32 = 100_000;
 
-/// The coefficients of an unknown force, with the numbers of their equations.
-pub(crate) type Column = Vec<(usize, BigRational)>;
-
 /// The balance equations: one for each sphere above the floor and each direction.
 ///
 /// The unknowns are the sloping forces, numbered like the equations, and then the horizontal forces.
@@ -34,7 +34,8 @@ pub(crate) struct Network<'p> {
     /// The spheres above `floor`.
     pub(crate) spheres: Vec<Site>,
     pub(crate) contacts: Vec<HorizontalContact>,
-    pub(crate) columns: Vec<Column>,
+    /// The coefficients of each unknown, by equation.
+    pub(crate) columns: Vec<Sparse>,
     /// The weight and load of each sphere, for each of its equations.
     pub(crate) weights: Vec<BigRational>,
     numbers: HashMap<Site, usize>,
@@ -88,7 +89,7 @@ impl<'p> Network<'p> {
         fits(&self.weights.len().into(), MAX_EQUATIONS)
     }
 
-    fn all_columns(&self) -> Result<Vec<Column>, Error> {
+    fn all_columns(&self) -> Result<Vec<Sparse>, Error> {
         let directions = self.pile.dimension().directions();
         let mut columns = Vec::with_capacity(self.weights.len() + self.contacts.len());
         for site in &self.spheres {
@@ -112,12 +113,14 @@ impl<'p> Network<'p> {
             let sign =
                 sign.ok_or_else(|| bug("every layer above the floor has a step below it"))?;
             let sigma = BigRational::from_integer(sign.factor().into());
-            let (ends, mut column) = (contact.axis.ends(), Vec::new());
+            let (ends, mut column) = (contact.axis.ends(), Sparse::new());
             for (sphere, leads_away) in [(sphere, true), (neighbour, false)] {
                 let entries = pushed(&sigma, ends, leads_away);
                 for end in ends {
                     let entry = entries[end.index()].clone();
-                    column.push((self.equation(sphere, end)?, entry));
+                    let equation = self.equation(sphere, end)?;
+                    let place = place(&column, equation).unwrap_or_else(|place| place);
+                    column.insert(place, (equation, entry));
                 }
             }
             columns.push(column);
@@ -145,13 +148,13 @@ impl<'p> Network<'p> {
 
     /// Returns T of layer k, applied to a unit force in a direction.
     fn transferred(&self, k: i128, direction: Direction) -> [BigRational; 3] {
-        let mut unit: [BigRational; 3] = core::array::from_fn(|_| BigRational::zero());
+        let mut unit: [BigRational; 3] = [(); 3].each(|()| BigRational::zero());
         unit[direction.index()] = BigRational::one();
         let shape = self.pile.shape();
         if shape.sign_below(k - 1) == shape.sign_below(k) {
             unit
         } else {
-            tripled_half_turn(&unit).map(|tripled| tripled / BigRational::from_integer(3.into()))
+            tripled_half_turn(&unit).each(|tripled| tripled / BigRational::from_integer(3.into()))
         }
     }
 
@@ -189,41 +192,33 @@ impl<'p> Network<'p> {
         drops
     }
 
-    /// Returns the horizontal forces that are not zero.
+    /// Returns the horizontal forces that are not zero, times `scale`.
     pub(crate) fn horizontal(
         &self,
         unknowns: &[BigRational],
-    ) -> impl Iterator<Item = (HorizontalContact, BigRational)> {
-        let forces = unknowns.iter().skip(self.weights.len());
-        let bearing = self
-            .contacts
-            .iter()
-            .zip(forces)
-            .filter(|(_, force)| !force.is_zero());
-        bearing.map(|(contact, force)| (*contact, force.clone()))
+        scale: &BigRational,
+    ) -> BTreeMap<HorizontalContact, BigRational> {
+        let mut bearing = BTreeMap::new();
+        for (contact, force) in self.contacts.iter().zip(&unknowns[self.weights.len()..]) {
+            if !force.is_zero() {
+                bearing.insert(*contact, force * scale);
+            }
+        }
+        bearing
     }
 
     /// Returns the field by sphere, where it is not zero.
-    pub(crate) fn field(
-        &self,
-        multipliers: &[BigRational],
-    ) -> impl Iterator<Item = (Site, [BigRational; 3])> {
-        let by_sphere = self.by_sphere(multipliers);
-        by_sphere.filter(|(_, field)| field.iter().any(|number| !number.is_zero()))
-    }
-
-    /// Groups values of sloping contacts, or of equations, by sphere.
-    pub(crate) fn by_sphere(
-        &self,
-        numbers: &[BigRational],
-    ) -> impl Iterator<Item = (Site, [BigRational; 3])> {
+    pub(crate) fn field(&self, multipliers: &[BigRational]) -> BTreeMap<Site, [BigRational; 3]> {
         let directions = self.pile.dimension().directions().len();
-        let spheres = self.spheres.iter().zip(numbers.chunks(directions));
-        spheres.map(|(site, numbers)| {
-            // Discs have no third direction, so its value is zero.
-            let number = |l: usize| numbers.get(l).cloned().unwrap_or_else(BigRational::zero);
-            (*site, [number(0), number(1), number(2)])
-        })
+        let mut field = BTreeMap::new();
+        for (site, numbers) in self.spheres.iter().zip(multipliers.chunks(directions)) {
+            if numbers.iter().any(|number| !number.is_zero()) {
+                // Discs have no third direction, so its value is zero.
+                let number = |l: usize| numbers.get(l).cloned().unwrap_or_else(BigRational::zero);
+                field.insert(*site, [number(0), number(1), number(2)]);
+            }
+        }
+        field
     }
 }
 

@@ -13,13 +13,13 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 use crate::Error;
 use crate::certificate::{Certificate, Refusal};
-use crate::exact::{Equation, near};
-use crate::network::{Column, MAX_EQUATIONS};
+use crate::exact::{Equation, Sparse, near};
+use crate::network::MAX_EQUATIONS;
 
 /// A program: minimise the objective over x ≥ 0 with Σ column · x = sums.
 pub(crate) struct Program<'n> {
-    /// The columns of the matrix, by unknown.
-    pub(crate) columns: Cow<'n, [Column]>,
+    /// The columns of the matrix, by unknown: coefficients by equation.
+    pub(crate) columns: Cow<'n, [Sparse]>,
     /// The right-hand sides, by equation.
     pub(crate) sums: Vec<BigRational>,
     pub(crate) objective: Objective,
@@ -132,19 +132,19 @@ impl Program<'_> {
         let mut equations: Vec<Equation> = self
             .sums
             .iter()
-            .map(|sum| (<_>::default(), sum.clone()))
+            .map(|sum| (Vec::new(), sum.clone()))
             .collect();
         let positive = || self.columns.iter().zip(&guess.positive).enumerate();
         for (unknown, (column, _)) in positive().filter(|(_, (_, positive))| **positive) {
             for (equation, coefficient) in column {
-                equations[*equation].0.insert(unknown, coefficient.clone());
+                equations[*equation].0.push((unknown, coefficient.clone()));
             }
         }
         let unknowns = guess.unknowns.iter().zip(&guess.positive);
         let unknowns: Vec<f64> = unknowns
             .map(|(x, positive)| if *positive { *x } else { 0.0 })
             .collect();
-        near(equations, &unknowns, |unknowns| {
+        near(equations, &unknowns, &|unknowns| {
             !unknowns.iter().any(Signed::is_negative)
         })
     }
@@ -156,9 +156,8 @@ impl Program<'_> {
         };
         let of_positive = self.columns.iter().zip(cost).zip(&guess.positive);
         let equations = of_positive.filter(|(_, positive)| **positive);
-        let equations =
-            equations.map(|((column, cost), _)| (column.iter().cloned().collect(), cost.clone()));
-        near(equations.collect(), &guess.multipliers, |multipliers| {
+        let equations = equations.map(|((column, cost), _)| (column.clone(), cost.clone()));
+        near(equations.collect(), &guess.multipliers, &|multipliers| {
             self.columns.iter().zip(cost).all(|(column, cost)| {
                 let terms = column
                     .iter()

@@ -1,5 +1,6 @@
 //! Farkas certificates for runs that are too long before a sign change.
 
+use crate::Each;
 use std::collections::BTreeMap;
 
 use cannonpile::lattice::{Direction, Site};
@@ -74,7 +75,7 @@ fn edge(
         return None;
     }
     let along = |number: BigRational| {
-        let mut field = core::array::from_fn(|_| BigRational::zero());
+        let mut field = [(); 3].each(|()| BigRational::zero());
         field[direction.index()] = number;
         field
     };

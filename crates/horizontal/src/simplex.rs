@@ -12,9 +12,9 @@
 //! Example: two horizontal forces push against a sloping force of 1 that has to vanish. It decreases by 1 for each unit
 //! of the first one and by 2 for each unit of the second one. The second one needs less, so it becomes ½.
 
-use std::collections::BTreeMap;
-
 use cannonpile::engine::check_interrupt;
+
+use crate::exact::{Sparse, merge, place};
 
 /// The force of a sloping contact: that of the contact above it on the same line, plus 1 for the weight of its sphere,
 /// plus the horizontal forces on this sphere.
@@ -52,7 +52,7 @@ struct Row {
 }
 
 /// The change of a force with the variables, by column, where it is not zero.
-type Slopes = BTreeMap<usize, f64>;
+type Slopes = Sparse<f64>;
 
 struct Dictionary<'s> {
     sloping: &'s [Sloping],
@@ -150,22 +150,35 @@ impl Dictionary<'_> {
 
     /// Returns the change of a force with each variable.
     fn slopes(&self, force: Variable) -> Slopes {
-        let mut slopes = Slopes::new();
-        let mut add = |number: usize, factor: f64| match self.places[number] {
-            Place::Column(column) => add(&mut slopes, column, factor),
-            Place::Row(row) => add_multiple(&mut slopes, factor, &self.rows[row].slopes),
+        let mut slopes = vec![0.0; self.zero.len()];
+        let mut add = |column: usize, slope: f64| {
+            slopes[column] += slope;
+            if slopes[column].abs() < FLAT {
+                slopes[column] = 0.0;
+            }
+        };
+        let mut add_force = |number: usize, factor: f64| match self.places[number] {
+            Place::Column(column) => add(column, factor),
+            Place::Row(row) => {
+                for (column, slope) in &self.rows[row].slopes {
+                    add(*column, factor * slope);
+                }
+            }
         };
         match force {
-            Variable::Horizontal(number) => add(number, 1.0),
+            Variable::Horizontal(number) => add_force(number, 1.0),
             Variable::Sloping(number) => {
-                let line =
-                    core::iter::successors(Some(number), |number| self.sloping[*number].above);
-                for (other, sign) in line.flat_map(|number| &self.sloping[number].pushes) {
-                    add(*other, *sign);
+                let mut line = Some(number);
+                while let Some(number) = line {
+                    for (other, sign) in &self.sloping[number].pushes {
+                        add_force(*other, *sign);
+                    }
+                    line = self.sloping[number].above;
                 }
             }
         }
-        slopes
+        let slopes = slopes.into_iter().enumerate();
+        slopes.filter(|(_, slope)| *slope != 0.0).collect()
     }
 
     /// Makes a force with the given value a variable, in place of one that becomes positive. `None` if no variable
@@ -194,19 +207,21 @@ impl Dictionary<'_> {
             self.places[number] = Place::Column(column);
         }
         // The variable as a function of the force and the other variables.
-        let slope = slopes.insert(column, -1.0)?;
-        for other in slopes.values_mut() {
+        let of_column = place(&slopes, column).ok()?;
+        let slope = core::mem::replace(&mut slopes[of_column].1, -1.0);
+        for (_, other) in &mut slopes {
             *other /= -slope;
         }
         let value = value / -slope;
         if let Variable::Sloping(number) = force {
             self.is_zero[number] = true;
             if self.sloping[number].vanishes {
-                slopes.remove(&column);
+                slopes.remove(of_column);
             }
         }
         for row in &mut self.rows {
-            if let Some(factor) = row.slopes.remove(&column) {
+            if let Ok(of_column) = place(&row.slopes, column) {
+                let (_, factor) = row.slopes.remove(of_column);
                 row.value += factor * value;
                 add_multiple(&mut row.slopes, factor, &slopes);
             }
@@ -235,17 +250,10 @@ impl Dictionary<'_> {
 }
 
 fn add_multiple(to: &mut Slopes, factor: f64, slopes: &Slopes) {
-    for (column, slope) in slopes {
-        add(to, *column, factor * slope);
-    }
-}
-
-fn add(to: &mut Slopes, column: usize, slope: f64) {
-    let sum = to.entry(column).or_insert(0.0);
-    *sum += slope;
-    if sum.abs() < FLAT {
-        to.remove(&column);
-    }
+    merge(to, slopes, |_, before, slope| {
+        let sum = before.unwrap_or(0.0) + factor * slope;
+        Some(sum).filter(|sum| sum.abs() >= FLAT)
+    });
 }
 
 #[cfg(test)]

@@ -22,14 +22,12 @@
 //! 2(2 + X) − 2(1 − X) + X = 0, so X = −2/5, which is tensile. The contact is opened until X = 0. Then all forces
 //! are compressive, and its gap, −κ′c = 2, is positive: this is the elastic state.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use cannonpile::engine::{bug, check_interrupt};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::Error;
-use crate::exact::{Equation, near, null_space};
+use crate::exact::{Equation, Sparse, near, null_space, place};
 use crate::network::Network;
 
 /// The springs of a pile: κ = 1, and κ′ is the stiffness ratio. Contacts are numbered like the unknowns of the
@@ -59,21 +57,23 @@ enum Cause {
 
 /// The set of open contacts, and the reduced equations for it.
 struct System {
-    open: BTreeSet<usize>,
-    /// The matrix of the reduced equations, by row and unknown.
+    /// `true` for each open contact.
+    open: Vec<bool>,
+    /// The matrix of the reduced equations, by row and unknown, in ascending order of both.
     ///
     /// The unknowns are the forces of closed horizontal contacts and the gaps of open sloping contacts. All other
     /// quantities follow by substitution. The row of a closed horizontal contact states that its gap is zero, the
     /// row of an open sloping contact that its force is zero. Right-hand sides depend on the cause. The matrix is
     /// symmetric (reciprocity).
-    rows: BTreeMap<usize, BTreeMap<usize, BigRational>>,
+    rows: Vec<(usize, Sparse)>,
 }
 
 impl Springs<'_> {
     /// Returns the state with all horizontal contacts open and all sloping contacts closed.
     pub(crate) fn without_horizontal(&self) -> Result<State, Error> {
-        let contacts = self.sloping()..self.network.columns.len();
-        self.state(&self.system(contacts.collect())?, Cause::Weights)
+        let contacts = 0..self.network.columns.len();
+        let open = contacts.map(|contact| contact >= self.sloping());
+        self.state(&self.system(open.collect())?, Cause::Weights)
     }
 
     /// Returns the state of least energy. `guess` is a gap for each contact, zero if it is closed.
@@ -83,9 +83,8 @@ impl Springs<'_> {
     /// # Errors
     /// [`Error::CannotStand`] or [`Interrupted`](cannonpile::Error::Interrupted).
     pub(crate) fn least_energy(&self, guess: Vec<f64>) -> Result<State, Error> {
-        let contacts = guess.iter().enumerate().filter(|(_, gap)| **gap > 0.0);
-        let open = contacts.map(|(contact, _)| contact).collect();
-        let mut system = self.system(open)?;
+        let open = guess.iter().map(|gap| *gap > 0.0);
+        let mut system = self.system(open.collect())?;
         self.close_idle(&mut system, guess)?;
         let mut state = self.state(&system, Cause::Weights)?;
         // The limit prevents cycling, which degenerate contacts (zero force and zero gap) could otherwise cause in
@@ -153,7 +152,7 @@ impl Springs<'_> {
     /// are moved along each null vector until the first of them is zero, and that contact is closed. No gap becomes
     /// negative.
     fn close_idle(&self, system: &mut System, mut gaps: Vec<f64>) -> Result<(), Error> {
-        let unknowns: Vec<usize> = system.rows.keys().copied().collect();
+        let unknowns: Vec<usize> = system.rows.iter().map(|(unknown, _)| *unknown).collect();
         let mut null_vectors = null_space(system.equations()).ok_or_else(unsolvable)?;
         while let Some(change) = null_vectors.pop() {
             // A value outside the range of `f64` is beyond the accuracy of a guess, so an infinity suffices.
@@ -183,12 +182,10 @@ impl Springs<'_> {
         loop {
             let state = self.state(system, Cause::Weights)?;
             let change = self.state(system, Cause::Gap(tensile))?;
-            let closing = system
-                .open
-                .iter()
-                .filter(|c| change.gaps[**c].is_negative());
+            let contacts = (0..system.open.len()).filter(|c| system.open[*c]);
+            let closing = contacts.filter(|c| change.gaps[*c].is_negative());
             let closing = closing
-                .map(|c| (-&state.gaps[*c] / &change.gaps[*c], *c))
+                .map(|c| (-&state.gaps[c] / &change.gaps[c], c))
                 .min();
             let enough = change.forces[tensile]
                 .is_positive()
@@ -209,14 +206,13 @@ impl Springs<'_> {
         self.network.weights.len()
     }
 
-    fn system(&self, open: BTreeSet<usize>) -> Result<System, Error> {
-        let closed = (self.sloping()..self.network.columns.len()).filter(|c| !open.contains(c));
-        let unknowns: Vec<usize> = closed
-            .chain(open.range(..self.sloping()).copied())
+    fn system(&self, open: Vec<bool>) -> Result<System, Error> {
+        let unknowns: Vec<usize> = (0..open.len())
+            .filter(|contact| open[*contact] == (*contact < self.sloping()))
             .collect();
         let mut system = System {
             open,
-            rows: BTreeMap::new(),
+            rows: Vec::new(),
         };
         for unknown in unknowns {
             self.add_unknown(unknown, &mut system)?;
@@ -225,42 +221,44 @@ impl Springs<'_> {
     }
 
     fn open(&self, contact: usize, system: &mut System) -> Result<(), Error> {
-        system.open.insert(contact);
-        if contact < self.sloping() {
-            self.add_unknown(contact, system)?;
-        } else {
-            system.remove_unknown(contact);
-        }
-        Ok(())
+        self.set_open(contact, true, system)
     }
 
     fn close(&self, contact: usize, system: &mut System) -> Result<(), Error> {
-        system.open.remove(&contact);
-        if contact < self.sloping() {
-            system.remove_unknown(contact);
-        } else {
+        self.set_open(contact, false, system)
+    }
+
+    fn set_open(&self, contact: usize, open: bool, system: &mut System) -> Result<(), Error> {
+        system.open[contact] = open;
+        if open == (contact < self.sloping()) {
             self.add_unknown(contact, system)?;
+        } else {
+            system.remove_unknown(contact);
         }
         Ok(())
     }
 
     fn add_unknown(&self, unknown: usize, system: &mut System) -> Result<(), Error> {
         check_interrupt()?;
+        let Err(new) = place(&system.rows, unknown) else {
+            return Ok(());
+        };
         let nothing = vec![BigRational::zero(); self.sloping()];
         let alone = self.substitute(nothing, &[(unknown, BigRational::one())]);
-        let mut row = BTreeMap::new();
-        for contact in system.rows.keys().copied().chain([unknown]) {
+        system.rows.insert(new, (unknown, Sparse::new()));
+        for row in 0..system.rows.len() {
+            let contact = system.rows[row].0;
             let coefficient = self.residual(contact, &alone);
-            if !coefficient.is_zero() {
-                row.insert(contact, coefficient);
+            if coefficient.is_zero() {
+                continue;
             }
-        }
-        for (contact, other) in &mut system.rows {
-            if let Some(coefficient) = row.get(contact) {
-                other.insert(unknown, coefficient.clone());
+            if row != new {
+                let other = &mut system.rows[row].1;
+                let place = place(other, unknown).unwrap_or_else(|place| place);
+                other.insert(place, (unknown, coefficient.clone()));
             }
+            system.rows[new].1.push((contact, coefficient));
         }
-        system.rows.insert(unknown, row);
         Ok(())
     }
 
@@ -287,15 +285,17 @@ impl Springs<'_> {
         }
         let alone = self.substitute(sums.clone(), &given);
         let mut equations = system.equations();
-        for ((_, sum), contact) in equations.iter_mut().zip(system.rows.keys()) {
+        for ((_, sum), (contact, _)) in equations.iter_mut().zip(&system.rows) {
             *sum -= self.residual(*contact, &alone);
             if gap == Some(*contact) {
                 *sum -= self.stiffness_ratio.recip();
             }
         }
-        let solution = near(equations, &vec![0.0; system.rows.len()], |_| true);
+        let solution = near(equations, &vec![0.0; system.rows.len()], &|_| true);
         let solution = solution.ok_or_else(unsolvable)?;
-        given.extend(system.rows.keys().copied().zip(solution));
+        for ((unknown, _), number) in system.rows.iter().zip(solution) {
+            given.push((*unknown, number));
+        }
         Ok(self.substitute(sums, &given))
     }
 
@@ -341,18 +341,19 @@ impl Springs<'_> {
 impl System {
     /// Returns the reduced equations, with unknowns numbered consecutively and right-hand sides zero.
     fn equations(&self) -> Vec<Equation> {
-        let numbers: BTreeMap<usize, usize> = self.rows.keys().copied().zip(0..).collect();
-        let rows = self.rows.values().map(|row| {
-            let coefficients = row.iter().map(|(unknown, c)| (numbers[unknown], c.clone()));
-            (coefficients.collect(), BigRational::zero())
-        });
-        rows.collect()
+        let numbered = |(_, row): &(usize, Sparse)| {
+            let numbered = row
+                .iter()
+                .filter_map(|(unknown, c)| Some((place(&self.rows, *unknown).ok()?, c.clone())));
+            (numbered.collect(), BigRational::zero())
+        };
+        self.rows.iter().map(numbered).collect()
     }
 
     fn remove_unknown(&mut self, unknown: usize) {
-        self.rows.remove(&unknown);
-        for row in self.rows.values_mut() {
-            row.remove(&unknown);
+        self.rows.retain(|(row, _)| *row != unknown);
+        for (_, row) in &mut self.rows {
+            row.retain(|(other, _)| *other != unknown);
         }
     }
 }
@@ -367,10 +368,9 @@ impl State {
     }
 
     /// Returns the open contacts with negative gaps, the most negative first.
-    fn overlapping(&self, open: &BTreeSet<usize>) -> Vec<usize> {
-        let overlapping = open.iter().copied();
-        let mut overlapping: Vec<usize> = overlapping
-            .filter(|c| self.gaps[*c].is_negative())
+    fn overlapping(&self, open: &[bool]) -> Vec<usize> {
+        let mut overlapping: Vec<usize> = (0..open.len())
+            .filter(|c| open[*c] && self.gaps[*c].is_negative())
             .collect();
         overlapping.sort_by(|one, other| self.gaps[*one].cmp(&self.gaps[*other]));
         overlapping
@@ -493,7 +493,9 @@ mod tests {
         );
         let one = ratio(1, 1);
         let springs = springs(&pile, &one);
-        let system = springs.system(guessed.iter().copied().collect()).unwrap();
+        let columns = 0..springs.network.columns.len();
+        let open = columns.map(|contact| guessed.contains(&contact));
+        let system = springs.system(open.collect()).unwrap();
         let state = springs.state(&system, Cause::Weights).unwrap();
         assert_eq!(state.overlapping(&system.open), overlapping);
         assert_eq!(state.most_tensile(), tensile);

@@ -8,7 +8,7 @@ use cannonpile::stability::{Affine, Margin, Stability, bearable};
 use num_rational::BigRational;
 
 use crate::certificate::{Certificate, Claim};
-use crate::{Error, equilibrium};
+use crate::{Each, Error, equilibrium};
 
 /// Returns the tilts of gravity that a pile bears at a = R, where horizontal contacts may help, in the units of
 /// [`Pile::with_tilt`].
@@ -42,7 +42,7 @@ pub fn stability(pile: &Pile) -> Result<Stability<Certificate>, Error> {
         }
         let along_y = i128::from(pile.dimension() == Dimension::Three);
         let work = |tilt: [i128; 2]| {
-            let tilt = tilt.map(BigRational::from_i128);
+            let tilt = tilt.each(BigRational::from_i128);
             let leaning = pile.clone().with_tilt(tilt)?;
             let work = certificate.field.iter().flat_map(|(site, field)| {
                 let own = leaning.own_increments(*site);

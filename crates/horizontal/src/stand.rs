@@ -10,7 +10,8 @@ use num_traits::{One, Zero};
 use crate::Error;
 use crate::beginning::{beginning, certified, certified_down_to};
 use crate::certificate::{Certificate, Claim};
-use crate::network::{Column, MAX_EQUATIONS, Network};
+use crate::exact::Sparse;
+use crate::network::{MAX_EQUATIONS, Network};
 use crate::program::{Objective, Program, Tolerance, accepted};
 use crate::run::{run_starts, too_long_run};
 
@@ -185,7 +186,7 @@ fn equilibrium_above(pile: &Pile, floor: i128, is_whole: bool) -> Result<Certifi
     });
     let cost =
         repeat_n(BigRational::zero(), unknowns).chain(repeat_n(BigRational::one(), equations));
-    let with_tension: Vec<Column> = network.columns.iter().cloned().chain(tension).collect();
+    let with_tension: Vec<Sparse> = network.columns.iter().cloned().chain(tension).collect();
     let program = Program {
         columns: with_tension.as_slice().into(),
         sums: network.weights.clone(),
@@ -205,20 +206,15 @@ fn equilibrium_above(pile: &Pile, floor: i128, is_whole: bool) -> Result<Certifi
         // The variables of tensile forces are dropped.
         guess.unknowns.truncate(unknowns);
         guess.positive.truncate(unknowns);
-        program.exact_unknowns(&guess).map(|forces| {
-            let forces = network.horizontal(&forces);
-            Certificate {
-                horizontal: forces
-                    .map(|(contact, force)| (contact, force * &scale))
-                    .collect(),
-                ..certified(pile, Claim::Stands)
-            }
+        program.exact_unknowns(&guess).map(|forces| Certificate {
+            horizontal: network.horizontal(&forces, &scale),
+            ..certified(pile, Claim::Stands)
         })
     } else {
         program
             .exact_multipliers(&guess)
             .map(|multipliers| Certificate {
-                field: network.field(&multipliers).collect(),
+                field: network.field(&multipliers),
                 ..certified(pile, Claim::CannotStand)
             })
     };

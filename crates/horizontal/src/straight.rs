@@ -7,7 +7,7 @@ use cannonpile::lattice::{Axis, Dimension, Direction, HorizontalContact, Site, c
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::formula;
+use crate::{Each, formula};
 
 /// The lower or the upper bound.
 #[derive(Clone, Copy)]
@@ -49,7 +49,7 @@ impl Straight {
     pub(crate) fn sorted(self) -> ([i128; 3], [usize; 3]) {
         let mut directions = [0, 1, 2];
         directions.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));
-        (directions.map(|l| self.n[l]), directions)
+        (directions.each(|l| self.n[l]), directions)
     }
 
     /// Returns the bound in mg if a formula gives it and it is attained for every K.
@@ -67,7 +67,7 @@ impl Straight {
     /// Returns an upper bound on an edge or inside the base, in mg, for every K. It may not be attained.
     pub(crate) fn outer_bound(self) -> BigRational {
         let (sorted, _) = self.sorted();
-        let n = sorted.map(|n| BigRational::from_integer(n.into()));
+        let n = sorted.each(|n| BigRational::from_integer(n.into()));
         let onto = match (sorted, &n) {
             ([a, b, 0], [k, j, _]) => {
                 let c = BigRational::from_integer(a.min(b + 1).into());
@@ -89,19 +89,18 @@ impl Straight {
 
     /// Returns X = 1 between each sphere of the edge to a corner and its neighbours.
     fn press(self, l: usize) -> BTreeMap<HorizontalContact, BigRational> {
-        let pairs = (1..self.k).flat_map(|t| {
-            [(l + 1) % 3, (l + 2) % 3].map(|other| {
-                let on_edge = unit(l).map(|e| e * t);
+        let mut forces = BTreeMap::new();
+        for t in 1..self.k {
+            for other in [(l + 1) % 3, (l + 2) % 3] {
+                let on_edge = along(l, t);
                 let mut beside = on_edge;
                 beside[l] -= 1;
                 beside[other] += 1;
-                self.contact(on_edge, beside)
-            })
-        });
-        pairs
-            .flatten()
-            .map(|contact| (contact, BigRational::one()))
-            .collect()
+                let contact = self.contact(on_edge, beside);
+                forces.extend(contact.map(|contact| (contact, BigRational::one())));
+            }
+        }
+        forces
     }
 
     /// Returns the arch that completely unloads a sphere inside the base or on an edge.
@@ -111,28 +110,28 @@ impl Straight {
     fn arch(self) -> BTreeMap<HorizontalContact, BigRational> {
         let ([n_a, n_b, n_c], [a, b, c]) = self.sorted();
         let r = n_a.min(n_b + n_c);
-        let flank = (0..n_a - r).filter_map(|t| {
+        let mut forces = BTreeMap::new();
+        let mut add = |one: [i128; 3], other: [i128; 3], force: BigRational| {
+            if let Some(contact) = self.contact(one, other) {
+                *forces.entry(contact).or_insert_with(BigRational::zero) += force;
+            }
+        };
+        for t in 0..n_a - r {
             let mut one = self.n;
             one[a] = t;
             let mut other = one;
             other[a] += 1;
             other[b] -= 1;
-            Some((self.contact(one, other)?, BigRational::one()))
-        });
-        let nu = [r, n_b, n_c].map(|n| BigRational::from_integer(n.into()));
-        let above = [[b, c], [c, a], [a, b]].into_iter().zip(formula::arch(&nu));
-        let above = above.filter(|(_, force)| !force.is_zero());
-        let above = above.filter_map(|(ends, force)| {
-            let [one, other] = ends.map(|l| {
-                let mut site = self.n;
-                site[l] -= 1;
-                site
-            });
-            Some((self.contact(one, other)?, force))
-        });
-        let mut forces = BTreeMap::new();
-        for (contact, force) in flank.chain(above) {
-            *forces.entry(contact).or_insert_with(BigRational::zero) += force;
+            add(one, other, BigRational::one());
+        }
+        let nu = [r, n_b, n_c].each(|n| BigRational::from_integer(n.into()));
+        for ([l, m], force) in [[b, c], [c, a], [a, b]].into_iter().zip(formula::arch(&nu)) {
+            let (mut one, mut other) = (self.n, self.n);
+            one[l] -= 1;
+            other[m] -= 1;
+            if !force.is_zero() {
+                add(one, other, force);
+            }
         }
         forces
     }
@@ -142,12 +141,13 @@ impl Straight {
         let Some(l) = self.corner() else {
             return BTreeMap::new();
         };
-        let edge = (0..self.k).map(|t| {
+        let mut field = BTreeMap::new();
+        for t in 0..self.k {
             let all = matches!(end, End::Greatest) && t > 0;
-            let field = formula::corner_field(Direction::ALL[l], all);
-            (self.site(unit(l).map(|e| e * t)), field)
-        });
-        edge.collect()
+            let of_sphere = formula::corner_field(Direction::ALL[l], all);
+            field.insert(self.site(along(l, t)), of_sphere);
+        }
+        field
     }
 
     pub(crate) fn site(self, [a, i, j]: [i128; 3]) -> Site {
@@ -157,14 +157,16 @@ impl Straight {
 
     /// Returns the horizontal contact of two neighbours.
     pub(crate) fn contact(self, one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
-        let [one, other] = [one, other].map(|n| self.site(n));
-        let both = [(one, other), (other, one)]
-            .into_iter()
-            .flat_map(|(from, to)| {
-                Axis::ALL.map(|axis| (HorizontalContact { site: from, axis }, to))
-            });
-        let mut found = both.filter(|(contact, to)| contact.neighbour() == Some(*to));
-        found.next().map(|(contact, _)| contact)
+        let (one, other) = (self.site(one), self.site(other));
+        for (site, to) in [(one, other), (other, one)] {
+            for axis in Axis::ALL {
+                let contact = HorizontalContact { site, axis };
+                if contact.neighbour() == Some(to) {
+                    return Some(contact);
+                }
+            }
+        }
+        None
     }
 }
 
@@ -190,8 +192,11 @@ pub(crate) fn by_direction<V: Copy + Default>(directions: [usize; 3], values: [V
     by_direction
 }
 
-fn unit(l: usize) -> [i128; 3] {
-    core::array::from_fn(|direction| i128::from(direction == l))
+/// Returns t times the unit vector of a direction.
+fn along(l: usize, t: i128) -> [i128; 3] {
+    let mut sphere = [0; 3];
+    sphere[l] = t;
+    sphere
 }
 
 #[cfg(test)]

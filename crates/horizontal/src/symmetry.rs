@@ -4,7 +4,7 @@
 //! Equations that are images of each other form an orbit, and one variable for each orbit suffices: 7 equations
 //! remain.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 use cannonpile::engine::bug;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
@@ -13,8 +13,9 @@ use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::network::{Column, Network};
+use crate::exact::{Sparse, merge};
 use crate::program::{Objective, Program};
+use crate::{Each, network::Network};
 
 /// A symmetric shape. Its sites have coordinates n = (o − i − j, i, j), with o the net number of + steps above. A
 /// permutation of n maps sites to sites, and contacts to contacts of the permuted directions.
@@ -39,7 +40,7 @@ impl<'p> AxisSymmetry<'p> {
 
     fn image(self, site: Site, permutation: [usize; 3]) -> Site {
         let n = self.coordinates(site);
-        let [_, i, j] = permutation.map(|from| n[from]);
+        let [_, i, j] = permutation.each(|from| n[from]);
         Site { i, j, ..site }
     }
 
@@ -89,7 +90,7 @@ impl Orbits {
             return Ok(None);
         }
         let equations = network.spheres.iter().flat_map(|sphere| {
-            Direction::ALL.map(|direction| {
+            Direction::ALL.each(|direction| {
                 let images = permutations.iter().map(|permutation| {
                     // The image of this direction.
                     let to = Direction::ALL
@@ -111,7 +112,7 @@ impl Orbits {
         let horizontal = network.contacts.iter().map(|contact| {
             let pair = network.ends(*contact)?;
             least(permutations.iter().map(|permutation| {
-                let image = pair.map(|end| symmetry.image(end, *permutation));
+                let image = pair.each(|end| symmetry.image(end, *permutation));
                 let image = ends.get(&sorted(image)).copied();
                 image.ok_or_else(|| bug("a symmetry maps neighbours to neighbours"))
             }))
@@ -127,26 +128,26 @@ impl Orbits {
     /// Returns the program for solutions that are constant on each orbit. Its minimum is that of the full program:
     /// the average over all images of a minimiser is again a minimiser.
     pub(crate) fn quotient(&self, network: &Network<'_>, cost: &[BigRational]) -> Program<'static> {
-        let mut columns = vec![BTreeMap::new(); self.unknowns.first.len()];
+        let mut columns = vec![Sparse::new(); self.unknowns.first.len()];
         for (column, orbit) in network.columns.iter().zip(&self.unknowns.orbits) {
             for (equation, coefficient) in column {
                 let row = self.equations.orbits[*equation];
                 if self.equations.first[row] == *equation {
-                    *columns[*orbit].entry(row).or_insert_with(BigRational::zero) += coefficient;
+                    let added = vec![(row, coefficient.clone())];
+                    merge(&mut columns[*orbit], &added, |_, sum, added| {
+                        let sum = sum.unwrap_or_else(BigRational::zero) + added;
+                        Some(sum).filter(|sum| !sum.is_zero())
+                    });
                 }
             }
         }
-        let columns = columns.into_iter().map(|column| {
-            let column = column.into_iter();
-            column.filter(|(_, c)| !c.is_zero()).collect::<Column>()
-        });
         let mut costs = vec![BigRational::zero(); self.unknowns.first.len()];
         for (cost, orbit) in cost.iter().zip(&self.unknowns.orbits) {
             costs[*orbit] += cost;
         }
         let sums = self.equations.first.iter();
         Program {
-            columns: columns.collect(),
+            columns: columns.into(),
             sums: sums.map(|first| network.weights[*first].clone()).collect(),
             objective: Objective::LinearCost(costs),
         }

@@ -27,7 +27,7 @@ use cannonpile::theorem::setting::{
 use cannonpile::theorem::{ProofKind, Step};
 use num_traits::{One, Zero};
 
-use crate::THREE;
+use crate::{Each, THREE};
 
 /// A theorem about the [`Formulas`] of horizontal contacts.
 pub type Theorem = cannonpile::theorem::Theorem<Formulas>;
@@ -221,7 +221,7 @@ const THEOREMS: &[Theorem] = &[
 const SIGNS: [(&str, Sign); 2] = [("+", Sign::Plus), ("−", Sign::Minus)];
 
 fn symbols(names: [&'static str; 3]) -> [P; 3] {
-    names.map(symbol)
+    names.each(symbol)
 }
 
 fn sum(terms: impl IntoIterator<Item = P>) -> P {
@@ -242,12 +242,12 @@ fn signed(x: P, sign: Sign) -> P {
 
 /// Returns the same value on all three lines.
 fn each(value: i128) -> [P; 3] {
-    [value; 3].map(int)
+    [value; 3].each(int)
 }
 
 /// Returns a value on one line, and 0 on the others.
 fn on(line: Direction, value: &P) -> [P; 3] {
-    Direction::ALL.map(|other| {
+    Direction::ALL.each(|other| {
         if other == line {
             value.clone()
         } else {
@@ -258,12 +258,12 @@ fn on(line: Direction, value: &P) -> [P; 3] {
 
 /// Returns the other two lines.
 fn others(line: Direction) -> [Direction; 2] {
-    [1, 2].map(|n| Direction::ALL[(line.index() + n) % 3])
+    [1, 2].each(|n| Direction::ALL[(line.index() + n) % 3])
 }
 
 /// Returns the site p + d_b − d_a.
 fn neighbour(f: &Formulas, axis: Axis, i: &P, j: &P) -> [P; 2] {
-    let [[a_i, a_j], [b_i, b_j]] = axis.ends().map(|end| (f.core.descent)(Sign::Plus, end));
+    let [[a_i, a_j], [b_i, b_j]] = axis.ends().each(|end| (f.core.descent)(Sign::Plus, end));
     [i.clone() + &int(b_i - a_i), j.clone() + &int(b_j - a_j)]
 }
 
@@ -279,8 +279,8 @@ fn transferred(f: &Formulas, changes: bool, g: &[P; 3]) -> [P; 3] {
 /// Returns the forces that a sphere transmits, with `g` from above and the sum H of its horizontal forces.
 fn beside(f: &Formulas, g: &[P; 3], own: &P, pushed: &[P; 3], sign: Sign) -> [P; 3] {
     Direction::ALL
-        .map(Direction::index)
-        .map(|l| (f.core.beside)(g[l].clone(), own, &pushed[l], sign))
+        .each(Direction::index)
+        .each(|l| (f.core.beside)(g[l].clone(), own, &pushed[l], sign))
 }
 
 fn horizontal_balance(f: &Formulas) -> Vec<Step> {
@@ -354,13 +354,13 @@ fn virtual_work(f: &Formulas) -> Vec<Step> {
 
 /// Returns φ of a sphere with n_l spheres above it on its lines, d layers above the floor.
 fn elastic_field(f: &Formulas, n: &[P; 3], d: &P) -> [P; 3] {
-    n.each_ref().map(|n| (f.elastic_field)(n, d))
+    n.each_ref().each(|n| (f.elastic_field)(n, d))
 }
 
 fn elastic_straight(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(&f.core);
     let [i, j, k] = symbols(["i", "j", "k"]);
-    let [n, d] = ["n", "d"].map(symbol);
+    let [n, d] = ["n", "d"].each(symbol);
     let (next, lower) = (k.clone() + &P::one(), d.clone() - &P::one());
     let mut steps = equations! {
         "on the floor φ = 0": (f.elastic_field)(&n, &P::zero()) => P::zero(),
@@ -371,7 +371,7 @@ fn elastic_straight(f: &Formulas) -> Vec<Step> {
         let forces = setting.to_below(&f.core, setting.received(&f.core, &here));
         for direction in &Direction::ALL[..dimension] {
             let l = direction.index();
-            let [di, dj] = (f.core.descent)(Sign::Plus, *direction).map(int);
+            let [di, dj] = (f.core.descent)(Sign::Plus, *direction).each(int);
             let below = (f.core.above)(&(i.clone() + &di), &(j.clone() + &dj), &next);
             let below = (f.elastic_field)(&below[l], &lower);
             let drop = (f.contact_drop)(phi[l].clone(), &below);
@@ -408,7 +408,7 @@ fn elastic_energy(f: &Formulas) -> Vec<Step> {
 }
 
 fn settlement(f: &Formulas) -> Vec<Step> {
-    let (phi, [k, l]) = (of_site(f), ["k", "L"].map(symbol));
+    let (phi, [k, l]) = (of_site(f), ["k", "L"].each(symbol));
     let d = last_layer() - &k;
     let w = sum(phi.clone()).div_int(THREE);
     let apex = (f.elastic_field)(&P::zero(), &last_layer());
@@ -416,8 +416,8 @@ fn settlement(f: &Formulas) -> Vec<Step> {
         "6w = d(3L−k)": w.clone() * &int(6) => d.clone() * &(int(3) * &l - &k),
         "the apex: 2w = L(L−1)": apex * &int(2) => l * &last_layer(),
     };
-    let p = phi.map(|phi| (w.clone() - &phi) * &int(3));
-    let dilated = above(&f.core).map(|n| d.clone() * &(k.clone() - &(int(3) * &n)));
+    let p = phi.each(|phi| (w.clone() - &phi) * &int(3));
+    let dilated = above(&f.core).each(|n| d.clone() * &(k.clone() - &(int(3) * &n)));
     steps.extend(by_line("3p = −d(3n−k)", p, dilated));
     steps
 }
@@ -430,13 +430,13 @@ fn arguments(f: &Formulas, [i, j]: &[P; 2], sign: Sign) -> [[P; 4]; 3] {
 }
 
 fn elastic_monotone(f: &Formulas) -> Vec<Step> {
-    let site @ [i, j] = &["i", "j"].map(symbol);
+    let site @ [i, j] = &["i", "j"].each(symbol);
     let mut steps = Vec::new();
     for (name, sign) in SIGNS {
         let here = arguments(f, site, sign);
         for axis in Axis::ALL {
             let there = arguments(f, &neighbour(f, axis, i, j), sign);
-            for (line, change) in axis.ends().into_iter().zip([-1, 1].map(int)) {
+            for (line, change) in axis.ends().into_iter().zip([-1, 1].each(int)) {
                 let at = format!("{axis} under {name}, along {line}: σ times");
                 let mut all = P::zero();
                 for (there, here) in there[line.index()].iter().zip(&here[line.index()]) {
@@ -454,7 +454,7 @@ fn elastic_monotone(f: &Formulas) -> Vec<Step> {
 }
 
 fn no_dip(f: &Formulas) -> Vec<Step> {
-    let [[i, j], [u, v]] = [["i", "j"], ["u", "v"]].map(|names| names.map(symbol));
+    let [[i, j], [u, v]] = [["i", "j"], ["u", "v"]].each(|names| names.each(symbol));
     let mut steps = Vec::new();
     for (name, sign) in SIGNS {
         let at = |site: [P; 2]| arguments(f, &site, sign).into_iter().flatten();
@@ -472,7 +472,7 @@ fn no_dip(f: &Formulas) -> Vec<Step> {
 /// Returns the drops D of a sphere, from its field and the field of the spheres below.
 fn drops(f: &Formulas, here: &[P; 3], below: &[P; 3]) -> [P; 3] {
     let of_line = |l: usize| (f.contact_drop)(here[l].clone(), &below[l]);
-    Direction::ALL.map(Direction::index).map(of_line)
+    Direction::ALL.each(Direction::index).each(of_line)
 }
 
 fn corner_least(f: &Formulas) -> Vec<Step> {
@@ -499,13 +499,13 @@ fn corner_least(f: &Formulas) -> Vec<Step> {
 }
 
 fn corner_greatest(f: &Formulas) -> Vec<Step> {
-    let ([k, t], one) = (["K", "t"].map(symbol), P::one());
+    let ([k, t], one) = (["K", "t"].each(symbol), P::one());
     let g = symbols(["g_1", "g_2", "g_3"]);
     let received = |t: &P| int(3) * t - &int(2);
     let first = (f.core.beside)(P::zero(), &one, &P::zero(), Sign::Plus);
     let mut steps = equations! { "base case, from the apex": first => received(&one) };
     for edge in Direction::ALL {
-        let [apex, field] = [false, true].map(|all| (f.corner_field)(edge, all));
+        let [apex, field] = [false, true].each(|all| (f.corner_field)(edge, all));
         let below = on(edge, &field[edge.index()]);
         let at = |what: &str| format!("the edge {edge}: {what}");
         let not_along = plus(each(1), &on(edge, &int(-1)));
@@ -574,7 +574,7 @@ fn arch(f: &Formulas) -> Vec<Step> {
             steps.extend(by_line(&claim, passed, plus(more.clone(), &added)));
         }
     }
-    let [n_b, n_c] = ["n_B", "n_C"].map(symbol);
+    let [n_b, n_c] = ["n_B", "n_C"].each(symbol);
     let steep = (f.arch)(&[n_b.clone() + &n_c, n_b.clone(), n_c.clone()]);
     steps.extend(by_line("r = n_B + n_C: X", steep, [P::zero(), n_c, n_b]));
     steps
@@ -587,7 +587,7 @@ fn inner_greatest(f: &Formulas) -> Vec<Step> {
     let centre = (f.greatest_inside)(&[k.clone(), k.clone(), k.clone()]);
     let product = k.clone() * &(k.clone() + &int(1)) * &(k + &int(2));
     equations! {
-        "Σφ": sum(n.each_ref().map(deep)) => (f.greatest_inside)(&n),
+        "Σφ": sum(n.each_ref().each(deep)) => (f.greatest_inside)(&n),
         "at a centre 2 Σφ is k(k+1)(k+2)": centre * &int(2) => product,
     }
 }

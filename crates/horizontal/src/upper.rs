@@ -7,11 +7,11 @@ use cannonpile::lattice::{HorizontalContact, Site};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::edge::Edge;
 use crate::exact::simple_fraction;
 use crate::network::MAX_EQUATIONS;
 use crate::simplex::{Sloping, least_horizontal};
 use crate::straight::{Straight, by_direction, normal_below};
+use crate::{Each, edge::Edge};
 
 /// The field that proves an upper bound of the load on the bottom sphere (a, b, c), a ≥ b ≥ c.
 ///
@@ -96,14 +96,16 @@ impl Upper {
 
     /// Returns the field φ.
     pub(crate) fn field(&self) -> BTreeMap<Site, [BigRational; 3]> {
-        let ones = self.spheres().map(|sphere| (sphere, self.at(sphere)));
-        let ones = ones.filter(|(_, ones)| ones.contains(&true));
-        let field = ones.map(|(sphere, ones)| {
-            let ones = by_direction(self.directions, ones.map(i32::from));
-            let ones = ones.map(|one| BigRational::from_integer(one.into()));
-            (self.site(sphere), ones)
-        });
-        field.collect()
+        let mut field = BTreeMap::new();
+        for sphere in self.spheres() {
+            let ones = self.at(sphere);
+            if ones.contains(&true) {
+                let ones = by_direction(self.directions, ones);
+                let ones = ones.each(|one| BigRational::from_integer(i32::from(one).into()));
+                field.insert(self.site(sphere), ones);
+            }
+        }
+        field
     }
 
     /// Returns horizontal forces that attain the bound, or `None` if they are not found or the pile is too large.
@@ -121,7 +123,7 @@ impl Upper {
         }
         let spheres: Vec<_> = self.spheres().collect();
         let numbers: HashMap<_, _> = spheres.iter().copied().zip(0_usize..).collect();
-        let field = |sphere: [i128; 3]| self.at(sphere).map(i32::from);
+        let field = |sphere: [i128; 3]| self.at(sphere).each(i32::from);
         let mut sloping = Vec::with_capacity(3 * spheres.len());
         for sphere in &spheres {
             for l in 0..3 {
@@ -167,7 +169,7 @@ impl Upper {
             let force = BigRational::new(numerator.into(), denominator.get().into());
             if !force.is_zero() {
                 let [sphere, other] =
-                    [sphere, other].map(|sphere| by_direction(self.directions, sphere));
+                    [sphere, other].each(|sphere| by_direction(self.directions, sphere));
                 forces.insert(self.straight.contact(sphere, other)?, force);
             }
         }

@@ -1,19 +1,19 @@
 //! The checker of certificates: balance of each sphere, its transpose, and signs.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use cannonpile::engine::{bug, common_multiple, refuse_beyond_memory};
 use cannonpile::formula::{beside, increments, pushed, resultant, tripled_half_turn, weight};
 use cannonpile::geometry::{Vector, directions, disc_directions};
 use cannonpile::lattice::{Axis, Dimension, Direction, HorizontalContact, Sign, Site};
 use cannonpile::shape::Selection;
-use cannonpile::{Error, FloorForce, Pile};
+use cannonpile::{Error, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::{AllForces, Certificate, Claim, Extreme, Refusal, Relation};
-use crate::formula;
+use crate::{Each, formula};
 
 /// The largest total size of the numbers of one direction, in words of 64 bits.
 const MAX_WORDS: u64 = 4_000_000;
@@ -189,25 +189,23 @@ impl Certificate {
                 close(site, direction.name(), numbers, &given.within)?;
             }
         }
-        let mut floor: BTreeMap<Site, &FloorForce<BigRational>> = given
-            .floor
-            .iter()
-            .map(|force| (force.site, force))
-            .collect();
-        for site in pile.sites(Selection::Layer(pile.layers() - 1))? {
-            let force = floor.remove(&site);
-            let force = force.ok_or_else(|| Box::new(Refusal::NotGiven { site }))?;
-            let exact = self.on_floor(&exact, site);
-            for (what, given_here, exact) in [
-                ("normal", &force.normal, &exact.z),
-                ("shear_x", &force.shear_x, &exact.x),
-                ("shear_y", &force.shear_y, &exact.y),
-            ] {
-                close(site, what, (given_here, exact), &given.within)?;
-            }
+        let mut floor = BTreeMap::new();
+        for force in &given.floor {
+            let force = force.clone();
+            floor.insert(force.site, [force.normal, force.shear_x, force.shear_y]);
         }
-        match floor.pop_first() {
-            Some((site, _)) => Err(Box::new(Refusal::NotOnFloor { site })),
+        let last = pile.layers() - 1;
+        for site in pile.sites(Selection::Layer(last))? {
+            let force = floor.get(&site);
+            let [normal, x, y] = force.ok_or_else(|| Box::new(Refusal::NotGiven { site }))?;
+            let exact = self.on_floor(&exact, site);
+            close(site, "normal", (normal, &exact.z), &given.within)?;
+            close(site, "shear_x", (x, &exact.x), &given.within)?;
+            close(site, "shear_y", (y, &exact.y), &given.within)?;
+        }
+        let is_on_floor = |site: &Site| site.k == last && pile.shape().contains(*site);
+        match floor.into_keys().find(|site| !is_on_floor(site)) {
+            Some(site) => Err(Box::new(Refusal::NotOnFloor { site })),
             None => Ok(()),
         }
     }
@@ -221,7 +219,7 @@ impl Certificate {
         };
         // A single layer receives nothing, whatever the directions.
         let along = match pile.shape().sign_below(site.k - 1) {
-            Some(Sign::Minus) => along.map(Vector::turned_about_z),
+            Some(Sign::Minus) => along.each(Vector::turned_about_z),
             _ => along,
         };
         let from_above = resultant(&received(pile, forces, site), &along);
@@ -283,7 +281,7 @@ impl Certificate {
         contact: HorizontalContact,
         neighbour: Site,
     ) -> Result<BigRational, Error> {
-        let [here, there] = [contact.site, neighbour].map(|site| self.field(site));
+        let [here, there] = [contact.site, neighbour].each(|site| self.field(site));
         let sign = sigma(&self.pile, contact.site.k)?;
         Ok(formula::compression(
             &here,
@@ -311,10 +309,10 @@ impl Certificate {
     /// value.
     fn conditions(
         &self,
-        spheres: impl Iterator<Item = Site>,
+        spheres: &mut dyn Iterator<Item = Site>,
         stiffness_ratio: &BigRational,
-        of_drop: impl Fn(Site, Direction) -> (Relation, BigRational),
-        of_compression: impl Fn(HorizontalContact) -> (Relation, BigRational),
+        of_drop: &dyn Fn(Site, Direction) -> (Relation, BigRational),
+        of_compression: &dyn Fn(HorizontalContact) -> (Relation, BigRational),
     ) -> Result<(), Box<Refusal>> {
         let pile = &self.pile;
         for site in spheres {
@@ -351,17 +349,22 @@ impl Certificate {
     /// order.
     ///
     /// These are the spheres of the field, the spheres supported by them, and their neighbours.
-    fn around_the_field(&self, bottom: Option<Site>) -> BTreeSet<Site> {
+    fn around_the_field(&self, bottom: Option<Site>) -> Vec<Site> {
         let shape = self.pile.shape();
-        let above = |site: Site| Direction::ALL.map(|direction| shape.above(site, direction));
-        let of_field = self.field.keys().flat_map(|site| {
-            let neighbours = around(*site).map(|(contact, _)| contact.site);
-            let neighbours = neighbours.filter(|site| shape.contains(*site));
-            above(*site).into_iter().flatten().chain(neighbours)
-        });
-        of_field
-            .chain(bottom.into_iter().flat_map(above).flatten())
-            .collect()
+        let mut spheres = Vec::new();
+        for site in self.field.keys() {
+            for (contact, _) in around(*site) {
+                spheres.extend(Some(contact.site).filter(|site| shape.contains(*site)));
+            }
+        }
+        for site in self.field.keys().chain(&bottom) {
+            for direction in Direction::ALL {
+                spheres.extend(shape.above(*site, direction));
+            }
+        }
+        spheres.sort_unstable();
+        spheres.dedup();
+        spheres
     }
 
     /// Checks that D satisfies the relation to 1 at the contacts of the bottom sphere, if given, and to 0 at all
@@ -372,8 +375,8 @@ impl Certificate {
             let bears = bottom.is_some() && shape.below(site, direction) == bottom;
             (relation, BigRational::from_integer(i32::from(bears).into()))
         };
-        let spheres = self.around_the_field(bottom).into_iter();
-        self.conditions(spheres, &BigRational::one(), of_drop, |_| {
+        let mut spheres = self.around_the_field(bottom).into_iter();
+        self.conditions(&mut spheres, &BigRational::one(), &of_drop, &|_| {
             (relation, BigRational::zero())
         })
     }
@@ -415,15 +418,15 @@ impl Certificate {
             let forces = forces.get(&site);
             of_spring(forces.map(|forces| &forces[direction.index()]))
         };
-        let spheres = above_the_floor(&self.pile);
-        self.conditions(spheres, stiffness_ratio, of_drop, |contact| {
+        let mut spheres = above_the_floor(&self.pile);
+        self.conditions(&mut spheres, stiffness_ratio, &of_drop, &|contact| {
             of_spring(self.horizontal.get(&contact))
         })
     }
 }
 
 fn zeros() -> Triple {
-    core::array::from_fn(|_| BigRational::zero())
+    [(); 3].each(|()| BigRational::zero())
 }
 
 /// Returns the spheres above the floor, from the top.
@@ -434,7 +437,7 @@ fn above_the_floor(pile: &Pile) -> impl Iterator<Item = Site> + '_ {
 
 /// Returns the forces that a sphere receives from above, by direction.
 fn received(pile: &Pile, forces: &BTreeMap<Site, Triple>, site: Site) -> Triple {
-    Direction::ALL.map(|direction| {
+    Direction::ALL.each(|direction| {
         let above = pile
             .shape()
             .above(site, direction)
@@ -447,10 +450,10 @@ fn received(pile: &Pile, forces: &BTreeMap<Site, Triple>, site: Site) -> Triple 
 
 /// Applies T of layer k: the half-turn if the sign changes there, otherwise the identity.
 fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
-    let signs = [k - 1, k].map(|k| pile.shape().sign_below(k));
+    let signs = [k - 1, k].each(|k| pile.shape().sign_below(k));
     match signs {
         [Some(above), Some(below)] if above != below => {
-            tripled_half_turn(numbers).map(|tripled| tripled / BigRational::from_integer(3.into()))
+            tripled_half_turn(numbers).each(|tripled| tripled / BigRational::from_integer(3.into()))
         }
         _ => numbers.clone(),
     }
@@ -468,16 +471,19 @@ fn own(pile: &Pile, site: Site) -> Triple {
 }
 
 /// Returns the six possible horizontal contacts of a sphere, and whether each one leads away from it.
-fn around(site: Site) -> impl Iterator<Item = (HorizontalContact, bool)> {
-    Axis::ALL.into_iter().flat_map(move |axis| {
+fn around(site: Site) -> Vec<(HorizontalContact, bool)> {
+    let mut around = Vec::with_capacity(6);
+    for axis in Axis::ALL {
+        around.push((HorizontalContact { site, axis }, true));
         let back = before(site, axis).map(|site| (HorizontalContact { site, axis }, false));
-        core::iter::once((HorizontalContact { site, axis }, true)).chain(back)
-    })
+        around.extend(back);
+    }
+    around
 }
 
 /// Returns the site p − d_b + d_a, where a horizontal contact with p begins. `None` if its coordinates overflow.
 fn before(Site { i, j, k }: Site, axis: Axis) -> Option<Site> {
-    let [[a_i, a_j], [b_i, b_j]] = axis.ends().map(|end| Sign::Plus.descent(end));
+    let [[a_i, a_j], [b_i, b_j]] = axis.ends().each(|end| Sign::Plus.descent(end));
     let (i, j) = (i.checked_add(a_i - b_i)?, j.checked_add(a_j - b_j)?);
     Some(Site { i, j, k })
 }
@@ -485,15 +491,15 @@ fn before(Site { i, j, k }: Site, axis: Axis) -> Option<Site> {
 /// Returns the horizontal contacts that lead away from a sphere above the floor.
 fn contacts(pile: &Pile, site: Site) -> Vec<(HorizontalContact, Site)> {
     let shape = pile.shape();
-    let is_free = site.k < pile.layers() - 1 && shape.contains(site);
-    let contacts = Axis::ALL.into_iter().filter(|_| is_free);
-    let contacts = contacts.filter_map(|axis| {
-        let contact = HorizontalContact { site, axis };
-        Some((contact, contact.neighbour()?))
-    });
+    let mut contacts = Vec::new();
+    if site.k < pile.layers() - 1 && shape.contains(site) {
+        for axis in Axis::ALL {
+            let contact = HorizontalContact { site, axis };
+            let neighbour = contact.neighbour().filter(|site| shape.contains(*site));
+            contacts.extend(neighbour.map(|neighbour| (contact, neighbour)));
+        }
+    }
     contacts
-        .filter(|(_, neighbour)| shape.contains(*neighbour))
-        .collect()
 }
 
 #[cfg(test)]
