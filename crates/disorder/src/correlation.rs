@@ -19,9 +19,9 @@ use super::grid::{Grid, Size};
 use super::nets::SIGNS;
 use super::number::add;
 use super::piles::RandomPiles;
-use crate::Error;
 use crate::THREE;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// Returns the shifts of a difference (i, j), stored in the cell (i, −j). With this choice the cells around a cell are
 /// exactly the ones that a step reaches.
@@ -68,8 +68,8 @@ impl RandomPiles {
         self.check_response(QUANTITY)?;
         let steps = self.stackings.steps();
         if steps == 0 {
-            let squares = self.loads().values();
-            let squares = squares.map(|load| T::from_rational(&(load * load)));
+            let squares = self.loads().iter();
+            let squares = squares.map(|(_, load)| T::from_rational(&(load * load)));
             return super::mean::defined(squares.fold(T::zero(), |sum, square| sum + &square));
         }
         // The first window is the cell of δ = 0, and each further window adds one step around it.
@@ -130,7 +130,7 @@ impl<T: Algebra> Correlation<T> {
             }
         }
         let first = piles.stackings.first().signs();
-        SIGNS.map(|sign| first.contains(&sign).then(|| cells.clone()))
+        SIGNS.each(|sign| first.contains(&sign).then(|| cells.clone()))
     }
 
     /// Returns the correlations one step further down, for the differences within `reach`. The last step has no next sign.
@@ -148,7 +148,7 @@ impl<T: Algebra> Correlation<T> {
                 if let Some(from) = straight {
                     sum = self.moved(cell, SIGNS[at], from)?;
                     if !is_last {
-                        sum = sum.map(|row| row.map(|product| product * &self.same));
+                        sum = sum.each(|row| row.each(|product| product * &self.same));
                     }
                 }
                 if let Some(from) = turned {
@@ -184,13 +184,13 @@ impl<T: Algebra> Correlation<T> {
 const CELL: &str = "a cell is within its plane";
 
 fn zero<T: Algebra>() -> Matrix<T> {
-    [(); 3].map(|()| [(); 3].map(|()| T::zero()))
+    [(); 3].each(|()| [(); 3].each(|()| T::zero()))
 }
 
 /// Returns 9 G C G.
 fn tripled_both<T: Algebra>(c: &Matrix<T>) -> Matrix<T> {
-    let rows = c.each_ref().map(formula::tripled_half_turn);
+    let rows = c.each_ref().each(formula::tripled_half_turn);
     let columns =
-        [0, 1, 2].map(|m| formula::tripled_half_turn(&rows.each_ref().map(|row| row[m].clone())));
-    [0, 1, 2].map(|l| columns.each_ref().map(|column| column[l].clone()))
+        [0, 1, 2].each(|m| formula::tripled_half_turn(&rows.each_ref().each(|row| row[m].clone())));
+    [0, 1, 2].each(|l| columns.each_ref().each(|column| column[l].clone()))
 }

@@ -1,7 +1,6 @@
 //! The cells that the recursion runs over, and the cells that can contain spheres.
 
 use core::ops::Range;
-use std::collections::BTreeMap;
 
 use cannonpile::engine::refuse_beyond_memory;
 use cannonpile::lattice::Region;
@@ -101,12 +100,17 @@ impl<'p> Domain<'p> {
         size.check(QUANTITY, &per_cell, words)?;
         let first = match piles.setting {
             Setting::Plane => {
-                let mut rows: BTreeMap<i128, Range<i128>> = BTreeMap::new();
+                let mut rows = FirstRows::new();
                 for Place { a, b } in loaded(piles)? {
-                    let cells = rows.entry(b).or_insert(a..a + 1);
-                    *cells = cells.start.min(a)..cells.end.max(a + 1);
+                    match rows.binary_search_by_key(&b, |(row, _)| *row) {
+                        Ok(row) => {
+                            let cells = &mut rows[row].1;
+                            *cells = cells.start.min(a)..cells.end.max(a + 1);
+                        }
+                        Err(row) => rows.insert(row, (b, a..a + 1)),
+                    }
                 }
-                FirstRows::from_iter(rows)
+                rows
             }
             Setting::Under(top) => (least[1]..=greatest[1])
                 .map(|b| (b, row_of(&top, b)))
@@ -276,7 +280,7 @@ impl<'p> Domain<'p> {
 }
 
 fn loaded(piles: &RandomPiles) -> Result<Vec<Place>, Error> {
-    let places = piles.loads().keys().map(|site| Place::of(*site, 0));
+    let places = piles.loads().iter().map(|(site, _)| Place::of(*site, 0));
     let places = places.collect::<Option<_>>();
     places.ok_or_else(|| bug("loads are within the limit of coordinates"))
 }

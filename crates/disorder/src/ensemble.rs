@@ -70,8 +70,8 @@ use run::Run;
 use setup::Task;
 use verdicts::Judge;
 
-use crate::Error;
 use crate::RandomStackings;
+use crate::{Each, Error};
 use cannonpile::Pile;
 use cannonpile::formula;
 use cannonpile::lattice::{Region, Site};
@@ -495,7 +495,7 @@ impl Ensemble {
     fn is_its_own_mirror_image(&self) -> bool {
         let region = self.region();
         let [sum_of_i, sum_of_j] =
-            [region.x(), region.y()].map(|range| range.start() + range.end());
+            [region.x(), region.y()].each(|range| range.start() + range.end());
         let image = |site: Site| Site {
             i: sum_of_i - site.i,
             j: sum_of_j - site.j,

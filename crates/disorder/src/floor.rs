@@ -10,8 +10,8 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::number::{Number, add};
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// The denominator of forces on the floor. Directions have the denominator 2, and mg is three units of contact force.
 /// The compiler evaluates the `unwrap`, and rejects zero.
@@ -32,11 +32,11 @@ impl<T: Number> FloorFactors<T> {
     pub(super) fn new() -> Result<Self, Error> {
         let half = BigRational::new(1.into(), 2.into());
         let doubled = |x: BigRational| (x * BigInt::from(2)).to_integer();
-        let plus = directions(&half).map(|direction| direction.map(doubled));
-        let minus = plus.clone().map(Vector::turned_about_z);
-        let zeros = || [(); 3].map(|()| BigInt::zero());
+        let plus = directions(&half).each(|direction| direction.map(doubled));
+        let minus = plus.clone().each(Vector::turned_about_z);
+        let zeros = || [(); 3].each(|()| BigInt::zero());
         let mut factors = Self {
-            contacts: [(); 2].map(|()| [(); 3].map(|()| [(); 3].map(|()| T::zero()))),
+            contacts: [(); 2].each(|()| [(); 3].each(|()| [(); 3].each(|()| T::zero()))),
             weight: T::zero(),
         };
         for (contacts, directions) in factors.contacts.iter_mut().zip([&plus, &minus]) {

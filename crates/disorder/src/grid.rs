@@ -1,6 +1,5 @@
 //! The grid of cells, with the range of each row that forces can reach.
 
-use core::array;
 use core::ops::Range;
 
 use cannonpile::engine::refuse_beyond_memory;
@@ -8,8 +7,8 @@ use cannonpile::lattice::{Direction, Sign};
 use num_bigint::BigUint;
 
 use super::place::Place;
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// The largest number of 64-bit words that the recursion stores.
 const MAX_WORDS: u64 = 100_000_000;
@@ -116,7 +115,7 @@ impl Grid {
     pub(super) fn new(size: &Size, first: &FirstRows, shifts: Shifts) -> Result<Self, Error> {
         let small = |n: i128| usize::try_from(n).map_err(|_| bug("the size was checked"));
         let margin = size.reach * size.steps + 1;
-        let origin: [i128; 2] = array::from_fn(|axis| size.least[axis] - margin);
+        let origin: [i128; 2] = size.least.each(|least| least - margin);
         let side = |axis: usize| small(size.greatest[axis] + margin - origin[axis] + 1);
         let (stride, rows) = (side(0)?, side(1)?);
         let mut window = vec![0..0; rows];
@@ -186,7 +185,7 @@ impl Grid {
 
     /// Returns the cell with these coordinates, or `None` outside of the grid.
     pub(super) fn cell(&self, at: [i128; 2]) -> Option<usize> {
-        let [a, b] = [0, 1].map(|axis| usize::try_from(at[axis] - self.origin[axis]).ok());
+        let [a, b] = [0, 1].each(|axis| usize::try_from(at[axis] - self.origin[axis]).ok());
         let (a, b) = (a?, b?);
         (a < self.stride && b < self.rows).then(|| b * self.stride + a)
     }

@@ -53,6 +53,7 @@ use std::num::NonZeroI64;
 
 mod correlation;
 mod domain;
+mod each;
 mod ensemble;
 mod error;
 mod faults;
@@ -69,6 +70,8 @@ mod stackings;
 pub mod theorem;
 mod transfer;
 mod width;
+
+use each::Each;
 
 pub use ensemble::{
     Choice, ContactSet, Distribution, Ensemble, Extreme, ForceKind, Histogram, Samples, Shard,

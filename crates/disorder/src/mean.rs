@@ -9,7 +9,7 @@ use num_traits::{One, pow};
 
 use super::domain::Domain;
 use super::floor::FLOOR_UNIT;
-use super::number::Scale;
+use super::number::Factor;
 use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::check_fault_probability;
@@ -17,7 +17,7 @@ use super::transfer::{Transfer, run_in_integers, shares};
 use super::width::{Width, bits_of_sources, words_of_big};
 use crate::Error;
 use crate::error::bug;
-use crate::{ONE, TWO};
+use crate::{Each, ONE, TWO};
 
 /// The mean forces at one place of the bottom layer, over all stackings.
 ///
@@ -259,7 +259,7 @@ impl RandomPiles {
         let back = (times > 0).then(|| T::from_rational(&power));
         // A load of W mg adds W to the force of each contact, as a weight of mg adds 1.
         let scalar = |x: &BigRational| Ok(T::from_rational(&(x / &power)));
-        let transfer = Transfer::new(&domain, 1, shares(q).map(Scale), scalar)?;
+        let transfer = Transfer::new(&domain, 1, shares(q).each(Factor::Scale), scalar)?;
         // An interval would widen even in a division by 1.
         let over = |sum: T, unit: &Option<NonZeroI64>| {
             let mean = sum.div_int(self.firsts());

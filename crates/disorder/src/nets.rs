@@ -4,8 +4,8 @@ use cannonpile::lattice::{Region, Sign};
 
 use super::number::{Factor, Number, add, tripled};
 use super::place::Place;
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// Both signs, in the order of every pair that is indexed by sign.
 pub(super) const SIGNS: [Sign; 2] = [Sign::Plus, Sign::Minus];
@@ -41,7 +41,7 @@ impl<T: Number> NetCounts<T> {
             *count.ok_or_else(|| bug("no more steps are left than there are"))? = T::one();
         }
         let signs = counts.first_mut().ok_or_else(|| bug("there is a class"))?;
-        *signs = SIGNS.map(|sign| first.contains(&sign).then(|| row.clone()));
+        *signs = SIGNS.each(|sign| first.contains(&sign).then(|| row.clone()));
         Ok(Self {
             counts,
             steps,
@@ -68,8 +68,8 @@ impl<T: Number> NetCounts<T> {
     /// tripled, as forces are.
     pub(super) fn choose(
         &mut self,
-        same: &impl Factor<T>,
-        change: &impl Factor<T>,
+        same: &Factor<T>,
+        change: &Factor<T>,
         before: impl Fn(usize) -> Option<usize>,
     ) {
         let moved = core::mem::take(&mut self.counts);
@@ -77,7 +77,7 @@ impl<T: Number> NetCounts<T> {
             moved.get(class?)?.get(sign)?.as_ref()
         };
         let chosen = (0..moved.len()).map(|class| {
-            [0, 1].map(|sign| {
+            [0, 1].each(|sign| {
                 let straight = of(Some(class), sign);
                 let turned = of(before(class), 1 - sign);
                 if straight.is_none() && turned.is_none() {

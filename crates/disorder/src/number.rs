@@ -26,30 +26,22 @@ impl<T> Number for T where
 }
 
 /// A constant factor.
-pub(super) trait Factor<T> {
-    /// Returns `x` times the factor.
-    fn times(&self, x: T) -> T;
-}
-
-/// The factor 1, for sums by numbers of faults. No multiplication takes place.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Unity;
-
-impl<T> Factor<T> for Unity {
-    #[inline]
-    fn times(&self, x: T) -> T {
-        x
-    }
-}
-
-/// A probability, times a common denominator.
 #[derive(Clone, Debug)]
-pub(super) struct Scale<T>(pub(super) T);
+pub(super) enum Factor<T> {
+    /// The factor 1, for sums by numbers of faults. No multiplication takes place.
+    One,
+    /// A probability, times a common denominator.
+    Scale(T),
+}
 
-impl<T: Number> Factor<T> for Scale<T> {
+impl<T: Number> Factor<T> {
+    /// Returns `x` times the factor.
     #[inline]
-    fn times(&self, x: T) -> T {
-        x * &self.0
+    pub(super) fn times(&self, x: T) -> T {
+        match self {
+            Self::One => x,
+            Self::Scale(factor) => x * factor,
+        }
     }
 }
 

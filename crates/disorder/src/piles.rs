@@ -1,7 +1,5 @@
 //! Piles of random stackings, with their geometry and loads.
 
-use std::collections::BTreeMap;
-
 use cannonpile::engine::common_denominator;
 use cannonpile::lattice::{Dimension, MAX_LAYERS, Region, Site};
 use num_bigint::BigInt;
@@ -38,7 +36,8 @@ pub struct RandomPiles {
     pub(super) stackings: RandomStackings,
     weightless: bool,
     /// By site of the top layer, in mg.
-    loads: BTreeMap<[i128; 2], BigRational>,
+    /// By site of the top layer, in ascending order.
+    loads: Vec<([i128; 2], BigRational)>,
 }
 
 /// The region of the piles.
@@ -117,7 +116,7 @@ impl RandomPiles {
             setting,
             stackings,
             weightless: false,
-            loads: BTreeMap::new(),
+            loads: Vec::new(),
         }
     }
 
@@ -181,7 +180,10 @@ impl RandomPiles {
         if load.is_negative() {
             return Err(cannonpile::Error::negative_load("load", site, load).into());
         }
-        *self.loads.entry(at).or_default() += load;
+        match self.loads.binary_search_by_key(&at, |(site, _)| *site) {
+            Ok(place) => self.loads[place].1 += load,
+            Err(place) => self.loads.insert(place, (at, load)),
+        }
         Ok(self)
     }
 
@@ -218,13 +220,13 @@ impl RandomPiles {
     }
 
     /// Returns the loads by site of the top layer, in mg.
-    pub(super) fn loads(&self) -> &BTreeMap<[i128; 2], BigRational> {
+    pub(super) fn loads(&self) -> &[([i128; 2], BigRational)] {
         &self.loads
     }
 
     /// Returns the least common denominator of the loads.
     pub(super) fn denominator(&self) -> BigInt {
-        common_denominator(self.loads.values())
+        common_denominator(self.loads.iter().map(|(_, load)| load))
     }
 
     /// Returns the weight of a sphere, in mg.

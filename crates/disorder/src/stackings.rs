@@ -13,7 +13,7 @@ use num_traits::{One, Signed, Zero};
 
 use crate::Error;
 use crate::formula;
-use crate::{THREE, TWO};
+use crate::{Each, THREE, TWO};
 
 /// The sign of the first step, from the top layer to the one below.
 ///
@@ -301,12 +301,12 @@ impl RandomStackings {
             FirstSign::Random => [none, half.clone(), half],
         };
         for _ in 0..self.steps() {
-            let next = core::array::from_fn(|registry| {
+            let next = [0, 1, 2].each(|registry: usize| {
                 formula::registry_excess(&before[registry], &after[registry], q)
             });
             (before, after) = (after, next);
         }
-        Ok(before.map(|deviation| deviation + &third))
+        Ok(before.each(|deviation| deviation + &third))
     }
 }
 

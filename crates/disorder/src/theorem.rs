@@ -32,7 +32,7 @@ use cannonpile::theorem::setting::{
 use cannonpile::theorem::{ProofKind, Step};
 use num_traits::{One, Zero};
 
-use crate::{THREE, TWO};
+use crate::{Each, THREE, TWO};
 
 /// A theorem about the formulas of this crate.
 pub type Theorem = cannonpile::theorem::Theorem<Formulas>;
@@ -199,7 +199,7 @@ const THEOREMS: &[Theorem] = &[
 const SIGNS: [&str; 2] = ["+", "−"];
 
 fn symbols(names: [&'static str; 3]) -> [P; 3] {
-    names.map(symbol)
+    names.each(symbol)
 }
 
 fn sum(terms: impl IntoIterator<Item = P>) -> P {
@@ -216,7 +216,7 @@ fn power(x: &P, n: usize) -> P {
 
 /// Returns the unit vector of a contact direction.
 fn unit(line: usize) -> [P; 3] {
-    core::array::from_fn(|other| int(i128::from(other == line)))
+    [0, 1, 2].each(|other: usize| int(i128::from(other == line)))
 }
 
 /// Returns G g if the sign changes, and g if not.
@@ -258,8 +258,8 @@ fn steps_down(f: &Formulas) -> [[Complex; 3]; 2] {
         setting.directions.clone(),
         setting.turned_directions(&f.core),
     ]
-    .map(|directions| {
-        core::array::from_fn(|line| {
+    .each(|directions| {
+        [0, 1, 2].each(|line| {
             let Vector { x, y, .. } = (f.core.position)(&unit(line), &directions);
             complex(x, y)
         })
@@ -292,7 +292,7 @@ fn squares(f: &Formulas) -> Vec<Step> {
     let (g, n) = (symbols(["g_1", "g_2", "g_3"]), symbol("n"));
     let (own, weight) = setting.loaded(&f.core, &n);
     let mut steps = equations! { "3n is the weight": weight => int(3) * &n };
-    let (whole, all) = (sum(g.clone()), sum(g.each_ref().map(square)));
+    let (whole, all) = (sum(g.clone()), sum(g.each_ref().each(square)));
     for (name, changes) in [("kept", false), ("changed", true)] {
         let passed = transmitted(&f.core, turned(f, changes, &g), &own);
         let more = int(2) * &n * &whole + &(int(3) * &square(&n));
@@ -300,7 +300,7 @@ fn squares(f: &Formulas) -> Vec<Step> {
             (format!("the sign is {name}: Σf")):
                 sum(passed.clone()) => whole.clone() + &(int(3) * &n),
             (format!("the sign is {name}: Σf²")):
-                sum(passed.each_ref().map(square)) => all.clone() + &more,
+                sum(passed.each_ref().each(square)) => all.clone() + &more,
         });
     }
     steps
@@ -332,8 +332,8 @@ fn faults(f: &Formulas) -> Vec<Step> {
     let mut steps = Vec::new();
     for direction in Direction::ALL {
         let l = direction.index();
-        let turned = (f.core.half_turn)(&unit(l).map(|one| one * &v)).map(|part| part * &int(3));
-        let expected = unit(l).map(|one| (int(2) - &(int(3) * &one)) * &v);
+        let turned = (f.core.half_turn)(&unit(l).each(|one| one * &v)).each(|part| part * &int(3));
+        let expected = unit(l).each(|one| (int(2) - &(int(3) * &one)) * &v);
         let claim = format!("along {direction}: −v along it, 2v along the others, of 3v");
         steps.extend(by_line(&claim, turned.clone(), expected));
         let apart = turned.iter().enumerate();
@@ -349,32 +349,32 @@ fn faults(f: &Formulas) -> Vec<Step> {
         steps.extend(equations! {
             (format!("from {direction}: sums by 3")): sum(turned.clone()) => int(3) * &v,
             (format!("from {direction}: squares by 9")):
-                sum(turned.each_ref().map(square)) => int(9) * &square(&v),
+                sum(turned.each_ref().each(square)) => int(9) * &square(&v),
             (format!("from {direction}: absolute values by 5")): absolute => int(5) * &v,
         });
     }
     let thirds = (f.core.increments)(&int(1).div_int(TWO));
     steps.extend(equations! {
         "base case: Σ3v = 3": sum(thirds.clone()) => int(3),
-        "base case: Σ(3v)² = 9/3": sum(thirds.each_ref().map(square)) => int(3),
+        "base case: Σ(3v)² = 9/3": sum(thirds.each_ref().each(square)) => int(3),
     });
     steps
 }
 
 fn one_fault(f: &Formulas) -> Vec<Step> {
-    let [m, n] = ["m", "n"].map(symbol);
+    let [m, n] = ["m", "n"].each(symbol);
     let [plus, minus] = steps_down(f);
     let place = |a: usize, b: usize| {
         let [above, below] = [(&plus[a], &m), (&minus[b], &n)]
-            .map(|(d, n)| complex(d.x.clone() * n, d.y.clone() * n));
+            .each(|(d, n)| complex(d.x.clone() * n, d.y.clone() * n));
         above + &below
     };
     let mut steps = Vec::new();
     for a in 0..3 {
-        let thirds = unit(a).map(|one| one.div_int(THREE));
+        let thirds = unit(a).each(|one| one.div_int(THREE));
         let loads = (f.core.half_turn)(&thirds);
         for (b, load) in loads.into_iter().enumerate() {
-            let [from, to] = [a, b].map(|line| Direction::ALL[line]);
+            let [from, to] = [a, b].each(|line| Direction::ALL[line]);
             let z = place(a, b);
             let at = |claim: &str| format!("from {from} to {to}: {claim}");
             let (nines, square_of) = if a == b {

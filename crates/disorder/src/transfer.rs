@@ -33,11 +33,11 @@ use num_rational::BigRational;
 
 use super::domain::Domain;
 use super::nets::{NetCounts, SIGNS};
-use super::number::{Factor, Number, Scale, Unity, add};
+use super::number::{Factor, Number, add};
 use super::place::Place;
 use super::width::Width;
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// The forces of one class and next sign: a plane of cells for each direction.
 type Planes<T> = [Vec<T>; 3];
@@ -47,14 +47,14 @@ type Planes<T> = [Vec<T>; 3];
 type Layer<T> = Vec<Vec<[Option<Planes<T>>; 2]>>;
 
 /// The recursion over a domain.
-pub(super) struct Transfer<'f, T, S> {
+pub(super) struct Transfer<'f, T> {
     domain: &'f Domain<'f>,
     /// The number of classes: a class for each number of faults, or one class.
     classes: usize,
     /// The factor of g_σ.
-    same: S,
+    same: Factor<T>,
     /// The factor of 3G g_(−σ).
-    change: S,
+    change: Factor<T>,
     /// The force that a sphere adds to each of its contacts.
     weight: T,
     /// The force that each load adds to each contact of its sphere, by site of the top layer.
@@ -94,38 +94,40 @@ fn run_in<T: Number + TryFrom<BigInt> + Into<BigInt>>(
 ) -> Result<Vec<Spot<BigInt>>, Error> {
     let number = |n: BigInt| T::try_from(n).map_err(|_| bug("the bound holds for all numerators"));
     let scalar = |x: &BigRational| number(x.numer() * (denominator / x.denom()));
-    let spots = match shares {
-        None => Transfer::new(domain, classes, [Unity, Unity], scalar)?.run()?,
-        Some([same, change]) => {
-            let factors = [Scale(number(same)?), Scale(number(change)?)];
-            Transfer::new(domain, classes, factors, scalar)?.run()?
-        }
+    let factors = match shares {
+        None => [Factor::One, Factor::One],
+        Some([same, change]) => [Factor::Scale(number(same)?), Factor::Scale(number(change)?)],
     };
+    let spots = Transfer::new(domain, classes, factors, scalar)?.run()?;
     let widened = spots.into_iter().map(|Spot { place, classes }| {
-        let classes = classes.into_iter().map(|sums| sums.map(Into::into));
+        let classes = classes
+            .into_iter()
+            .map(|[spheres, normal, x, y]| [spheres.into(), normal.into(), x.into(), y.into()]);
         let classes = classes.collect();
         Spot { place, classes }
     });
     Ok(widened.collect())
 }
 
-impl<'f, T: Number, S: Factor<T>> Transfer<'f, T, S> {
+impl<'f, T: Number> Transfer<'f, T> {
     /// Returns the recursion over a domain. `scalar` converts the loads and the weight of a sphere, in mg.
     pub(super) fn new(
         domain: &'f Domain<'f>,
         classes: usize,
-        [same, change]: [S; 2],
+        [same, change]: [Factor<T>; 2],
         scalar: impl Fn(&BigRational) -> Result<T, Error>,
     ) -> Result<Self, Error> {
-        let loads = domain.piles.loads().iter();
-        let loads = loads.map(|(site, load)| Ok((*site, scalar(load)?)));
+        let mut loads = Vec::new();
+        for (site, load) in domain.piles.loads() {
+            loads.push((*site, scalar(load)?));
+        }
         Ok(Self {
             domain,
             classes,
             same,
             change,
             weight: scalar(&domain.piles.weight())?,
-            loads: loads.collect::<Result<_, Error>>()?,
+            loads,
         })
     }
 
@@ -176,7 +178,7 @@ impl<'f, T: Number, S: Factor<T>> Transfer<'f, T, S> {
     }
 
     fn planes(&self) -> Planes<T> {
-        [(); 3].map(|()| vec![T::zero(); self.domain.grid.cells()])
+        [(); 3].each(|()| vec![T::zero(); self.domain.grid.cells()])
     }
 
     /// Returns the net numbers of steps that are left, in the order of a [`Layer`]: −n to n on a base, else only one.
@@ -296,7 +298,7 @@ fn rows_mut<'l, T>(
 
 /// Sets `to` to the term of an unchanged sign.
 #[inline]
-fn carry<T: Number>(to: &mut [T], from: &[T], same: &impl Factor<T>) {
+fn carry<T: Number>(to: &mut [T], from: &[T], same: &Factor<T>) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = same.times(from.clone());
     }
@@ -304,7 +306,7 @@ fn carry<T: Number>(to: &mut [T], from: &[T], same: &impl Factor<T>) {
 
 /// Adds the term of a changed sign.
 #[inline]
-fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: &impl Factor<T>) {
+fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: &Factor<T>) {
     let [ga, gb, gc] = from;
     let to = a.iter_mut().zip(b).zip(c);
     for (((a, b), c), ((ga, gb), gc)) in to.zip(ga.iter().zip(gb).zip(gc)) {

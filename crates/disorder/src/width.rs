@@ -15,7 +15,7 @@ use num_integer::binomial;
 use num_traits::{One, Signed};
 
 use super::domain::Domain;
-use crate::Error;
+use crate::{Each, Error};
 
 /// The width of the integers in the recursion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ pub(super) fn bits_of_counts(steps: i128) -> u64 {
     let greatest =
         |d: u32| binomial(BigUint::from(of), BigUint::from(d)) * BigUint::from(3_u32).pow(d);
     let around = (3 * of) / 4;
-    let bits = [around, (around + 1).min(of)].map(|d| greatest(d).bits());
+    let bits = [around, (around + 1).min(of)].each(|d| greatest(d).bits());
     bits[0].max(bits[1])
 }
 
@@ -84,8 +84,7 @@ pub(super) fn bits_of_sources(domain: &Domain<'_>, denominator: &BigInt) -> Resu
             sum += BigUint::from(3 * domain.grid.reached(layer)?).sqrt() + 1_u32;
         }
     }
-    let loads = domain.piles.loads().values();
-    for load in loads {
+    for (_, load) in domain.piles.loads() {
         // √3 < 2.
         sum += load.abs().ceil().to_integer().magnitude() * 2_u32;
     }

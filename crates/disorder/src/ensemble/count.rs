@@ -5,8 +5,8 @@ use core::cmp::Ordering;
 use cannonpile::lattice::Sign;
 
 use super::layer::{Numerator, Planes};
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// A histogram. It covers all bins from the least to the greatest number so far.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +25,7 @@ impl Bins {
         times: u64,
     ) -> Result<(), Error> {
         let bin = |x: &T| x.div_floor(width).to_i64();
-        let [first, last] = ends.each_ref().map(bin);
+        let [first, last] = ends.each_ref().each(bin);
         self.cover(first.zip(last).ok_or_else(outside)?)?;
         for x in numbers {
             let index = bin(x).and_then(|bin| usize::try_from(bin - self.first).ok());
@@ -196,7 +196,7 @@ impl<T: Numerator> Counted<T> {
         signs: &[Sign],
     ) -> Result<(), Error> {
         self.forces.add(&layer.bins, times)?;
-        let values = layer.ends.clone().map(|value| value * scale);
+        let values = layer.ends.clone().each(|value| value * scale);
         update(&mut self.ends, values, signs);
         self.level.add(&layer.level, times.into());
         Ok(())

@@ -8,9 +8,9 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use num_traits::ToPrimitive;
 
 use super::choice::Samples;
-use crate::Error;
 use crate::FirstSign;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// A generator of samples, for one seed.
 pub(super) struct Sampler {
@@ -25,7 +25,7 @@ pub(super) struct Sampler {
 impl Sampler {
     pub(super) fn new(samples: &Samples, first: FirstSign, steps: usize) -> Result<Self, Error> {
         let q = samples.fault_probability();
-        let [faults, of] = [q.numer(), q.denom()].map(|part| {
+        let [faults, of] = [q.numer(), q.denom()].each(|part| {
             part.to_u64()
                 .ok_or_else(|| bug("a sampled probability fits 64 bits"))
         });

@@ -1,6 +1,7 @@
 //! Selection of a histogram: contact forces or normal forces.
 
 use super::{Histogram, WithFaults};
+use crate::Each;
 
 /// The forces that a histogram counts.
 ///
@@ -34,8 +35,8 @@ impl ForceKind {
     pub fn histograms(self, with: &WithFaults) -> [&Histogram; 2] {
         let of = [&with.all, &with.standing];
         match self {
-            Self::Contact => of.map(|of| &of.forces),
-            Self::Normal => of.map(|of| &of.normals),
+            Self::Contact => of.each(|of| &of.forces),
+            Self::Normal => of.each(|of| &of.normals),
         }
     }
 }

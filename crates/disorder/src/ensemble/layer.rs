@@ -6,8 +6,8 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// An integer type. A bound computed beforehand ensures that it is wide enough, so plain operators do not overflow.
 pub(super) trait Numerator:
@@ -147,5 +147,5 @@ pub(super) fn extremes<'t, T: Numerator + 't>(
     let ends = numbers.fold([first, first], |[least, greatest], x| {
         [least.min(x), greatest.max(x)]
     });
-    Some(ends.map(Clone::clone))
+    Some(ends.each(Clone::clone))
 }

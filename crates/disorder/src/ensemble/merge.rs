@@ -1,5 +1,6 @@
 //! Merging of the tallies of shards.
 
+use crate::Each;
 use core::fmt;
 
 use cannonpile::lattice::Site;
@@ -323,11 +324,11 @@ impl Distribution {
     /// at most the sum of the squares times the number of forces (Cauchy and Schwarz).
     fn has_possible_sums(&self, width: &BigRational) -> bool {
         let count = BigRational::from_integer(self.contacts.clone().into());
-        let [mut least, mut greatest] = [(); 2].map(|()| [BigInt::zero(), BigInt::zero()]);
+        let [mut least, mut greatest] = [(); 2].each(|()| [BigInt::zero(), BigInt::zero()]);
         for (place, count) in (0..).zip(&self.forces.counts) {
             let count = BigInt::from(count.clone());
             let [begin, end] =
-                [0, 1].map(|n| BigInt::from(i128::from(self.forces.first) + place + n));
+                [0, 1].each(|n| BigInt::from(i128::from(self.forces.first) + place + n));
             let squares = [&begin * &begin, &end * &end];
             let [small, large] = if squares[0] <= squares[1] {
                 [0, 1]

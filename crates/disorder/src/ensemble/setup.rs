@@ -16,10 +16,10 @@ use super::layer::{Numerator, Planes};
 use super::order::Order;
 use super::sums::Sums;
 use super::{Choice, Ensemble, Shard};
-use crate::Error;
 use crate::domain::check_height;
 use crate::error::bug;
 use crate::width::words_of_big;
+use crate::{Each, Error};
 
 /// The largest number of 64-bit words that a walk stores, for all layers of one stacking.
 const MAX_WORDS: u64 = 50_000_000;
@@ -144,7 +144,7 @@ impl Task {
             Anchor::Base(base) => base,
         };
         let setup = |plus: usize| {
-            let steps = [plus, self.steps - plus].map(|steps| steps as i128);
+            let steps = [plus, self.steps - plus].each(|steps| steps as i128);
             let top = base.shrunk(steps[0], steps[1]);
             let setup = top.map(|top| self.setup(ensemble, top, Some((base, steps))));
             setup.transpose()
@@ -230,7 +230,7 @@ impl<T> Setup<T> {
             return Ok(above.dilated(*last)?);
         };
         let taken = count_plus(signs);
-        let [taken_plus, taken_minus] = [taken, signs.len() - taken].map(|steps| steps as i128);
+        let [taken_plus, taken_minus] = [taken, signs.len() - taken].each(|steps| steps as i128);
         let layer = base.shrunk(plus - taken_plus, minus - taken_minus);
         layer.ok_or_else(|| bug("the layers below the top layer have spheres"))
     }

@@ -1,7 +1,6 @@
 //! The mean over random stackings: its modes, and its spectrum.
 
 use core::num::NonZeroI64;
-use std::collections::BTreeMap;
 
 use cannonpile::scalar::{Algebra, Symbol};
 use cannonpile::theorem::Step;
@@ -9,16 +8,15 @@ use cannonpile::theorem::setting::{P, by_line, equations, int, symbol};
 use num_traits::{One, Zero};
 
 use super::{Formulas, power, square, sum, symbols};
-use crate::{THREE, TWO};
+use crate::{Each, THREE, TWO};
 
 /// Returns M applied to f₊ and f₋. The caller has multiplied f₊ by the factors D_l, and f₋ by their inverses.
 fn mean_step(f: &Formulas, q: &P, shifted: &[[P; 3]; 2]) -> [[P; 3]; 2] {
     let stay = P::one() - q;
-    core::array::from_fn(|sign| {
+    [0, 1].each(|sign: usize| {
         let other = (f.core.half_turn)(&shifted[1 - sign]);
-        core::array::from_fn(|line| {
-            shifted[sign][line].clone() * &stay + &(other[line].clone() * q)
-        })
+        [0, 1, 2]
+            .each(|line: usize| shifted[sign][line].clone() * &stay + &(other[line].clone() * q))
     })
 }
 
@@ -34,29 +32,29 @@ pub(super) fn mean_modes(f: &Formulas) -> Vec<Step> {
     let mut steps = Vec::new();
     for sign in [0, 1] {
         for line in 0..3 {
-            let [x, y, z] = [&twice, &once, &parts].map(|parts| parts[sign][line].clone());
+            let [x, y, z] = [&twice, &once, &parts].each(|parts| parts[sign][line].clone());
             let zero = x - &(y * &(P::one() + &mu)) + &(z * &mu);
             let claim = format!("(M−1)(M−μ) = 0, of f{}", ["₊", "₋"][sign]);
             steps.extend(equations! { (claim): zero => P::zero() });
         }
     }
-    let across = |sign: i128| [sign, -sign, 0].map(int);
+    let across = |sign: i128| [sign, -sign, 0].each(int);
     let mode = [across(1), across(-1)];
     // The factors are −1 along α and β, and 1 along γ.
-    let shifted = mode.clone().map(|[a, b, c]| [-a, -b, c]);
+    let shifted = mode.clone().each(|[a, b, c]| [-a, -b, c]);
     let after = mean_step(f, &q, &shifted);
     for (after, mode) in after.into_iter().zip(mode) {
-        steps.extend(by_line("Mψ = −ψ", after, mode.map(|part| -part)));
+        steps.extend(by_line("Mψ = −ψ", after, mode.each(|part| -part)));
     }
     steps
 }
 
 /// Returns the determinant, by expansion along the rows. The minors of the first rows are indexed by the set of their
 /// columns.
-fn determinant(rows: &[[P; 6]; 6]) -> P {
-    let mut minors = BTreeMap::from([(0_u32, P::one())]);
+fn determinant(rows: &[Vec<P>]) -> P {
+    let mut minors = vec![(0_usize, P::one())];
     for row in rows {
-        let mut longer = BTreeMap::new();
+        let mut longer = vec![P::zero(); 1 << row.len()];
         for (taken, minor) in &minors {
             for (column, entry) in row.iter().enumerate() {
                 let bit = 1 << column;
@@ -65,14 +63,15 @@ fn determinant(rows: &[[P; 6]; 6]) -> P {
                     let inversions = (taken >> column).count_ones();
                     let sign = int(if inversions % 2 == 0 { 1 } else { -1 });
                     let term = minor.clone() * entry * &sign;
-                    let sum = longer.entry(taken | bit).or_insert_with(P::zero);
+                    let sum = &mut longer[taken | bit];
                     *sum = sum.clone() + &term;
                 }
             }
         }
-        minors = longer;
+        let longer = longer.into_iter().enumerate();
+        minors = longer.filter(|(_, minor)| !minor.is_zero()).collect();
     }
-    sum(minors.into_values())
+    sum(minors.into_iter().map(|(_, minor)| minor))
 }
 
 pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
@@ -81,7 +80,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     let none = || [P::zero(), P::zero(), P::zero()];
     // Column by column, the entries are those of λ − M for the six unit vectors. The columns of f₋ are multiplied by
     // D_l.
-    let mut rows: [[P; 6]; 6] = core::array::from_fn(|_| core::array::from_fn(|_| P::zero()));
+    let mut rows = vec![vec![P::zero(); 6]; 6];
     for sign in [0, 1] {
         for line in 0..3 {
             let mut shifted = [none(), none()];
@@ -102,7 +101,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     let inverse = [b.clone() * c, a.clone() * c, a.clone() * b];
     let half = |sum: P| sum.div_int(TWO);
     let t1 = half(sum(d.clone()) + &sum(inverse.clone()));
-    let t2 = half(sum(d.each_ref().map(square)) + &sum(inverse.each_ref().map(square)));
+    let t2 = half(sum(d.each_ref().each(square)) + &sum(inverse.each_ref().each(square)));
     let ratios = (0..3).flat_map(|i| {
         let others = (0..3).filter(move |j| *j != i);
         others.map(move |j| (i, j))
@@ -127,8 +126,8 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     let t = symbol("t");
     let mut wave = |what: &str, square_of: &P, exponent: &P, order: usize| {
         let [lambda, inverse] =
-            [exponent.clone(), -exponent.clone()].map(|x| exponential(&x, order));
-        let [t1, t2, s] = [1, 4, 3].map(|n| of_angle(&(int(n) * square_of)));
+            [exponent.clone(), -exponent.clone()].each(|x| exponential(&x, order));
+        let [t1, t2, s] = [1, 4, 3].each(|n| of_angle(&(int(n) * square_of)));
         let y = lambda + &(mu.clone() * &inverse);
         let q_of = cubic(&q, [&t1, &t2, &s], &y, &P::one());
         let claim = format!("{what}: Q vanishes");

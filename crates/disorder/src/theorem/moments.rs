@@ -1,5 +1,6 @@
 //! Proofs of the moments of the response to a load.
 
+use crate::Each;
 use cannonpile::scalar::Symbol;
 use cannonpile::theorem::Step;
 use cannonpile::theorem::setting::{P, equations, int, symbol};
@@ -36,7 +37,7 @@ impl Moments {
             let contacts = f.iter().zip(d).zip(places);
             sum(contacts.map(|((f, d), z)| term(z, d) * f))
         };
-        let [bar_square, bar_cube] = [2, 3].map(|n| {
+        let [bar_square, bar_cube] = [2, 3].each(|n| {
             move |z: &Complex| (1..n).fold(conjugate(z), |power, _| times(&power, &conjugate(z)))
         });
         Self {
@@ -62,8 +63,8 @@ fn at_a_sphere(f: &Formulas) -> Vec<(String, P, Moments, Moments)> {
     for (above, from) in down.iter().enumerate() {
         for (below, to) in down.iter().enumerate() {
             let passed = turned(f, above != below, &g);
-            let here = core::array::from_fn(|_| z.clone());
-            let there = to.each_ref().map(|step| z.clone() + step);
+            let here = [(); 3].each(|()| z.clone());
+            let there = to.each_ref().each(|step| z.clone() + step);
             cases.push((
                 format!("{} above, {} below", SIGNS[above], SIGNS[below]),
                 int(if below == 0 { 1 } else { -1 }),

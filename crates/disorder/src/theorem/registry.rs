@@ -1,14 +1,12 @@
 //! Proof of the recursion of registries.
 
-use core::array;
-
 use cannonpile::scalar::Algebra;
 use cannonpile::theorem::Step;
 use cannonpile::theorem::setting::{P, equations, symbol};
 use num_traits::{One, Zero};
 
 use super::{Formulas, sum, symbols};
-use crate::THREE;
+use crate::{Each, THREE};
 
 /// The probabilities of each registry after a + step, and after a − step.
 type Shares = [[P; 3]; 2];
@@ -18,15 +16,15 @@ fn stepped([plus, minus]: &Shares, q: &P) -> Shares {
     let straight = P::one() - q;
     let chosen = |same: &P, other: &P| same.clone() * &straight + &(other.clone() * q);
     [
-        array::from_fn(|r| chosen(&plus[(r + 2) % 3], &minus[(r + 2) % 3])),
-        array::from_fn(|r| chosen(&minus[(r + 1) % 3], &plus[(r + 1) % 3])),
+        [0, 1, 2].each(|r: usize| chosen(&plus[(r + 2) % 3], &minus[(r + 2) % 3])),
+        [0, 1, 2].each(|r: usize| chosen(&minus[(r + 1) % 3], &plus[(r + 1) % 3])),
     ]
 }
 
 /// Returns the excess of each registry over a third of the total.
 fn excesses([plus, minus]: &Shares) -> [P; 3] {
     let third = sum(plus.iter().chain(minus).cloned()).div_int(THREE);
-    array::from_fn(|r| plus[r].clone() + &minus[r] - &third)
+    [0, 1, 2].each(|r: usize| plus[r].clone() + &minus[r] - &third)
 }
 
 pub(super) fn registry(f: &Formulas) -> Vec<Step> {
@@ -38,8 +36,8 @@ pub(super) fn registry(f: &Formulas) -> Vec<Step> {
     let once = stepped(&shares, &q);
     let twice = stepped(&once, &q);
     // A single layer has no sign. So its probability can be assigned to either sign.
-    let [u, v] = ["u", "v"].map(symbol);
-    let nothing = || [(); 3].map(|()| P::zero());
+    let [u, v] = ["u", "v"].each(symbol);
+    let nothing = || [(); 3].each(|()| P::zero());
     let begun = [[u.clone() + &v, P::zero(), P::zero()], nothing()];
     let first = [[P::zero(), u, P::zero()], [P::zero(), P::zero(), v]];
     let second = stepped(&first, &q);
@@ -48,7 +46,7 @@ pub(super) fn registry(f: &Formulas) -> Vec<Step> {
         ("two steps below a single layer", [begun, first, second]),
         ("two steps more", [shares, once, twice]),
     ] {
-        let [before, after, below] = layers.each_ref().map(excesses);
+        let [before, after, below] = layers.each_ref().each(excesses);
         for r in 0..3 {
             steps.extend(equations! {
                 (format!("{case}: registry {r}")):

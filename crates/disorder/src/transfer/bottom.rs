@@ -5,9 +5,9 @@ use crate::Error;
 use crate::error::bug;
 use crate::floor::FloorFactors;
 use crate::nets::{NetCounts, SIGNS};
-use crate::number::{Factor, Number, add};
+use crate::number::{Number, add};
 
-impl<T: Number, S: Factor<T>> Transfer<'_, T, S> {
+impl<T: Number> Transfer<'_, T> {
     /// Takes the last step, and returns the forces on the floor.
     pub(super) fn bottom(
         &self,

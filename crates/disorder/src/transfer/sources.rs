@@ -4,9 +4,9 @@ use super::{Layer, Transfer, rows_mut};
 use crate::Error;
 use crate::error::bug;
 use crate::nets::NetCounts;
-use crate::number::{Factor, Number, add};
+use crate::number::{Number, add};
 
-impl<T: Number, S: Factor<T>> Transfer<'_, T, S> {
+impl<T: Number> Transfer<'_, T> {
     /// Adds the loads to the top layer.
     pub(super) fn add_loads(
         &self,
