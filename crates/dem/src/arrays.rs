@@ -6,8 +6,8 @@ mod places;
 use num_traits::ToPrimitive;
 
 use super::numbered::{LinkedRow, rounded, stresses};
-use crate::Error;
 use crate::table::{columns, slices};
+use crate::{Each, Error};
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::shape::{Numbering, Selection};
 use cannonpile::{Interrupt, PackedContact, Packing, Pile, Quantity};
@@ -224,7 +224,7 @@ impl<'p> PileArrays<'p> {
         }
         for (contact, _) in self.pile.horizontal_forces() {
             let neighbour = self.pile.shape().neighbour(contact)?;
-            let [one, other] = [contact.site, neighbour].map(|site| self.numbering.id(site));
+            let [one, other] = [contact.site, neighbour].each(|site| self.numbering.id(site));
             put(&mut left, [number(one?)?, number(other?)?]);
         }
         Ok(())

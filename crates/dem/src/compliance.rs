@@ -42,7 +42,7 @@ use core::fmt;
 
 use super::numbered::nearest;
 use super::weights::checked;
-use crate::Error;
+use crate::{Each, Error};
 use cannonpile::Packing;
 use cannonpile::lattice::{Direction, Site};
 use sweeps::Sweeps;
@@ -163,7 +163,7 @@ impl Compliance {
             compliance.vectors.add(contact.vector_coefficient);
             look(&contact);
         })?;
-        let sums = [compliance.forces, compliance.vectors].map(|of| of.sum_of_squares);
+        let sums = [compliance.forces, compliance.vectors].each(|of| of.sum_of_squares);
         if sums.iter().all(|sum| sum.is_finite()) {
             Ok(compliance)
         } else {

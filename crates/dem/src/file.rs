@@ -1,5 +1,6 @@
 //! The files of an export.
 
+use crate::Each;
 use core::fmt;
 use std::io::Write;
 use std::path::PathBuf;
@@ -227,6 +228,6 @@ pub fn files(written: &[Written]) -> Table<'_> {
             Cell::Integer(written.bytes.into()),
         ])
     };
-    let columns = ["file", "rows", "bytes"].map(Column::plain).into();
+    let columns = ["file", "rows", "bytes"].each(Column::plain).into();
     Table::of_rows(columns, "files", written.iter().map(row))
 }

@@ -5,9 +5,9 @@ use std::io::Write;
 use super::numbered::NumberedPile;
 use super::springs::{Springs, density};
 use super::template::fill;
-use super::weights::{burdens, inertias};
-use crate::Error;
+use super::weights::{burdens, find, inertias};
 use crate::table::WriteError;
+use crate::{Each, Error};
 use cannonpile::engine::refuse_beyond;
 use cannonpile::lattice::Dimension;
 
@@ -46,9 +46,9 @@ pub(super) fn write_data(
     for (id, centre) in (1_u64..).zip(pile.centres()?) {
         let (site, [x, y, z]) = centre?;
         let kind = if site.k + 1 == layers { 2 } else { 1 };
-        let density = match inertias.get(&site) {
+        let density = match find(&inertias, site) {
             None => ordinary,
-            Some(mass) => density(*mass, springs.radius)?,
+            Some(mass) => density(mass, springs.radius)?,
         };
         writeln!(
             out,
@@ -143,7 +143,7 @@ pub(super) fn loads(
         return Ok(String::new());
     }
     let is_used = |axis: usize| burdens.iter().any(|(_, force)| force[axis] != 0.0);
-    let names = match [0, 1].map(is_used) {
+    let names = match [0, 1].each(is_used) {
         [false, false] => [None, None, Some("load")],
         [along_x, along_y] => [
             along_x.then_some("load_x"),
@@ -163,7 +163,7 @@ pub(super) fn loads(
     });
     let sets: String = sets.collect();
     let variables = each(&|name| format!("{variable} {name} atom d_{name}\n"));
-    let forces = names.map(|name| name.map_or_else(|| "0.0".into(), |name| format!("v_{name}")));
+    let forces = names.each(|name| name.map_or_else(|| "0.0".into(), |name| format!("v_{name}")));
     let forces = forces.join(" ");
     Ok(format!(
         "{note}{fix} load all property/atom{properties}\n{sets}{variables}{fix} push all addforce {forces}\n"

@@ -13,8 +13,8 @@ use super::sunk::Sunk;
 use super::template::fill;
 use super::vector::{minus, plus};
 use super::weights::{inertias, rounded_newtons};
-use crate::Error;
 use crate::table::WriteError;
+use crate::{Each, Error};
 use cannonpile::Load;
 use cannonpile::lattice::Dimension;
 
@@ -113,7 +113,7 @@ fn middle(centres: &[[f64; 3]]) -> f64 {
 
 /// Returns `xlo xhi ylo yhi zlo zhi`, with room for motion.
 fn boundaries(centres: &[[f64; 3]], radius: f64) -> String {
-    let sides = [0, 1, 2].map(|axis| {
+    let sides = [0, 1, 2].each(|axis| {
         let greatest = centres.iter().map(|centre| centre[axis]);
         let greatest = greatest.fold(radius, f64::max);
         format!("0.0 {:?}", greatest + 4.0 * radius)
@@ -157,7 +157,7 @@ fn reactions(pile: &NumberedPile<'_>) -> Result<String, Error> {
         };
         let on_floor = [force.shear_x, force.shear_y, -force.normal];
         // Adding 0 turns −0 into 0.
-        let [x, y, z] = plus(minus(on_floor, load), pulled).map(|part| part + 0.0);
+        let [x, y, z] = plus(minus(on_floor, load), pulled).each(|part| part + 0.0);
         Ok(format!("  {id} {x:?} {y:?} {z:?}\n"))
     });
     off_the_floor.chain(on_the_floor).collect()

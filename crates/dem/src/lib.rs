@@ -75,6 +75,8 @@ pub mod weights;
 mod yade;
 mod yade_check;
 
+use cannonpile_horizontal::each::Each;
+
 pub use arrays::PileArrays;
 pub use card::CardTitle;
 pub use compliance::{Compliance, NoCompliance, SoftContact};

@@ -3,8 +3,8 @@
 use num_bigint::BigUint;
 use num_traits::Zero;
 
-use crate::Error;
 use crate::table::{columns, in_pieces, refuse_beyond, slices};
+use crate::{Each, Error};
 use cannonpile::lattice::{ContactKind, Direction, Row, Site};
 use cannonpile::scalar::{Surd, SurdSum};
 use cannonpile::shape::{Numbering, Rows, Selection};
@@ -214,7 +214,7 @@ impl<'p> NumberedPile<'p> {
                 centres(&Row { k, j, i: i..end })
             });
             let below = below.collect::<Result<Vec<_>, Error>>()?;
-            let at = |columns: &[Vec<f64>; 3], n: usize| columns.each_ref().map(|x| x[n]);
+            let at = |columns: &[Vec<f64>; 3], n: usize| columns.each_ref().each(|x| x[n]);
             let spheres = 0..upper[0].len();
             let links = spheres.flat_map(|n| below.iter().map(move |lower| (n, lower)));
             Ok(links
@@ -244,7 +244,7 @@ impl<'p> NumberedPile<'p> {
             let mut forces = columns(piece)?;
             layers.fill_row(piece, slices(&mut forces))?;
             let mut vectors = [columns(piece)?, columns(piece)?, columns(piece)?];
-            layers.fill_row_of_vectors(piece, vectors.each_mut().map(slices))?;
+            layers.fill_row_of_vectors(piece, vectors.each_mut().each(slices))?;
             let directions = self.pile().dimension().directions().len();
             let contacts = self.touches_of(piece)?.enumerate().map(|(n, touch)| {
                 let (place, line) = (n / directions, touch.direction.index());
@@ -253,7 +253,7 @@ impl<'p> NumberedPile<'p> {
                     site: touch.site,
                     direction: touch.direction.into(),
                     force: forces[line][place],
-                    vector: vectors.each_ref().map(|component| component[line][place]),
+                    vector: vectors.each_ref().each(|component| component[line][place]),
                 }
             });
             Ok(contacts.collect())
@@ -463,7 +463,7 @@ impl NumberedContact {
         Self {
             ids: [second, first],
             // The subtraction yields 0, never −0.
-            vector: self.vector.map(|component| 0.0 - component),
+            vector: self.vector.each(|component| 0.0 - component),
             ..self
         }
     }

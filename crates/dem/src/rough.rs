@@ -10,8 +10,8 @@ use super::numbered::NumberedPile;
 use super::template::fill;
 use super::weights::{burdens_of_all, normal};
 use super::yade::{by_id, texts, with_vector};
-use crate::Error;
 use crate::table::WriteError;
+use crate::{Each, Error};
 use cannonpile::Packing;
 use cannonpile::friction::RoughPacking;
 use cannonpile::lattice::Dimension;
@@ -124,7 +124,7 @@ impl Friction {
     pub(super) fn holds(&self, rough: &RoughPacking<'_>) -> Result<[bool; 2], Error> {
         hold(
             rough,
-            [&self.spheres, &self.floor].map(|given| given.exact.as_ref()),
+            [&self.spheres, &self.floor].each(|given| given.exact.as_ref()),
         )
     }
 }

@@ -12,7 +12,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::rough::hold;
-use crate::{Error, Friction, Key};
+use crate::{Each, Error, Friction, Key};
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::shape::Shape;
@@ -504,7 +504,7 @@ impl Scene {
         if self.coefficients().next().is_none() {
             return Ok(None);
         }
-        let given = [&self.friction, &self.floor_friction].map(Option::as_ref);
+        let given = [&self.friction, &self.floor_friction].each(Option::as_ref);
         let [contacts, floor] = hold(&packing.on_rough_floor()?, given)?;
         Ok(Some(contacts && floor))
     }

@@ -3,7 +3,7 @@
 use super::numbered::NumberedPile;
 use super::springs::Springs;
 use super::vector::{dot, minus, plus, solved};
-use crate::Error;
+use crate::{Each, Error};
 use cannonpile::lattice::ContactKind;
 
 /// The centres of the spheres in equilibrium on springs of stiffness k, in the order of their numbers. They are
@@ -26,7 +26,7 @@ impl Sunk {
         let radius = springs.radius;
         let shift = springs
             .bounds
-            .map(|[least, _]| (2.0 - (least / radius).floor()) * radius);
+            .each(|[least, _]| (2.0 - (least / radius).floor()) * radius);
         let rigid = pile.centres()?.map(|centre| {
             let (_, centre) = centre?;
             Ok(plus(centre, shift))
@@ -35,7 +35,7 @@ impl Sunk {
         let mut supports: Vec<Vec<Support>> = vec![Vec::new(); rigid.len()];
         for contact in pile.forces()? {
             let contact = contact?;
-            let [upper, lower] = contact.ids.map(|id| usize::try_from(id - 1));
+            let [upper, lower] = contact.ids.each(|id| usize::try_from(id - 1));
             // All numbers are indices of spheres in memory.
             let (Ok(upper), Ok(lower), ContactKind::Sloping(_)) = (upper, lower, contact.direction)
             else {
@@ -67,10 +67,10 @@ impl Sunk {
 fn supported_by(start: [f64; 3], supports: [([f64; 3], f64); 3]) -> [f64; 3] {
     let mut at = start;
     for _ in 0..8 {
-        let apart = supports.map(|(centre, _)| minus(at, centre));
-        let lengths = apart.map(|v| dot(v, v).sqrt());
-        let missing = [0, 1, 2].map(|n| supports[n].1 - lengths[n]);
-        let directions = [0, 1, 2].map(|n| apart[n].map(|x| x / lengths[n]));
+        let apart = supports.each(|(centre, _)| minus(at, centre));
+        let lengths = apart.each(|v| dot(v, v).sqrt());
+        let missing = [0, 1, 2].each(|n| supports[n].1 - lengths[n]);
+        let directions = [0, 1, 2].each(|n| apart[n].each(|x| x / lengths[n]));
         // Along these directions the step has the missing lengths as components.
         at = plus(at, solved(directions, missing));
     }

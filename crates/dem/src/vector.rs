@@ -1,5 +1,7 @@
 //! Vectors with three components.
 
+use crate::Each;
+
 /// Returns a + b.
 pub(crate) fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
@@ -25,12 +27,12 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 /// Returns the vector of length 1 in the same direction.
 pub(crate) fn unit(vector: [f64; 3]) -> [f64; 3] {
     let length = dot(vector, vector).sqrt();
-    vector.map(|x| x / length)
+    vector.each(|x| x / length)
 }
 
 /// Returns the matrix with rows and columns exchanged.
 pub(crate) fn transposed(matrix: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    [0, 1, 2].map(|column| matrix.map(|row| row[column]))
+    [0, 1, 2].each(|column| matrix.each(|row| row[column]))
 }
 
 /// Returns the solution x of A x = b for a matrix A, by Cramer's rule.
@@ -39,7 +41,7 @@ pub(crate) fn solved(matrix: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
     // The rows of the adjugate matrix are the columns of these products.
     let [vw, wu, uv] = [cross(v, w), cross(w, u), cross(u, v)];
     let determinant = dot(u, vw);
-    [0, 1, 2].map(|n| (b[0] * vw[n] + b[1] * wu[n] + b[2] * uv[n]) / determinant)
+    [0, 1, 2].each(|n| (b[0] * vw[n] + b[1] * wu[n] + b[2] * uv[n]) / determinant)
 }
 
 /// Returns a vector turned about a second one. The angle, in radians, is the length of the second vector.
@@ -49,7 +51,7 @@ pub(crate) fn turned(vector: [f64; 3], about: [f64; 3]) -> [f64; 3] {
         return vector;
     }
     let (sin, cos) = angle.sin_cos();
-    let axis = about.map(|x| x / angle);
+    let axis = about.each(|x| x / angle);
     let (aside, along) = (cross(axis, vector), dot(axis, vector) * (1.0 - cos));
-    [0, 1, 2].map(|n| vector[n] * cos + aside[n] * sin + axis[n] * along)
+    [0, 1, 2].each(|n| vector[n] * cos + aside[n] * sin + axis[n] * along)
 }

@@ -1,12 +1,10 @@
 //! Masses, weights and loads of spheres for simulation codes.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::numbered::{NumberedPile, nearest, rounded};
-use crate::Error;
+use crate::{Each, Error};
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Surd;
 use cannonpile::{FloorForce, Load, Packing, Pile};
@@ -42,10 +40,13 @@ pub fn ordinary_weight(pile: &Pile) -> BigRational {
     }
 }
 
-/// Returns the spheres with a load or a weight of their own.
-fn special_sites(pile: &Pile) -> BTreeSet<Site> {
+/// Returns the spheres with a load or a weight of their own, in row order.
+fn special_sites(pile: &Pile) -> Vec<Site> {
     let loads = pile.loads().map(|(site, _)| site);
-    loads.chain(pile.weights().map(|(site, _)| site)).collect()
+    let mut sites: Vec<Site> = loads.chain(pile.weights().map(|(site, _)| site)).collect();
+    sites.sort_unstable();
+    sites.dedup();
+    sites
 }
 
 /// Returns an upper bound of the magnitude of a load, in mg or mg·tanθ: |w| + |x| + 2|y|.
@@ -89,7 +90,7 @@ pub(crate) fn rounded_newtons(
     quantity: &'static str,
 ) -> Result<[f64; 3], Error> {
     // Adding 0 turns −0 into 0.
-    Ok(rounded(&newtons(packing, load), quantity)?.map(|part| part + 0.0))
+    Ok(rounded(&newtons(packing, load), quantity)?.each(|part| part + 0.0))
 }
 
 /// Returns the acceleration of gravity, in m/s²: x, y and z (up); 0 for weightless spheres.
@@ -97,13 +98,14 @@ pub(super) fn gravity(pile: &NumberedPile<'_>) -> Result<[f64; 3], Error> {
     let packing = pile.packing();
     let weight = ordinary_weight(pile.pile()) / packing.mass();
     let gravity = newtons(packing, Load::leaning(weight, pile.pile().tilt()));
-    Ok(rounded(&gravity, "gravity")?.map(|part| part + 0.0))
+    Ok(rounded(&gravity, "gravity")?.each(|part| part + 0.0))
 }
 
 /// A rounded quantity that is the same for all but a few spheres.
 pub(super) struct PerSphere {
     ordinary: f64,
-    special: BTreeMap<Site, f64>,
+    /// In row order.
+    special: Vec<(Site, f64)>,
 }
 
 impl PerSphere {
@@ -121,19 +123,19 @@ impl PerSphere {
     pub(super) fn loads(pile: &NumberedPile<'_>) -> Result<Self, Error> {
         let (quantity, unit) = ("load", pile.packing().sphere_weight());
         let special = |site| Ok(pile.pile().load(site)?.down);
-        Self::new(pile, quantity, &BigRational::zero(), special, &unit)
+        Self::new(pile, quantity, &BigRational::zero(), &special, &unit)
     }
 
     /// Returns the horizontal components of the loads along x and y, in N.
     pub(super) fn horizontal_loads(pile: &NumberedPile<'_>) -> Result<[Self; 2], Error> {
-        let mut along = [(); 2].map(|()| Self {
+        let mut along = [(); 2].each(|()| Self {
             ordinary: 0.0,
-            special: BTreeMap::new(),
+            special: Vec::new(),
         });
         for (site, load) in pile.pile().loads() {
             let [x, y, _] = rounded_newtons(pile.packing(), load.clone(), "load")?;
             for (along, part) in along.iter_mut().zip([x, y]) {
-                along.special.insert(site, part);
+                along.special.push((site, part));
             }
         }
         Ok(along)
@@ -145,28 +147,42 @@ impl PerSphere {
         unit: &BigRational,
     ) -> Result<Self, Error> {
         let special = |site| Ok(pile.pile().sphere_weight(site)?);
-        Self::new(pile, quantity, &ordinary_weight(pile.pile()), special, unit)
+        Self::new(
+            pile,
+            quantity,
+            &ordinary_weight(pile.pile()),
+            &special,
+            unit,
+        )
     }
 
     fn new(
         pile: &NumberedPile<'_>,
         quantity: &'static str,
         ordinary: &BigRational,
-        special: impl Fn(Site) -> Result<BigRational, Error>,
+        special: &dyn Fn(Site) -> Result<BigRational, Error>,
         unit: &BigRational,
     ) -> Result<Self, Error> {
-        let sites = special_sites(pile.pile()).into_iter();
-        let special =
-            sites.map(|site| Ok((site, nearest_rational(&(special(site)? * unit), quantity)?)));
-        Ok(Self {
+        let mut numbers = Self {
             ordinary: nearest_rational(&(ordinary * unit), quantity)?,
-            special: special.collect::<Result<_, Error>>()?,
-        })
+            special: Vec::new(),
+        };
+        for site in special_sites(pile.pile()) {
+            let number = nearest_rational(&(special(site)? * unit), quantity)?;
+            numbers.special.push((site, number));
+        }
+        Ok(numbers)
     }
 
     pub(super) fn of(&self, site: Site) -> f64 {
-        self.special.get(&site).copied().unwrap_or(self.ordinary)
+        find(&self.special, site).unwrap_or(self.ordinary)
     }
+}
+
+/// Returns the number of a site in a list in row order.
+pub(super) fn find(numbers: &[(Site, f64)], site: Site) -> Option<f64> {
+    let place = numbers.binary_search_by_key(&site, |(site, _)| *site);
+    Some(numbers[place.ok()?].1)
 }
 
 /// Returns the mass of a sphere for codes that need positive masses: its own mass, or m if it is weightless.
@@ -179,11 +195,13 @@ fn inertia(pile: &NumberedPile<'_>, site: Site) -> Result<BigRational, Error> {
     })
 }
 
-/// Returns the masses of [`inertia`] for the spheres with a weight of their own.
-pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<BTreeMap<Site, f64>, Error> {
-    let sites = pile.pile().weights().map(|(site, _)| site);
-    let masses = sites.map(|site| Ok((site, normal(&inertia(pile, site)?, "mass")?)));
-    masses.collect()
+/// Returns the masses of [`inertia`] for the spheres with a weight of their own, in row order.
+pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<Vec<(Site, f64)>, Error> {
+    let mut masses = Vec::new();
+    for (site, _) in pile.pile().weights() {
+        masses.push((site, normal(&inertia(pile, site)?, "mass")?));
+    }
+    Ok(masses)
 }
 
 /// Returns the spheres above the floor on which gravity and load differ from gravity on their [`inertia`]: the sphere

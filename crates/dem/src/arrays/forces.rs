@@ -5,9 +5,9 @@ use num_rational::BigRational;
 
 use super::places::{check_length, pieces, put_by_direction, put_vectors};
 use super::{PileArrays, overflow};
-use crate::Error;
 use crate::numbered::{nearest, rounded};
 use crate::table::{columns, slices};
+use crate::{Each, Error};
 use cannonpile::engine::common_multiple;
 use cannonpile::engine::copies;
 use cannonpile::shape::Selection;
@@ -139,7 +139,7 @@ impl<'p> PileArrays<'p> {
         let mut left = vectors.iter_mut();
         for piece in pieces(self.pile.rows(Selection::All)?.off_the_floor()) {
             let mut found = [columns(&piece)?, columns(&piece)?, columns(&piece)?];
-            layers.fill_row_of_vectors(&piece, found.each_mut().map(slices))?;
+            layers.fill_row_of_vectors(&piece, found.each_mut().each(slices))?;
             // `found` is indexed by axis and then by direction, `by_line` by direction and then by axis.
             let [x, y, z] = found;
             let by_line = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
@@ -170,7 +170,7 @@ impl<'p> PileArrays<'p> {
         let mut left = base.iter_mut();
         while let Some(layer) = layers.next_layer()? {
             check_length(layer.sphere_count(), left.as_slice())?;
-            let mut found = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
+            let mut found = [(); 3].each(|()| vec![0.0; layer.sphere_count()]);
             layer.fill_base(slices(&mut found))?;
             put_vectors(&[found], &mut left);
         }

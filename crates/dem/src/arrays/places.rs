@@ -2,7 +2,7 @@
 
 use core::slice::IterMut;
 
-use crate::Error;
+use crate::{Each, Error};
 use cannonpile::lattice::Row;
 use cannonpile::shape::Rows;
 
@@ -35,7 +35,7 @@ pub(super) fn put_vectors(directions: &[[Vec<f64>; 3]], places: &mut IterMut<'_,
     for sphere in 0..spheres {
         for columns in directions {
             // All columns have the length of this row.
-            put(places, columns.each_ref().map(|column| column[sphere]));
+            put(places, columns.each_ref().each(|column| column[sphere]));
         }
     }
 }

@@ -4,8 +4,8 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 use cannonpile::Pile;
 use cannonpile::lattice::{ContactKind, Site};
 use cannonpile::shape::Selection;
@@ -47,7 +47,7 @@ impl Extremes {
             if layer.is_floor() {
                 break;
             }
-            let mut slices = [(); 3].map(|()| vec![BigInt::ZERO; layer.sphere_count()]);
+            let mut slices = [(); 3].each(|()| vec![BigInt::ZERO; layer.sphere_count()]);
             let [alpha, beta, gamma] = &mut slices;
             layer.fill([alpha, beta, gamma])?;
             // Sphere by sphere, as in the tables.

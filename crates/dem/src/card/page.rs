@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use super::record::{CRITERION, Names, given, is_tilted, name};
+use super::record::{CRITERION, Names, give, is_tilted, name};
 use super::{CardTitle, layers};
 use crate::Error;
 use crate::error::bug;
@@ -20,7 +20,7 @@ pub(super) fn page(
     layout: &Layout,
 ) -> Result<String, Error> {
     name("", &card, &mut names);
-    names.extend(of_pile(pile, title));
+    name_pile(pile, title, &mut names);
     let flat = pile.pile().dimension() == Dimension::Two;
     for (list, row) in [
         ("spheres", SPHERE),
@@ -60,7 +60,7 @@ pub(super) fn page(
     };
     let loads = loads(&card["pile"]["loads"], pile.pile());
     let at_rest = names.contains_key("rests") || names.contains_key("falls");
-    let texts = [
+    let texts = &mut [
         ("with_scene", scene.map(|_| String::new())),
         ("scene", scene.map(|scene| scene.trim_end().to_owned())),
         ("springs", at_rest.then(String::new)),
@@ -69,7 +69,7 @@ pub(super) fn page(
         ("verdict", Some(verdict.to_owned())),
         ("loads", Some(shortened(&loads))),
     ];
-    names.extend(given(texts));
+    give(&mut names, texts);
     Ok(fill_lines(layout.page, &names))
 }
 
@@ -89,8 +89,8 @@ impl Layout {
     };
 }
 
-/// Returns the facts about a pile that only the page shows.
-fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
+/// Adds the facts about a pile that only the page shows.
+fn name_pile(numbered: &NumberedPile<'_>, title: &CardTitle, names: &mut Names) {
     let pile = numbered.pile();
     let (regular, weighs) = (pile.is_regular(), !pile.is_weightless());
     let [kind, supports, site] = match pile.dimension() {
@@ -128,7 +128,7 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
         is_tilted(pile),
         pile.loads().all(|(_, load)| load.is_vertical()),
     );
-    given([
+    let texts = &mut [
         ("upright", flag(!tilted)),
         ("tilted", flag(tilted)),
         ("vertical", flag(vertical)),
@@ -158,7 +158,8 @@ fn of_pile(numbered: &NumberedPile<'_>, title: &CardTitle) -> Names {
         ("no_extremes", no_extremes),
         ("contact_count", Some(numbered.contact_count().to_string())),
         ("name", Some(cited)),
-    ])
+    ];
+    give(names, texts);
 }
 
 const SPHERE: &str = "| {id} | {site} | `{x.exact}` | `{y.exact}` | `{z.exact}` |";

@@ -63,7 +63,7 @@ pub(super) fn record(
     let pull = pull.map(|pull| packing.unit_force().scaled(&pull).to_string());
     // If floats cannot express the springs, the card requires this compliance.
     let most_compliance = compliance.clone().unwrap_or_else(|| "1e-7".into());
-    names.extend(given([
+    let texts = &mut [
         (kind(&stands, attained), flag(true)),
         ("pulls", flag(!attained && !falls)),
         ("rests", flag(rests)),
@@ -79,7 +79,8 @@ pub(super) fn record(
         ("accept", Some(accept.clone())),
         ("verify", Some(verify.clone())),
         ("export", Some(export)),
-    ]));
+    ];
+    give(&mut names, texts);
     let outcome = fill_lines(include_str!("outcome.txt"), &names);
     let criteria = criteria(include_str!("criteria.txt"), &names)?;
     let accept: Json =
@@ -249,11 +250,13 @@ fn answers(
     }))
 }
 
-/// Keeps the entries that have a text.
-pub(super) fn given<const N: usize>(texts: [(&str, Option<String>); N]) -> Names {
-    let texts = texts.into_iter();
-    let given = texts.filter_map(|(name, text)| Some((name.to_owned(), text?)));
-    given.collect()
+/// Adds the entries that have a text.
+pub(super) fn give(names: &mut Names, texts: &mut [(&str, Option<String>)]) {
+    for (name, text) in texts {
+        if let Some(text) = text.take() {
+            names.insert((*name).to_owned(), text);
+        }
+    }
 }
 
 /// Collects the texts and numbers of a record, each named by the path of keys to it.

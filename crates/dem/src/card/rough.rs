@@ -6,10 +6,10 @@ use serde_json::{Value as Json, json};
 use super::CardTitle;
 use super::lists::{FORCE, placed, rational};
 use super::page::Layout;
-use super::record::{Names, criteria, framed, given, name, of_pile, scene_option};
+use super::record::{Names, criteria, framed, give, name, of_pile, scene_option};
 use crate::numbered::{NumberedPile, all_rounded};
 use crate::template::fill_lines;
-use crate::{Error, Friction};
+use crate::{Each, Error, Friction};
 use cannonpile::friction::RoughPacking;
 use cannonpile::scalar::SurdSum;
 use cannonpile::shape::Selection;
@@ -36,7 +36,7 @@ pub(super) fn record(
     name("pile", &of_pile, &mut names);
     name("answers", &answers, &mut names);
     let flag = |holds: bool| holds.then(String::new);
-    names.extend(given([
+    let texts = &mut [
         ("stands", flag(stands)),
         ("falls", flag(!stands)),
         ("contacts_slide", flag(!contacts_hold)),
@@ -47,7 +47,8 @@ pub(super) fn record(
             "export",
             Some(format!("cannonpile export DIR {option} --to lammps,yade")),
         ),
-    ]));
+    ];
+    give(&mut names, texts);
     let outcome = fill_lines(include_str!("rough_outcome.txt"), &names);
     let criteria = criteria(include_str!("rough_criteria.txt"), &names)?;
     let failures: Vec<&str> = include_str!("rough_failures.txt").lines().collect();
@@ -115,7 +116,7 @@ fn contacts(numbered: &NumberedPile<'_>, rough: &RoughPacking<'_>) -> Result<Jso
             let [x, y, z] = all_rounded(vector)?;
             Ok::<_, Error>(json!({"x": x, "y": y, "z": z}))
         };
-        let normal = contact.normal_vector.map(SurdSum::from);
+        let normal = contact.normal_vector.each(SurdSum::from);
         let force = json!({
             "direction": direction.name(),
             "normal": rational(contact.normal, FORCE)?,

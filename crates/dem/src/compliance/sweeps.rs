@@ -1,9 +1,9 @@
 //! The sweep up through a pile for displacements, and the sweep down for the changes of forces.
 
 use super::{NoCompliance, SoftContact};
-use crate::Error;
 use crate::error::bug;
 use crate::numbered::nearest;
+use crate::{Each, Error};
 use cannonpile::Packing;
 use cannonpile::engine::copies;
 use cannonpile::lattice::{Direction, Sign, Site};
@@ -57,7 +57,7 @@ impl Sweeps {
         let resting = few(numbering.first_on_floor() - 1)?;
         let mut forces = [zeros(resting)?, zeros(resting)?, zeros(resting)?];
         let layers = packing.forces().layers(Selection::All)?.nearest()?;
-        layers.fill(forces.each_mut().map(Vec::as_mut_slice))?;
+        layers.fill(forces.each_mut().each(Vec::as_mut_slice))?;
         let plus = Frame::new(packing)?;
         let minus = plus.turned();
         let directions = pile.dimension().directions();
@@ -156,7 +156,7 @@ impl Sweeps {
                     add(&mut above[lower], 1.0, &vector);
                     let force = self.forces[line][upper];
                     look(SoftContact {
-                        ids: [upper, lower].map(|number| number as u64 + 1),
+                        ids: [upper, lower].each(|number| number as u64 + 1),
                         site: Site {
                             i: strip.first.i + n as i128,
                             ..strip.first
@@ -180,7 +180,7 @@ impl Frame {
         let (sin, cos) = (root(&inclination.sin())?, root(&inclination.cos())?);
         let sin_phi = nearest(&pile.sin_phi().clone().into(), "sin φ")?;
         let cos_phi = ((1.0 - sin_phi) * (1.0 + sin_phi)).sqrt();
-        let rays = pile.directions::<f64>().map(|ray| {
+        let rays = pile.directions::<f64>().each(|ray| {
             let [x, y, z] = ray.on(&[sin, 2.0 * cos_phi * sin, cos]);
             [x, y, -z]
         });
@@ -198,13 +198,13 @@ impl Frame {
         let duals = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
         Self {
             rays,
-            duals: duals.map(|dual| dual.map(|x| x / volume)),
+            duals: duals.each(|dual| dual.each(|x| x / volume)),
         }
     }
 
     /// Returns the frame of a − step, rotated by half a turn about the vertical.
     fn turned(self) -> Self {
-        Self::of(self.rays.map(|[x, y, z]| [-x, -y, z]))
+        Self::of(self.rays.each(|[x, y, z]| [-x, -y, z]))
     }
 }
 

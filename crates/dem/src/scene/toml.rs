@@ -5,7 +5,6 @@ mod value;
 mod write;
 
 use core::str::FromStr;
-use std::collections::BTreeMap;
 
 use ::toml::Spanned;
 use ::toml::de::{DeString, DeTable, DeValue};
@@ -93,7 +92,7 @@ const LONGEST: usize = 16 << 20;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneFile {
     scene: Scene,
-    lines: BTreeMap<&'static str, usize>,
+    lines: Vec<(&'static str, usize)>,
 }
 
 impl SceneFile {
@@ -122,7 +121,8 @@ impl SceneFile {
     /// ```
     #[must_use]
     pub fn line(&self, key: &str) -> Option<usize> {
-        self.lines.get(key).copied()
+        let mut lines = self.lines.iter();
+        Some(lines.find(|(known, _)| *known == key)?.1)
     }
 }
 

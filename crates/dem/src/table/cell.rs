@@ -9,7 +9,7 @@ use num_rational::BigRational;
 use num_traits::Signed;
 
 use super::line::Line;
-use crate::Error;
+use crate::{Each, Error};
 use cannonpile::scalar::{CorrectlyRounded, Surd, SurdSum};
 
 /// One entry of a table.
@@ -224,7 +224,7 @@ fn ends(number: &impl Exact, quantity: &'static str) -> Result<[String; 2], Erro
         _ => [float, float],
     };
     if lower.is_finite() && upper.is_finite() {
-        Ok([lower, upper].map(|end| format!("{end:?}")))
+        Ok([lower, upper].each(|end| format!("{end:?}")))
     } else {
         Err(overflow())
     }

@@ -90,6 +90,11 @@ pub(super) fn show(
 /// An iterator over rows.
 pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 
+/// Boxes rows. The vtable of another iterator would contain more than `next`.
+pub(super) fn boxed<'a>(mut rows: impl Iterator<Item = Row> + 'a) -> RowIter<'a> {
+    Box::new(core::iter::from_fn(move || rows.next()))
+}
+
 /// Generates the rows for a format of numbers.
 pub(super) type MakeRows<'a> = Box<dyn FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + 'a>;
 
@@ -170,7 +175,7 @@ impl<'a> Table<'a> {
             sums: self.sums,
             rows: Box::new(move |numbers| {
                 let rows = rows(numbers)?;
-                Ok(Box::new(rows.inspect(move |row| {
+                Ok(boxed(rows.inspect(move |row| {
                     if let Ok(row) = row {
                         look(row);
                     }
@@ -192,7 +197,7 @@ impl<'a> Table<'a> {
         noun: &'static str,
         rows: impl Iterator<Item = Row> + 'a,
     ) -> Self {
-        Self::of(columns, noun, Box::new(|_| Ok(Box::new(rows))))
+        Self::of(columns, noun, Box::new(|_| Ok(boxed(rows))))
     }
 
     /// Returns a table whose rows are generated for the requested number format.
@@ -311,7 +316,7 @@ impl<'a> Table<'a> {
         let rows = self.rows;
         let observed = move |numbers| -> Result<RowIter<'a>, Error> {
             let mut progress = Progress::new(observer);
-            Ok(Box::new(rows(numbers)?.inspect(move |_| progress.row())))
+            Ok(boxed(rows(numbers)?.inspect(move |_| progress.row())))
         };
         Self {
             rows: Box::new(observed),

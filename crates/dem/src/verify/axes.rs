@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::vector::transposed;
+use crate::{Each, vector::transposed};
 
 /// One of the three coordinates of a position or a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -132,7 +132,7 @@ impl Axes {
     /// ```
     #[must_use]
     pub fn turned(self, vector: [f64; 3]) -> [f64; 3] {
-        self.0.map(|axis| axis.of(vector))
+        self.0.each(|axis| axis.of(vector))
     }
 
     /// Returns whether the table is a mirror image of the scene.
@@ -147,7 +147,7 @@ impl Axes {
     /// ```
     #[must_use]
     pub fn is_mirrored(self) -> bool {
-        let [x, y, z] = self.0.map(|axis| axis.coordinate);
+        let [x, y, z] = self.0.each(|axis| axis.coordinate);
         let swapped = [x > y, x > z, y > z].into_iter().filter(|is| *is).count();
         let reversed = self.0.iter().filter(|axis| axis.is_reversed).count();
         (swapped + reversed) % 2 == 1
@@ -156,7 +156,7 @@ impl Axes {
     /// Returns the axes whose vertical is nearest to a direction of the table. Turns about z yield all other axes with
     /// this vertical.
     pub(super) fn upright(up: [f64; 3], is_mirrored: bool) -> Self {
-        let [x, y, z] = up.map(f64::abs);
+        let [x, y, z] = up.each(f64::abs);
         let vertical = if z >= x && z >= y {
             Coordinate::Z
         } else if y >= x {
@@ -180,12 +180,12 @@ impl Axes {
     /// Returns the matrix of the permutation. Its rows are x, y and z of the scene in the axes of the table.
     pub(super) fn matrix(self) -> [[f64; 3]; 3] {
         let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        transposed(units.map(|unit| self.turned(unit)))
+        transposed(units.each(|unit| self.turned(unit)))
     }
 
     /// Returns these axes, each reversed.
     pub(super) fn reversed(self) -> Self {
-        Self(self.0.map(|axis| TableAxis {
+        Self(self.0.each(|axis| TableAxis {
             is_reversed: !axis.is_reversed,
             ..axis
         }))

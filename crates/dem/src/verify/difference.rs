@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::measured::{Measured, distance};
-use crate::NumberedContact;
+use crate::{Each, NumberedContact};
 use cannonpile::lattice::{ContactKind, Dimension, Site};
 
 /// A contact of the pile with its exact force and the measured one.
@@ -67,7 +67,7 @@ impl Difference {
         let measured = self.measured?;
         let (vector, exact) = measured.vector.zip(self.exact_vector)?;
         let differ = distance(vector, exact) > (measured.force - self.exact).abs();
-        differ.then_some([vector, exact].map(Into::into))
+        differ.then_some([vector, exact].each(Into::into))
     }
 }
 
@@ -98,7 +98,7 @@ impl fmt::Display for Extra {
     /// Writes `spheres 17 (k=3, i=1, j=0) and 18 (k=3, i=2, j=0) have no contact: measured 0.5 N`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([first, second], [one, other]) = (self.ids, self.sites);
-        let [one, other] = [one, other].map(|site| Place(site, self.dimension));
+        let [one, other] = [one, other].each(|site| Place(site, self.dimension));
         write!(
             f,
             "spheres {first} ({one}) and {second} ({other}) have no contact: measured {:?} N",

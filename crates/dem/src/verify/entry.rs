@@ -4,9 +4,9 @@ use core::slice;
 
 use super::measured::Measured;
 use super::refusal::{Fault, Refusal};
-use crate::Error;
 use crate::error::bug;
 use crate::vector::plus;
+use crate::{Each, Error};
 
 /// A row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl Entry {
     /// Returns the force between the two numbered spheres of the row. No number may be negative.
     pub(super) fn named(&self) -> Result<Measured, Fault> {
         let ids = self.numbers().map_err(Fault::of_error)?;
-        match ids.map(u64::try_from) {
+        match ids.each(u64::try_from) {
             [Ok(one), Ok(other)] => Ok(self.between([one, other])),
             [first, _] => {
                 let (column, id) = match (first, ids) {
@@ -122,7 +122,7 @@ impl Place {
     /// Returns the position with each of its points changed.
     pub(super) fn map(self, change: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         match self {
-            Self::Centres(centres) => Self::Centres(centres.map(change)),
+            Self::Centres(centres) => Self::Centres(centres.each(change)),
             Self::Point(point) => Self::Point(change(point)),
         }
     }

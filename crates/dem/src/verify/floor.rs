@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::entry::Force;
-use super::measured::{distance, relative};
+use super::measured::{distance, relative, sort_decreasing};
 use super::refusal::Refusal;
-use crate::NumberedPile;
 use crate::vector::plus;
+use crate::{Each, NumberedPile};
 
 /// The measured contacts of the bottom spheres with the floor and with walls.
 #[derive(Default)]
@@ -188,7 +188,7 @@ impl Floor {
             let sums = [sum([0, 1]), sum([1, 0])];
             let has_vectors = contacts.iter().all(|contact| contact.has_vector);
             on_floor.forces.push((id, has_vectors.then_some(sums)));
-            let [one, other] = sums.map(|[.., normal]| normal);
+            let [one, other] = sums.each(|[.., normal]| normal);
             let unit = if exact.normal == 0.0 {
                 largest_force
             } else {
@@ -202,7 +202,7 @@ impl Floor {
                 .extend(Some(apart).filter(|apart| *apart > 0.0));
             on_floor.judged += contacts.iter().map(|contact| contact.rows).sum::<u64>();
         }
-        on_floor.errors.sort_unstable_by(|a, b| b.total_cmp(a));
+        sort_decreasing(&mut on_floor.errors);
         Ok(on_floor)
     }
 

@@ -1,5 +1,6 @@
 //! The frame of a table: its origin and its axes relative to the scene.
 
+use crate::Each;
 use core::fmt;
 
 use super::axes::Axes;
@@ -47,7 +48,7 @@ impl Frame {
     pub(super) fn upright(axes: Axes, angle: f64, shift: [f64; 3]) -> Self {
         let (sin, cos) = angle.sin_cos();
         // The floats nearest to multiples of 30° have sines and cosines that are not quite 0, 1/2 and 1.
-        let [sin, cos] = [sin, cos].map(|x| {
+        let [sin, cos] = [sin, cos].each(|x| {
             let halves = (2.0 * x).round() / 2.0;
             if (x - halves).abs() < 1e-15 {
                 halves
@@ -56,7 +57,7 @@ impl Frame {
             }
         });
         let [x, y, z] = axes.matrix();
-        let mix = |a: f64, b: f64| [0, 1, 2].map(|n| a * x[n] + b * y[n]);
+        let mix = |a: f64, b: f64| [0, 1, 2].each(|n| a * x[n] + b * y[n]);
         Self {
             rotation: [mix(cos, -sin), mix(sin, cos), z],
             shift,
@@ -88,7 +89,7 @@ impl Frame {
     /// ```
     #[must_use]
     pub fn turned(&self, vector: [f64; 3]) -> [f64; 3] {
-        self.rotation.map(|row| dot(row, vector))
+        self.rotation.each(|row| dot(row, vector))
     }
 
     /// Returns the position in the scene of a point of the table.
@@ -150,7 +151,7 @@ impl fmt::Display for Frame {
             };
             parts.push(format!(
                 "gravity is along {} of the table, and x of the scene along {}{mirrored}",
-                text(up.map(|component| -component)),
+                text(up.each(|component| -component)),
                 text(x)
             ));
         }
@@ -163,6 +164,6 @@ impl fmt::Display for Frame {
 
 /// Returns a vector with six decimals, without negative zeros.
 fn text(vector: [f64; 3]) -> String {
-    let [x, y, z] = vector.map(|x| if x.abs() < 5e-7 { 0.0 } else { x });
+    let [x, y, z] = vector.each(|x| if x.abs() < 5e-7 { 0.0 } else { x });
     format!("({x:.6}, {y:.6}, {z:.6})")
 }

@@ -2,12 +2,12 @@
 
 use super::finding::{Finding, FrictionFault, FrictionOf};
 use super::floor::OnFloor;
-use super::measured::{Measured, distance, norm, opposite, over, relative};
+use super::measured::{Measured, distance, norm, opposite, over, relative, sort_decreasing};
 use super::refusal::Refusal;
 use super::unbalanced::between;
 use crate::error::bug;
 use crate::vector::{cross, dot, minus, plus};
-use crate::{Error, NumberedContact, NumberedPile};
+use crate::{Each, Error, NumberedContact, NumberedPile};
 
 /// The largest distance of a factor from 0 or −1 that counts as this value.
 const NEAR: f64 = 1e-3;
@@ -92,7 +92,7 @@ impl Directions {
         };
         let up = self.of_contact(n)?;
         let along = dot(vector, up);
-        let normal = up.map(|component| component * along);
+        let normal = up.each(|component| component * along);
         Ok(Measured {
             force: if measured.is_length {
                 along
@@ -139,7 +139,7 @@ impl<'n, 'p> FrictionTally<'n, 'p> {
         if let Some((row, force)) = worse {
             self.contacts.add(exact.ids, force, tangential);
             let up = self.directions.of_contact(n)?;
-            let normal = row.vector.unwrap_or_else(|| up.map(|x| x * row.force));
+            let normal = row.vector.unwrap_or_else(|| up.each(|x| x * row.force));
             // The contact is below the upper sphere and above the lower one. Force and place change their signs together,
             // so both moments are equal.
             acting = [plus(normal, force), cross(force, up)];
@@ -287,11 +287,11 @@ impl Tangential {
             return;
         }
         self.err(ids, relative(apart, force));
-        let (along, ahead) = (measured.map(|x| x / force), exact.map(|x| x / force));
+        let (along, ahead) = (measured.each(|x| x / force), exact.each(|x| x / force));
         let ratio = dot(along, ahead);
         let [least, most] = self.ratios.unwrap_or([ratio; 2]);
         self.ratios = Some([least.min(ratio), most.max(ratio)]);
-        let aside = distance(along, ahead.map(|x| ratio * x));
+        let aside = distance(along, ahead.each(|x| ratio * x));
         self.aside = self.aside.max(aside);
     }
 
@@ -308,7 +308,7 @@ impl Tangential {
             self.idle_error = self.idle_error.max(error);
             self.err(ids, error);
         }
-        self.errors.sort_unstable_by(|a, b| b.total_cmp(a));
+        sort_decreasing(&mut self.errors);
         self
     }
 }

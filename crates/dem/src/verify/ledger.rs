@@ -11,7 +11,7 @@ use super::refusal::{Fault, Refusal};
 use super::slots::Slots;
 use super::tally::{Judged, Tally};
 use super::unbalanced::{Balance, Unbalanced};
-use crate::{NumberedContact, NumberedPile};
+use crate::{Each, NumberedContact, NumberedPile};
 use cannonpile::Packing;
 use cannonpile::engine::refuse_beyond_memory;
 
@@ -359,7 +359,8 @@ impl<'p> Ledger<'p> {
         let friction = friction.transpose()?;
         let strays = self.strays.values();
         let strays = strays.map(|stray| (&stray.measured, stray.contradiction));
-        let mut judged = tally.close(relative_errors, strays, self.numbered.numbering());
+        let strays: Vec<_> = strays.collect();
+        let mut judged = tally.close(relative_errors, &strays, self.numbered.numbering());
         judged.friction = friction;
         judged.off_floor = floor.missing;
         judged.add_floor(floor);
@@ -387,11 +388,11 @@ impl Sink for Ledger<'_> {
 
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
         let ids = entry.numbers()?;
-        let admitted = if let [Ok(one), Ok(other)] = ids.map(u64::try_from) {
+        let admitted = if let [Ok(one), Ok(other)] = ids.each(u64::try_from) {
             self.admit(&entry.between([one, other]), line)
         } else {
             let force = entry.force.with_tangential(entry.tangential);
-            self.admit_wall(ids.map(Into::into), force, line)
+            self.admit_wall(ids.each(Into::into), force, line)
         };
         admitted.map_err(|fault| fault.at(line))
     }
@@ -434,7 +435,7 @@ impl Sink for FloorRows<'_, '_> {
         let above = sphere.filter(|sphere| (1..ledger.first_on_floor).contains(sphere));
         let force = entry.force.with_tangential(entry.tangential);
         let Some(sphere) = above else {
-            let admitted = ledger.admit_wall(ids.map(Into::into), force, line);
+            let admitted = ledger.admit_wall(ids.each(Into::into), force, line);
             return admitted.map_err(|fault| fault.at(line));
         };
         // Codes list all spheres, also those that do not touch the floor.
@@ -453,33 +454,32 @@ impl Sink for FloorRows<'_, '_> {
 /// are kept.
 #[derive(Default)]
 struct Lines {
-    /// For the first contact of each run: its line, and the length of the run.
-    runs: BTreeMap<usize, (u64, usize)>,
-    last: Option<usize>,
+    /// The first contact of each run, its line, and the length of the run.
+    runs: Vec<(usize, u64, usize)>,
+    /// True if the next line continues no run.
+    is_full: bool,
 }
 
 impl Lines {
     fn note(&mut self, slot: usize, line: u64) {
-        let run = self
-            .last
-            .and_then(|last| Some((last, self.runs.get_mut(&last)?)));
-        if let Some((first, (begun, length))) = run
-            && slot == first + *length
+        if let Some((first, begun, length)) = self.runs.last_mut()
+            && !self.is_full
+            && slot == *first + *length
             && line == *begun + *length as u64
         {
             *length += 1;
         } else if self.runs.len() < MAX_RUNS {
-            self.runs.insert(slot, (line, 1));
-            self.last = Some(slot);
+            self.runs.push((slot, line, 1));
         } else {
-            self.last = None;
+            self.is_full = true;
         }
     }
 
     fn of(&self, slot: usize) -> Option<u64> {
-        let (first, (line, length)) = self.runs.range(..=slot).next_back()?;
-        let along = slot - first;
-        (along < *length).then(|| line + along as u64)
+        let runs = self.runs.iter();
+        let mut runs = runs.filter(|(first, _, length)| (*first..first + length).contains(&slot));
+        let (first, line, _) = runs.next()?;
+        Some(line + (slot - first) as u64)
     }
 }
 

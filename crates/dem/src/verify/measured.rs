@@ -1,5 +1,7 @@
 //! The measured force between two spheres.
 
+use crate::Each;
+
 /// The maximum number of entries that are read, and of contacts in a pile that are compared.
 pub const MAX_ENTRIES: u64 = 100_000_000;
 
@@ -158,7 +160,7 @@ pub(super) fn over(sorted: &[f64], limit: f64) -> u64 {
 
 /// Returns −v, with 0 instead of −0.
 pub(super) fn opposite(vector: [f64; 3]) -> [f64; 3] {
-    vector.map(|x| 0.0 - x)
+    vector.each(|x| 0.0 - x)
 }
 
 /// Returns a difference relative to a force. Only a difference of 0 gives 0.
@@ -168,6 +170,11 @@ pub(super) fn relative(difference: f64, force: f64) -> f64 {
     } else {
         (difference / force).max(f64::from_bits(1))
     }
+}
+
+/// Sorts errors. All callers share this code.
+pub(super) fn sort_decreasing(errors: &mut [f64]) {
+    errors.sort_unstable_by(|a, b| b.total_cmp(a));
 }
 
 /// Returns |a − b|.
@@ -182,6 +189,6 @@ pub(super) fn norm(vector: [f64; 3]) -> f64 {
     if scale == 0.0 || !scale.is_finite() {
         return scale;
     }
-    let squares = vector.map(|x| (x / scale) * (x / scale));
+    let squares = vector.each(|x| (x / scale) * (x / scale));
     scale * squares.iter().sum::<f64>().sqrt()
 }

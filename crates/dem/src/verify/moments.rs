@@ -1,6 +1,7 @@
 //! The least-squares fit of a frame: as for a rigid body, a torque over a moment of inertia is a turn.
 
 use super::frame::Frame;
+use crate::Each;
 use crate::vector::{cross, dot, minus, plus, solved, transposed, turned};
 
 /// The smallest moment of inertia that determines a turn, as a share of their sum.
@@ -28,15 +29,15 @@ impl Moments {
                 .fold([[0.0; 3]; 2], |[a, b], (p, q)| [plus(a, *p), plus(b, *q)]);
             #[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
             let count = pairs.len() as f64;
-            sums.map(|sum| sum.map(|x| x / count))
+            sums.each(|sum| sum.each(|x| x / count))
         };
         let (mut inertia, mut torque) = ([[0.0; 3]; 3], [0.0; 3]);
         for (p, q) in pairs {
-            let p = frame.turned(minus(*p, from)).map(|x| x / radius);
-            let q = minus(*q, to).map(|x| x / radius);
+            let p = frame.turned(minus(*p, from)).each(|x| x / radius);
+            let q = minus(*q, to).each(|x| x / radius);
             let square = dot(p, p);
             for (n, row) in inertia.iter_mut().enumerate() {
-                *row = minus(*row, p.map(|x| x * p[n]));
+                *row = minus(*row, p.each(|x| x * p[n]));
                 row[n] += square;
             }
             torque = plus(torque, cross(p, q));
@@ -59,7 +60,7 @@ impl Moments {
         }
         let about = solved(inertia, self.torque);
         let rotation = if about.iter().all(|x| x.is_finite()) {
-            transposed(transposed(frame.rotation).map(|column| turned(column, about)))
+            transposed(transposed(frame.rotation).each(|column| turned(column, about)))
         } else {
             frame.rotation
         };

@@ -3,10 +3,10 @@
 use super::entry::{Force, Place};
 use super::measured::{MAX_ENTRIES, Measured, norm};
 use super::refusal::{Fault, Refusal};
-use crate::Error;
 use crate::NumberedPile;
 use crate::error::bug;
 use crate::vector::{dot, minus};
+use crate::{Each, Error};
 use cannonpile::engine::refuse_beyond_memory;
 
 /// The centres of all spheres of a pile, in a k-d tree.
@@ -71,7 +71,7 @@ impl Places {
     pub(super) fn nearest(&self, place: &Place, within: f64) -> (Option<Found>, f64) {
         match place {
             Place::Centres([first, second]) => {
-                let [one, other] = [first, second].map(|centre| self.spheres::<1>(*centre)[0]);
+                let [one, other] = [first, second].each(|centre| self.spheres::<1>(*centre)[0]);
                 let off = one.1.max(other.1);
                 if off <= within {
                     return (Some(Found::Spheres([one.0, other.0])), off);

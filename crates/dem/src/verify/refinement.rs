@@ -37,6 +37,7 @@ pub use fit::{Fit, NoOrder};
 pub use limit::Limit;
 pub use report::RefinementReport;
 
+use crate::Each;
 use core::fmt;
 
 use super::comparison::Comparison;
@@ -340,7 +341,7 @@ impl RefinementStudy {
             check_parameter(level.parameter)?;
             let predicted = level.predicted_error;
             for error in Norm::ALL
-                .map(|norm| level.error(norm))
+                .each(|norm| level.error(norm))
                 .into_iter()
                 .chain(predicted)
             {

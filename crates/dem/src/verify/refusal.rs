@@ -4,8 +4,8 @@ use core::fmt;
 use std::io;
 
 use super::kind::FileKind;
-use crate::Error;
 use crate::error::bug;
+use crate::{Each, Error};
 
 /// The reason why measured forces were not compared.
 ///
@@ -543,7 +543,7 @@ impl Fault {
             Self::OneSphere { id } => Self::OneSphere { id: shifted(id) },
             Self::SphereTwice { id } => Self::SphereTwice { id: shifted(id) },
             Self::Twice { ids, first } => Self::Twice {
-                ids: ids.map(shifted),
+                ids: ids.each(shifted),
                 first,
             },
             other => other,

@@ -20,8 +20,8 @@ use super::measured::{distance, norm};
 use super::moments::Moments;
 use super::places::Found;
 use super::rows::{Row, Rows};
-use crate::Error;
 use crate::vector::{cross, dot, minus, plus, unit};
+use crate::{Each, Error};
 use cannonpile::Interrupt;
 
 /// The numbers of positions that reject a candidate, that fit one, that judge one, and that fit the best one.
@@ -232,7 +232,7 @@ impl<'s> Search<'s> {
                 let measured = row.force.map(|vector| frame.turned(vector));
                 let normal = unit(minus(first, second));
                 let force = self.pile.force(ids);
-                forces.push((measured, normal.map(|n| n * force)));
+                forces.push((measured, normal.each(|n| n * force)));
             }
         }
         Fit {
@@ -278,7 +278,7 @@ impl<'s> Search<'s> {
                 sum = plus(sum, point);
             }
         })?;
-        let middle = sum.map(|x| x / count(number));
+        let middle = sum.each(|x| x / count(number));
         self.pile.each(with_floor, |place| {
             for point in self.points(place) {
                 reach = reach.max(distance(point, middle));
@@ -290,7 +290,7 @@ impl<'s> Search<'s> {
             listed += 1;
             sum = plus(sum, point);
         }
-        let from = sum.map(|x| x / count(listed));
+        let from = sum.each(|x| x / count(listed));
         // Points farther away than any contact are not in the pile.
         let missing = 1.0 - count(listed) / count(number);
         let limit = reach + self.near.max(missing * reach);
@@ -388,7 +388,7 @@ impl<'s> Search<'s> {
     fn change(&self, frame: &Frame, reach: f64) -> ((bool, u8), f64, f64) {
         let axes = frame.axes();
         let matrix = axes.matrix();
-        let [x, y, tilt] = [0, 1, 2].map(|n| distance(frame.rotation[n], matrix[n]));
+        let [x, y, tilt] = [0, 1, 2].each(|n| distance(frame.rotation[n], matrix[n]));
         let [_, _, vertical] = axes.get();
         let kind = if tilt * reach > self.near {
             2
@@ -439,7 +439,7 @@ impl<'s> Search<'s> {
         let shift = best
             .frame
             .shift
-            .map(|x| if x.abs() < small { 0.0 } else { x });
+            .each(|x| if x.abs() < small { 0.0 } else { x });
         let frame = Frame {
             shift,
             ..best.frame
@@ -458,17 +458,17 @@ fn motion(from: &[[f64; 3]], to: &[[f64; 3]], is_mirrored: bool) -> Option<Frame
     let (p, q) = both(1).unwrap_or(([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]));
     // Without a third point, the plane of both directions is kept.
     let (r, s) = both(2).unwrap_or([perpendicular(p, q); 2].into());
-    let [old, mut new] = [[p, r], [q, s]].map(|[first, second]| {
+    let [old, mut new] = [[p, r], [q, s]].each(|[first, second]| {
         let x = unit(first);
         let along = dot(second, x);
-        let y = unit(minus(second, x.map(|component| component * along)));
+        let y = unit(minus(second, x.each(|component| component * along)));
         [x, y, cross(x, y)]
     });
     if is_mirrored {
-        new[2] = new[2].map(|component| -component);
+        new[2] = new[2].each(|component| -component);
     }
     let entry = |row: usize, column: usize| (0..3).map(|n| new[n][row] * old[n][column]).sum();
-    let rotation = [0, 1, 2].map(|row| [0, 1, 2].map(|column| entry(row, column)));
+    let rotation = [0, 1, 2].each(|row| [0, 1, 2].each(|column| entry(row, column)));
     let turned = Frame {
         rotation,
         shift: [0.0; 3],
@@ -484,7 +484,7 @@ fn perpendicular(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     if norm(both) > ROUNDED {
         return both;
     }
-    let [x, y, z] = a.map(f64::abs);
+    let [x, y, z] = a.each(f64::abs);
     let axis = if x <= y && x <= z {
         [1.0, 0.0, 0.0]
     } else if y <= z {
@@ -505,12 +505,12 @@ fn unlike(forces: &[(Force, [f64; 3])]) -> f64 {
     let sum: f64 = forces.iter().map(|(force, _)| size(force)).sum();
     let all: f64 = forces.iter().map(|(_, exact)| norm(*exact)).sum();
     let apart = forces.iter().map(|(force, exact)| {
-        let exact = exact.map(|x| x / all);
+        let exact = exact.each(|x| x / all);
         match force {
             Force::Along(force) => (force.abs() / sum - norm(exact)).abs(),
             Force::Vector(vector) | Force::Both(_, vector) => {
-                let share = vector.map(|x| x / sum);
-                let [one, other] = [minus(share, exact), plus(share, exact)].map(norm);
+                let share = vector.each(|x| x / sum);
+                let [one, other] = [minus(share, exact), plus(share, exact)].each(norm);
                 one.min(other)
             }
         }
@@ -525,5 +525,5 @@ fn count(number: usize) -> f64 {
 
 fn mean(points: &[[f64; 3]]) -> [f64; 3] {
     let sum = points.iter().fold([0.0; 3], |sum, point| plus(sum, *point));
-    sum.map(|x| x / count(points.len()))
+    sum.each(|x| x / count(points.len()))
 }

@@ -1,5 +1,6 @@
 //! A comparison as a table and as json.
 
+use crate::Each;
 use std::io::Write;
 
 use serde_json::{Value, json};
@@ -451,7 +452,7 @@ fn contact(difference: &Difference) -> Value {
 
 fn pair(extra: &Extra) -> Value {
     let [first, second] = extra.ids;
-    let sites = extra.sites.map(|site| {
+    let sites = extra.sites.each(|site| {
         let [k, i, j] = indices(site);
         without_j(json!({ "k": k, "i": i, "j": j }), extra.dimension)
     });
@@ -467,7 +468,7 @@ fn pair(extra: &Extra) -> Value {
 /// Returns k, i and j. An index beyond 2^53 is a string, because many readers store numbers as floats: a pile with few
 /// contacts may have one very wide layer.
 fn indices(Site { i, j, k }: Site) -> [Value; 3] {
-    [k, i, j].map(|index| match i64::try_from(index) {
+    [k, i, j].each(|index| match i64::try_from(index) {
         Ok(small) if small.unsigned_abs() >> 53 == 0 => small.into(),
         _ => index.to_string().into(),
     })

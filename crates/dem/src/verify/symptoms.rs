@@ -1,11 +1,9 @@
 //! Patterns in measured and exact forces, collected contact by contact.
 
-use std::collections::BTreeMap;
-
 use super::axes::Axes;
 use super::finding::Finding;
 use super::measured::{Measured, distance, norm};
-use crate::NumberedContact;
+use crate::{Each, NumberedContact};
 use cannonpile::lattice::ContactKind;
 
 /// The error above which a permutation of the axes is discarded.
@@ -33,8 +31,8 @@ pub(super) struct Symptoms {
     axes: Vec<(Axes, f64)>,
     /// The greatest tangential force, relative to the exact force.
     tangential: f64,
-    /// For each layer, the number of contacts with a force to the next layer, and the number of these that are missing.
-    layers: BTreeMap<i128, [u64; 2]>,
+    /// For each layer from the top, the number of contacts with a force to the next layer, and the number of these that are missing.
+    layers: Vec<(i128, [u64; 2])>,
 }
 
 impl Default for Symptoms {
@@ -47,7 +45,7 @@ impl Default for Symptoms {
             separate_errors: [0.0; 2],
             axes: Axes::all().map(|axes| (axes, 0.0)).collect(),
             tangential: 0.0,
-            layers: BTreeMap::new(),
+            layers: Vec::new(),
         }
     }
 }
@@ -78,9 +76,9 @@ impl Symptoms {
             *greatest = greatest.max(apart / magnitude);
             *greatest < FOLLOWED
         });
-        let normal = exact.vector.map(|component| component / magnitude);
+        let normal = exact.vector.each(|component| component / magnitude);
         let along: f64 = vector.iter().zip(normal).map(|(f, n)| f * n).sum();
-        let across = [0, 1, 2].map(|axis: usize| match (vector.get(axis), normal.get(axis)) {
+        let across = [0, 1, 2].each(|axis: usize| match (vector.get(axis), normal.get(axis)) {
             (Some(f), Some(n)) => f - along * n,
             _ => 0.0,
         });
@@ -104,9 +102,13 @@ impl Symptoms {
     /// `missing`: 0 or 1.
     fn count(&mut self, exact: &NumberedContact, missing: u64) {
         if let ContactKind::Sloping(_) = exact.direction {
-            let [there, lost] = self.layers.entry(exact.site.k).or_default();
-            *there += 1;
-            *lost += missing;
+            match self.layers.last_mut() {
+                Some((k, [there, lost])) if *k == exact.site.k => {
+                    *there += 1;
+                    *lost += missing;
+                }
+                _ => self.layers.push((exact.site.k, [1, missing])),
+            }
         }
     }
 
@@ -138,7 +140,7 @@ impl Symptoms {
         let is_straight = factor.is_none() && turned.is_none();
         let tangential = self.tangential > tolerance.max(ROUNDED) && is_straight;
         let tangential = tangential.then_some(Finding::Tangential(self.tangential));
-        let lowest = self.layers.keys().next_back();
+        let lowest = self.layers.last().map(|(k, _)| k);
         let missing = self.layers.iter().filter_map(|(k, [there, missing])| {
             (missing == there).then_some(Finding::Layer {
                 k: *k,
@@ -161,7 +163,7 @@ impl Symptoms {
     fn disagreement(&self, tolerance: f64) -> Option<Finding> {
         let disagree = |apart: &&f64| **apart > tolerance;
         let contacts = self.disagreements.iter().filter(disagree).count() as u64;
-        let [forces, vectors] = self.separate_errors.map(|error| error <= tolerance);
+        let [forces, vectors] = self.separate_errors.each(|error| error <= tolerance);
         (contacts > 0).then_some(Finding::Disagreement {
             contacts,
             forces_are_exact: forces,

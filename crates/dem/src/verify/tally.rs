@@ -3,9 +3,9 @@
 use super::difference::{Difference, Extra};
 use super::floor::OnFloor;
 use super::friction::WithFriction;
-use super::measured::{Measured, distance, relative};
+use super::measured::{Measured, distance, relative, sort_decreasing};
 use super::symptoms::Symptoms;
-use crate::{NumberedContact, NumberedPile};
+use crate::{Each, NumberedContact, NumberedPile};
 use cannonpile::lattice::Dimension;
 use cannonpile::shape::Numbering;
 
@@ -134,10 +134,10 @@ impl Tally {
 
     /// Finishes the comparison after the last contact, and judges the pairs without a contact. Each pair has the
     /// difference between its two rows.
-    pub(super) fn close<'m>(
+    pub(super) fn close(
         self,
         errors: Vec<f64>,
-        pairs: impl Iterator<Item = (&'m Measured, f64)>,
+        pairs: &[(&Measured, f64)],
         numbering: &Numbering<'_>,
     ) -> Judged {
         let mut judged = self.judged;
@@ -147,7 +147,7 @@ impl Tally {
         judged
             .errors
             .extend(idle.map(|error| relative(error, largest)));
-        judged.errors.sort_unstable_by(|a, b| b.total_cmp(a));
+        sort_decreasing(&mut judged.errors);
         let worst_idle = self.worst_idle.map(|worst| Difference {
             error: relative(worst.error, largest),
             ..worst
@@ -165,21 +165,19 @@ impl Tally {
             if is_fixed(stray) {
                 judged.fixed += 1;
             } else if !stray.is_zero() {
-                strays.push((relative(stray.magnitude(), largest), stray));
-                contradictions.extend(Some(contradiction).filter(|apart| *apart > 0.0));
+                strays.push((relative(stray.magnitude(), largest), *stray));
+                contradictions.extend(Some(*contradiction).filter(|apart| *apart > 0.0));
             }
         }
         let contradictions = contradictions.into_iter();
         let contradictions = contradictions.map(|apart| relative(apart, largest));
         judged.contradictions.extend(contradictions);
-        judged
-            .contradictions
-            .sort_unstable_by(|a, b| b.total_cmp(a));
+        sort_decreasing(&mut judged.contradictions);
         // Decreasing forces. Among equals, the pair with the smaller numbers comes first.
         strays.sort_by(|(a, one), (b, other)| b.total_cmp(a).then(one.ids.cmp(&other.ids)));
         let kept = strays.iter().take(KEPT);
         let greatest_strays = kept.filter_map(|(error, stray)| {
-            let [one, other] = stray.ids.map(|id| numbering.site(id));
+            let [one, other] = stray.ids.each(|id| numbering.site(id));
             Some(Extra {
                 ids: stray.ids,
                 sites: [one?, other?],
@@ -200,7 +198,7 @@ impl Judged {
         self.floor = floor.judged;
         self.floor_errors = floor.errors;
         self.contradictions.extend(floor.contradictions);
-        self.contradictions.sort_unstable_by(|a, b| b.total_cmp(a));
+        sort_decreasing(&mut self.contradictions);
     }
 
     /// Returns the spheres above the bottom layer whose force on the floor is not noise.

@@ -1,7 +1,6 @@
 //! The residual force on each sphere.
 
 use core::fmt;
-use std::collections::BTreeMap;
 
 use num_rational::BigRational;
 
@@ -13,7 +12,7 @@ use crate::numbered::rounded;
 use crate::table::{Cell, Column, Table, indices, places};
 use crate::vector::{minus, plus};
 use crate::weights::{ordinary_weight, rounded_newtons};
-use crate::{NumberedContact, NumberedPile};
+use crate::{Each, NumberedContact, NumberedPile};
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
@@ -139,7 +138,7 @@ pub(super) struct Balance<'p> {
     pile: NumberedPile<'p>,
     unbalanced: Unbalanced,
     /// The layer of the last contact, with the unit vectors of its contact directions from below.
-    layer: Option<(i128, BTreeMap<usize, [f64; 3]>)>,
+    layer: Option<(i128, [Option<[f64; 3]>; 3])>,
 }
 
 impl<'p> Balance<'p> {
@@ -178,7 +177,7 @@ impl<'p> Balance<'p> {
             vector
         } else {
             let direction = self.direction(contact)?;
-            direction.map(|component| component * measured.force)
+            direction.each(|component| component * measured.force)
         };
         self.act(contact.ids, whole(vector, measured));
         Ok(())
@@ -190,11 +189,11 @@ impl<'p> Balance<'p> {
             vector
         } else {
             let numbering = self.pile.numbering();
-            let [Some(one), Some(other)] = stray.ids.map(|id| numbering.site(id)) else {
+            let [Some(one), Some(other)] = stray.ids.each(|id| numbering.site(id)) else {
                 return Ok(());
             };
             let direction = between(self.pile.packing(), one, other)?;
-            direction.map(|component| component * stray.force)
+            direction.each(|component| component * stray.force)
         };
         self.act(stray.ids, whole(vector, stray));
         Ok(())
@@ -221,26 +220,26 @@ impl<'p> Balance<'p> {
     fn direction(&mut self, contact: &NumberedContact) -> Result<[f64; 3], Error> {
         let Some(direction) = contact.direction.direction() else {
             let numbering = self.pile.numbering();
-            let [Some(one), Some(other)] = contact.ids.map(|id| numbering.site(id)) else {
+            let [Some(one), Some(other)] = contact.ids.each(|id| numbering.site(id)) else {
                 return Err(bug("a contact has spheres with numbers"));
             };
             return between(self.pile.packing(), one, other);
         };
         let Site { k, .. } = contact.site;
         if self.layer.as_ref().is_none_or(|(layer, _)| *layer != k) {
-            self.layer = Some((k, BTreeMap::new()));
+            self.layer = Some((k, [None; 3]));
         }
         let known = self.layer.as_mut().map(|(_, known)| known);
         let known = known.ok_or_else(|| bug("a layer is being added up"))?;
-        if let Some(direction) = known.get(&direction.index()) {
+        let known = &mut known[direction.index()];
+        if let Some(direction) = known {
             return Ok(*direction);
         }
         let packing = self.pile.packing();
         let below = packing.pile().shape().below(contact.site, direction);
         let below = below.ok_or_else(|| Error::on_floor(contact.site))?;
         let made = between(packing, contact.site, below)?;
-        known.insert(direction.index(), made);
-        Ok(made)
+        Ok(*known.insert(made))
     }
 }
 
@@ -263,7 +262,7 @@ pub(super) fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f6
     let apart = <[Surd; 3]>::try_from(apart).map_err(|_| bug("a vector has three components"))?;
     let apart = rounded(&apart, "a distance")?;
     let length = norm(apart);
-    Ok(apart.map(|component| component / length))
+    Ok(apart.each(|component| component / length))
 }
 
 /// Returns the force on a sphere above the floor, or `None` for other spheres.

@@ -4,7 +4,7 @@ use super::{Float, Rounding, bounds, indices, places, refuse_beyond, rounding};
 use crate::Error;
 use crate::table::cell::Cell;
 use crate::table::pieces::{columns, in_pieces, slices};
-use crate::table::rows::{Column, RowIter, Table};
+use crate::table::rows::{Column, RowIter, Table, boxed};
 use crate::table::units::Units;
 use cannonpile::lattice::{Dimension, Site};
 use cannonpile::shape::Selection;
@@ -55,7 +55,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
             Some(Rounding::F32) => rounded_base::<f32>(&made, selection)?,
             None => {
                 let forces = made.forces().base(selection)?;
-                Box::new(forces.map(move |force| Ok(floor_cells(pile, made.on_floor(force?)))))
+                boxed(forces.map(move |force| Ok(floor_cells(pile, made.on_floor(force?)))))
             }
         })
     };
@@ -114,5 +114,5 @@ fn rounded_base<'p, F: Float>(
             });
         Ok(rows.collect())
     });
-    Ok(Box::new(rows))
+    Ok(boxed(rows))
 }

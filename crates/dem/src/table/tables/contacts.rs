@@ -5,11 +5,11 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::{Float, Rounding, bounds, indices, narrower, places, refuse_beyond, rounding};
-use crate::Error;
 use crate::table::cell::Cell;
 use crate::table::pieces::{columns, in_pieces, slices};
-use crate::table::rows::{Column, RowIter, Table};
+use crate::table::rows::{Column, RowIter, Table, boxed};
 use crate::table::units::Units;
+use crate::{Each, Error};
 use cannonpile::lattice::{ContactKind, HorizontalContact, Site};
 use cannonpile::shape::{Rows, Selection};
 use cannonpile::{Contacts, PackedContact, Pile};
@@ -90,8 +90,8 @@ fn table<'p>(
     columns.push(Column::plain("direction"));
     columns.push(Column::summed("force", units.force()));
     if let Units::Si(_) = units {
-        columns.extend(["fx", "fy", "fz"].map(|name| Column::measured(name, "N")));
-        columns.extend(["x", "y", "z"].map(|name| Column::measured(name, "m")));
+        columns.extend(["fx", "fy", "fz"].each(|name| Column::measured(name, "N")));
+        columns.extend(["x", "y", "z"].each(|name| Column::measured(name, "m")));
     }
     let bounds = bounds(&columns, units, selection)?;
     let made = units.clone();
@@ -161,7 +161,7 @@ impl Horizontal {
         let pile = units.pile();
         let mut sloping = sloping;
         let directions = pile.dimension().directions().len();
-        Box::new(spheres.flat_map(move |site| {
+        boxed(spheres.flat_map(move |site| {
             let own: Vec<_> = sloping.by_ref().take(directions).collect();
             let horizontal = self
                 .of(pile, site)
@@ -219,13 +219,13 @@ fn packed_cells(contact: PackedContact) -> impl Iterator<Item = Cell> {
 fn exact_contacts<'p>(units: &Units<'p>, forces: Contacts<'p, BigRational>) -> RowIter<'p> {
     let pile = units.pile();
     match units.clone() {
-        Units::Pile(_) => Box::new(forces.map(|contact| {
+        Units::Pile(_) => boxed(forces.map(|contact| {
             let contact = contact?;
             let mut cells = contact_cells(pile, contact.site, contact.direction.into());
             cells.push(contact.force.into());
             Ok(cells)
         })),
-        Units::Si(packing) => Box::new(forces.map(move |contact| {
+        Units::Si(packing) => boxed(forces.map(move |contact| {
             let contact = packing.contact_in_si(contact?)?;
             let mut cells = contact_cells(pile, contact.site, contact.direction);
             cells.extend(packed_cells(contact));
@@ -248,10 +248,10 @@ fn rounded_contacts<'p, F: Float>(
         let mut numbers = vec![forces];
         if let Some(places) = &places {
             let mut vectors = [columns::<F>(row)?, columns(row)?, columns(row)?];
-            layers.fill_row_of_vectors(row, vectors.each_mut().map(slices))?;
+            layers.fill_row_of_vectors(row, vectors.each_mut().each(slices))?;
             numbers.extend(vectors);
             let mut points = [columns::<F>(row)?, columns(row)?, columns(row)?];
-            let [x, y, z] = points.each_mut().map(slices);
+            let [x, y, z] = points.each_mut().each(slices);
             let by_direction = x.into_iter().zip(y).zip(z).zip(directions);
             for (((x, y), z), direction) in by_direction {
                 places.fill_row_of_contacts(row, *direction, [x, y, z])?;
@@ -271,5 +271,5 @@ fn rounded_contacts<'p, F: Float>(
         }
         Ok(rows)
     });
-    Ok(Box::new(rows))
+    Ok(boxed(rows))
 }

@@ -3,10 +3,10 @@
 use super::base::floor_cells;
 use super::contacts::contact_cells;
 use super::{bounds, indices, narrower, refuse_beyond};
-use crate::Error;
 use crate::table::cell::Cell;
-use crate::table::rows::{Column, RowIter, Table};
+use crate::table::rows::{Column, RowIter, Table, boxed};
 use crate::table::units::Units;
+use crate::{Each, Error};
 use cannonpile::Packing;
 use cannonpile::friction::{RoughFloor, RoughPacking};
 use cannonpile::lattice::Dimension;
@@ -51,27 +51,27 @@ pub fn rough_contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Tab
     if let Units::Si(_) = units {
         let vectors = ["nx", "ny", "nz", "tx", "ty", "tz"];
         columns.extend(vectors.map(|name| Column::measured(name, "N")));
-        columns.extend(["x", "y", "z"].map(|name| Column::measured(name, "m")));
+        columns.extend(["x", "y", "z"].each(|name| Column::measured(name, "m")));
     }
     let bounds = bounds(&columns, units, selection)?;
     let rows = move |_| -> Result<RowIter<'p>, Error> {
         Ok(match rough {
             Rough::Pile(forces) => {
                 let contacts = forces.contacts::<BigRational>(selection)?;
-                Box::new(contacts.map(move |contact| {
+                boxed(contacts.map(move |contact| {
                     let contact = contact?;
                     let mut cells = contact_cells(pile, contact.site, contact.direction.into());
                     cells.extend([contact.force.clone().into(), contact.force.into()]);
                     Ok(cells)
                 }))
             }
-            Rough::Si(packing) => Box::new(packing.contacts(selection)?.map(move |contact| {
+            Rough::Si(packing) => boxed(packing.contacts(selection)?.map(move |contact| {
                 let contact = contact?;
                 let mut cells = contact_cells(pile, contact.site, contact.direction.into());
                 cells.extend([contact.normal.into(), contact.tangential.into()]);
-                cells.extend(contact.normal_vector.map(Cell::from));
-                cells.extend(contact.tangential_vector.map(Cell::from));
-                cells.extend(contact.point.map(Cell::from));
+                cells.extend(contact.normal_vector.each(Cell::from));
+                cells.extend(contact.tangential_vector.each(Cell::from));
+                cells.extend(contact.point.each(Cell::from));
                 Ok(cells)
             })),
         })
@@ -117,11 +117,11 @@ pub fn rough_base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'
         Ok(match rough {
             Rough::Pile(forces) => {
                 let forces = forces.base::<BigRational>(selection)?;
-                Box::new(forces.map(move |force| Ok(floor_cells(pile, force?))))
+                boxed(forces.map(move |force| Ok(floor_cells(pile, force?))))
             }
             Rough::Si(packing) => {
                 let forces = packing.base(selection)?;
-                Box::new(forces.map(move |force| Ok(floor_cells(pile, force?))))
+                boxed(forces.map(move |force| Ok(floor_cells(pile, force?))))
             }
         })
     };

@@ -5,11 +5,11 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::{Float, Rounding, greatest_place, indices, narrower, places, refuse_beyond, rounding};
-use crate::Error;
 use crate::table::cell::Cell;
 use crate::table::pieces::{columns, in_pieces, slices};
-use crate::table::rows::{Column, Row, RowIter, Table};
+use crate::table::rows::{Column, Row, RowIter, Table, boxed};
 use crate::table::units::Units;
+use crate::{Each, Error};
 use cannonpile::lattice::{Dimension, Site};
 use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
@@ -119,14 +119,14 @@ fn table<'p>(
         let sites = rows.flatten();
         let exact = |made: Packing<'p>| {
             ids.clone().zip(sites).map(move |numbered| {
-                let centre = made.position(numbered.1)?.map(Cell::from);
+                let centre = made.position(numbered.1)?.each(Cell::from);
                 sphere_cells(&made, numbered, centre)
             })
         };
         Ok(match (stress, rounding(numbers, selection)) {
             (Some(units), _) => {
                 let stresses = units.forces().stresses(selection)?;
-                Box::new(exact(made).zip(stresses).map(move |(cells, stress)| {
+                boxed(exact(made).zip(stresses).map(move |(cells, stress)| {
                     let (mut cells, stress) = (cells?, units.stress(stress?));
                     cells.extend(in_dimension(pile, stress.map(Cell::from)));
                     Ok(cells)
@@ -134,7 +134,7 @@ fn table<'p>(
             }
             (None, Some(Rounding::F64)) => rounded_spheres::<f64>(made, selection, ids)?,
             (None, Some(Rounding::F32)) => rounded_spheres::<f32>(made, selection, ids)?,
-            (None, None) => Box::new(exact(made)),
+            (None, None) => boxed(exact(made)),
         })
     };
     let summed = packing.clone();
@@ -161,11 +161,11 @@ fn rounded_spheres<'p, F: Float>(
         let spheres = row.clone().into_iter().zip(ids.by_ref());
         let rows = spheres.zip(x.into_iter().zip(y).zip(z));
         let rows = rows.map(|((site, id), ((x, y), z))| {
-            sphere_cells(&packing, (id, site), [x, y, z].map(Into::into))
+            sphere_cells(&packing, (id, site), [x, y, z].each(Into::into))
         });
         rows.collect()
     });
-    Ok(Box::new(rows))
+    Ok(boxed(rows))
 }
 
 /// Returns the components of a tensor that a pile has: all six, or xx, zz and xz of discs.

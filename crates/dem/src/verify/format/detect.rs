@@ -224,14 +224,13 @@ fn is_quoted(cell: &str) -> bool {
 }
 
 fn most_common(values: impl Iterator<Item = usize>) -> Option<usize> {
-    let mut counts = std::collections::BTreeMap::new();
-    for value in values {
-        *counts.entry(value).or_insert(0_usize) += 1;
-    }
-    counts
-        .into_iter()
-        .max_by_key(|(_, count)| *count)
-        .map(|(value, _)| value)
+    let mut values: Vec<usize> = values.collect();
+    values.sort_unstable();
+    // Of equal numbers of rows, the greatest value remains.
+    let most = values
+        .chunk_by(|a, b| a == b)
+        .max_by_key(|alike| alike.len())?;
+    most.first().copied()
 }
 
 /// Finds the dialect and the header of a table that begins with these bytes.

@@ -1,5 +1,6 @@
 //! A refinement study as tables and as json.
 
+use crate::Each;
 use std::io::Write;
 
 use serde_json::{Value, json};
@@ -193,7 +194,7 @@ impl<'l> RefinementReport<'l> {
             measured("extrapolated_standard_error"),
             Column::plain("levels_used"),
         ];
-        let rows = Norm::ALL.map(|norm| {
+        let rows = Norm::ALL.each(|norm| {
             let Known { fit, limit } = self.known(norm);
             let (fit, limit) = (fit.ok(), limit.and_then(Result::ok));
             let of_fit = |value: fn(&Fit) -> f64| number(fit.as_ref().map(value));

@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use cannonpile::engine::refuse_beyond_memory;
 use flate2::read::ZlibDecoder;
 
-use crate::error::quoted;
+use crate::{Each, error::quoted};
 
 /// The largest size of an array, in bytes.
 pub(super) const MOST: u64 = 1 << 33;
@@ -179,7 +179,7 @@ impl<'f> Coding<'f> {
 
     /// Decompresses the blocks after a header.
     fn unpacked(&self, head: &[u8], mut packed: &[u8]) -> Result<Vec<u8>, String> {
-        let [blocks, full, last] = [0, 1, 2].map(|n| self.length(head, n));
+        let [blocks, full, last] = [0, 1, 2].each(|n| self.length(head, n));
         let (blocks, full, last) = (blocks?, full?, last?);
         // A last block of length 0 is a full one.
         let missing = if last == 0 {

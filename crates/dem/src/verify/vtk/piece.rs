@@ -3,8 +3,6 @@
 //! Cell data of poly data run over vertices, lines, polygons and strips, in this order
 //! (<https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>).
 
-use std::collections::BTreeMap;
-
 use super::super::refusal::Refusal;
 use super::array::Array;
 use super::coding::Coding;
@@ -24,6 +22,9 @@ pub(super) enum Section {
     CellData,
 }
 
+/// The number of sections.
+const SECTIONS: usize = Section::CellData as usize + 1;
+
 /// The cells of poly data, in the order of their data.
 const POLY_CELLS: [Section; 4] = [
     Section::Verts,
@@ -42,9 +43,10 @@ pub(super) const INTERLEAVED: &str = "cells";
 #[derive(Default)]
 pub(super) struct Piece<'f> {
     pub(super) coding: Coding<'f>,
-    arrays: BTreeMap<Section, Vec<Array<'f>>>,
+    /// By section, as are the counts.
+    arrays: [Vec<Array<'f>>; SECTIONS],
     /// The numbers of points and cells that the file announces.
-    counts: BTreeMap<Section, usize>,
+    counts: [Option<usize>; SECTIONS],
 }
 
 /// What the rows of a piece are. The last kind in a file decides: beside lines, no points are rows.
@@ -79,15 +81,15 @@ impl<'f> Piece<'f> {
     }
 
     pub(super) fn push(&mut self, section: Section, array: Array<'f>) {
-        self.arrays.entry(section).or_default().push(array);
+        self.arrays[section as usize].push(array);
     }
 
     pub(super) fn announce(&mut self, section: Section, count: usize) {
-        self.counts.insert(section, count);
+        self.counts[section as usize] = Some(count);
     }
 
     pub(super) fn arrays(&self, section: Section) -> &[Array<'f>] {
-        self.arrays.get(&section).map_or(&[], Vec::as_slice)
+        &self.arrays[section as usize]
     }
 
     fn find(&self, section: Section, name: &str) -> Option<&Array<'f>> {
@@ -103,8 +105,8 @@ impl<'f> Piece<'f> {
 
     /// Returns the number of points, or of the cells of a section.
     pub(super) fn count(&self, section: Section) -> Result<usize, Refusal> {
-        if let Some(count) = self.counts.get(&section) {
-            return Ok(*count);
+        if let Some(count) = self.counts[section as usize] {
+            return Ok(count);
         }
         if section != Section::Points {
             let ends = self.find(section, OFFSETS);
@@ -119,7 +121,8 @@ impl<'f> Piece<'f> {
     }
 
     fn is_grid(&self) -> bool {
-        self.arrays.contains_key(&Section::Cells) || self.counts.contains_key(&Section::Cells)
+        let cells = Section::Cells;
+        !self.arrays(cells).is_empty() || self.counts[cells as usize].is_some()
     }
 
     /// Returns the number of all cells.

@@ -89,42 +89,47 @@ impl Values {
 
     /// Reads numbers in binary form, each of eight bytes in memory.
     pub(super) fn of_bytes(kind: &str, order: Order, bytes: &[u8]) -> Result<Self, String> {
-        macro_rules! numbers {
-            ($kind:ty, $values:ident, $to:ty) => {{
-                let parts = bytes.chunks_exact(size_of::<$kind>());
-                refuse_beyond_memory(
-                    "an array",
-                    &parts.len().into(),
-                    (MOST, size_of::<$to>()),
-                    "write only the numbers of the spheres and contacts",
-                )
-                .map_err(|error| error.to_string())?;
-                let numbers = parts.map(|part| {
-                    // Each chunk has this length, so the default is never used.
-                    let part = part.try_into().unwrap_or([0; size_of::<$kind>()]);
-                    let number = match order {
-                        Order::Big => <$kind>::from_be_bytes(part),
-                        Order::Little => <$kind>::from_le_bytes(part),
-                    };
-                    <$to>::try_from(number).ok()
-                });
-                let numbers: Option<Vec<$to>> = numbers.collect();
-                Self::$values(numbers.ok_or("a number beyond i64")?)
-            }};
-        }
-        Ok(match kind {
-            "Float64" => numbers!(f64, Floats, f64),
-            "Float32" => numbers!(f32, Floats, f64),
-            "Int8" => numbers!(i8, Integers, i64),
-            "UInt8" => numbers!(u8, Integers, i64),
-            "Int16" => numbers!(i16, Integers, i64),
-            "UInt16" => numbers!(u16, Integers, i64),
-            "Int32" => numbers!(i32, Integers, i64),
-            "UInt32" => numbers!(u32, Integers, i64),
-            "Int64" => numbers!(i64, Integers, i64),
-            "UInt64" => numbers!(u64, Integers, i64),
-            "String" => Self::texts(bytes),
+        let size = match kind {
+            "Int8" | "UInt8" => 1,
+            "Int16" | "UInt16" => 2,
+            "Float32" | "Int32" | "UInt32" => 4,
+            "Float64" | "Int64" | "UInt64" => 8,
+            "String" => return Ok(Self::texts(bytes)),
             other => return Err(unknown(other)),
+        };
+        let parts = bytes.chunks_exact(size);
+        refuse_beyond_memory(
+            "an array",
+            &parts.len().into(),
+            (MOST, size_of::<u64>()),
+            "write only the numbers of the spheres and contacts",
+        )
+        .map_err(|error| error.to_string())?;
+        // The bytes of each number, the least significant one first, and zeros.
+        let numbers = parts.map(|part| {
+            let mut number = [0; size_of::<u64>()];
+            number[..size].copy_from_slice(part);
+            if let Order::Big = order {
+                number[..size].reverse();
+            }
+            number
+        });
+        let zeros = 8 * (size_of::<u64>() - size);
+        Ok(match kind {
+            "Float64" => Self::Floats(numbers.map(f64::from_le_bytes).collect()),
+            "Float32" => {
+                let single = |[a, b, c, d, ..]: [u8; 8]| f32::from_le_bytes([a, b, c, d]).into();
+                Self::Floats(numbers.map(single).collect())
+            }
+            unsigned if unsigned.starts_with('U') => {
+                let numbers = numbers.map(|number| u64::from_le_bytes(number).try_into().ok());
+                let numbers: Option<_> = numbers.collect();
+                Self::Integers(numbers.ok_or("a number beyond i64")?)
+            }
+            _ => {
+                let signed = |number| i64::from_le_bytes(number) << zeros >> zeros;
+                Self::Integers(numbers.map(signed).collect())
+            }
         })
     }
 }
