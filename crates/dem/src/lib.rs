@@ -75,7 +75,7 @@ pub mod weights;
 mod yade;
 mod yade_check;
 
-use cannonpile_horizontal::each::Each;
+use cannonpile::each::Each;
 
 pub use arrays::PileArrays;
 pub use card::CardTitle;

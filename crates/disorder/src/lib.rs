@@ -53,7 +53,6 @@ use std::num::NonZeroI64;
 
 mod correlation;
 mod domain;
-mod each;
 mod ensemble;
 mod error;
 mod faults;
@@ -71,7 +70,7 @@ pub mod theorem;
 mod transfer;
 mod width;
 
-use each::Each;
+use cannonpile::each::Each;
 
 pub use ensemble::{
     Choice, ContactSet, Distribution, Ensemble, Extreme, ForceKind, Histogram, Samples, Shard,

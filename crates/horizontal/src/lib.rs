@@ -81,8 +81,6 @@ mod beginning;
 mod bounds;
 pub mod census;
 pub mod certificate;
-#[doc(hidden)]
-pub mod each;
 mod edge;
 mod elastic;
 mod error;
@@ -102,7 +100,7 @@ mod upper;
 
 use core::num::NonZeroI64;
 
-use each::Each;
+use cannonpile::each::Each;
 
 pub use base::{BaseBounds, base_bounds};
 pub use bounds::{NormalBound, NormalBounds, bounds};
