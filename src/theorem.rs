@@ -1,4 +1,8 @@
-//! Theorems that hold for every pile, and their proofs.
+//! The paper's theorems, which hold for every pile, and their proofs.
+//!
+//! The theorems of this module are about the paper's pile: counts, equilibrium, and the forces on the floor. The crate
+//! `cannonpile-proof` has further theorems about the same formulas: on discs and other dimensions, on stackings, on
+//! loads and leaning gravity, and on a rough floor. Its functions `all` and `find` list the theorems of all crates.
 //!
 //! # Kinds of proof
 //! A test shows that an identity holds for the piles it tries. The formulas of this crate are polynomials in i, j, k, L
@@ -54,15 +58,10 @@
 mod balance;
 mod base;
 mod counts;
-mod dimensions;
-
 mod display;
 mod formulas;
-mod friction;
-mod loads;
 #[doc(hidden)]
 pub mod setting;
-mod stackings;
 
 pub use display::Listing;
 pub use formulas::{Formulas, Library};
@@ -274,7 +273,7 @@ impl Step {
     }
 }
 
-/// Returns every theorem, in reading order.
+/// Returns the theorems of this crate, in reading order.
 ///
 /// # Examples
 /// ```
@@ -286,20 +285,12 @@ impl Step {
 /// }
 /// ```
 pub fn all() -> impl Iterator<Item = &'static Theorem> {
-    [
-        counts::THEOREMS,
-        balance::THEOREMS,
-        base::THEOREMS,
-        dimensions::THEOREMS,
-        stackings::THEOREMS,
-        loads::THEOREMS,
-        friction::THEOREMS,
-    ]
-    .into_iter()
-    .flatten()
+    [counts::THEOREMS, balance::THEOREMS, base::THEOREMS]
+        .into_iter()
+        .flatten()
 }
 
-/// Returns the theorem with this name.
+/// Returns the theorem of this crate with this name.
 ///
 /// # Examples
 /// ```

@@ -1,12 +1,21 @@
-//! The formulas and theorems of cannonpile, exported to the proof assistant Coq.
+//! The theorems of cannonpile with their proofs, and their export to the proof assistant Coq.
 //!
-//! [`cannonpile::theorem`] proves theorems with polynomials. This crate exports the same formulas to Coq. It runs
-//! [`Formulas::LIBRARY`] on [`Expression`]s, which record each operation, and turns every record into a definition.
-//! The theorems in the folder `coq` are about these definitions, not about a copy of the formulas. They cover the
-//! balance of a sphere, action and reaction, the pile by recursion on its layers, and sums by induction. Coq's
-//! kernel accepts them without axioms.
+//! [`cannonpile::theorem`] proves the paper's results with polynomials. This crate proves further theorems about the
+//! same formulas: on discs and other dimensions, on stackings, on loads and leaning gravity, and on a rough floor.
+//! [`all`] lists the theorems of all crates.
+//!
+//! This crate also exports the formulas to Coq. It runs [`Formulas::LIBRARY`] on [`Expression`]s, which record each
+//! operation, and turns every record into a definition. The theorems in the folder `coq` are about these definitions,
+//! not about a copy of the formulas. They cover the balance of a sphere, action and reaction, the pile by recursion on
+//! its layers, and sums by induction. Coq's kernel accepts them without axioms.
 //!
 //! # Examples
+//! ```
+//! let tilt = cannonpile_proof::find("tilt").unwrap();
+//! assert!(tilt.prove().holds());
+//! assert!(tilt.coq.contains(&"Loads.nearest_tilt"));
+//! ```
+//! The files for Coq contain the formulas:
 //! ```
 //! let files = cannonpile_proof::files()?;
 //! let formulas = files.iter().find(|file| file.name() == "Formulas.v").unwrap();
@@ -48,7 +57,7 @@ pub use coq::{ProofFile, commands, files, files_of};
 pub use error::Error;
 pub use expression::{Expression, Operation};
 pub use formulas::Formulas;
-pub use theorem::{Listing, Theorem, all, find};
+pub use theorem::{Listing, Theorem, all, find, own};
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

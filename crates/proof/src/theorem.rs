@@ -1,4 +1,12 @@
-//! The theorems of all crates, in one list.
+//! The theorems of all crates, in one list, and the theorems of this crate.
+//!
+//! The crates of horizontal contacts and of random stackings prove their own formulas. The core proves the paper's
+//! results. This crate proves all other theorems about the formulas of the core.
+
+mod dimensions;
+mod friction;
+mod loads;
+mod stackings;
 
 use core::fmt;
 
@@ -7,7 +15,7 @@ use cannonpile::theorem::{Proof, ProofKind};
 
 use crate::{Formulas, names};
 
-/// A theorem of the core, of horizontal contacts or of random stackings.
+/// A theorem about the formulas of the core, of horizontal contacts or of random stackings.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Theorem {
@@ -26,7 +34,7 @@ pub struct Theorem {
     source: Source,
 }
 
-/// The theorem in the crate of its formulas.
+/// A theorem, by the crate of its formulas.
 #[derive(Clone, Copy, Debug)]
 enum Source {
     Core(&'static theorem::Theorem),
@@ -79,7 +87,23 @@ impl Theorem {
     }
 }
 
-/// Returns all theorems in reading order: those of the core, of horizontal contacts and of random stackings.
+/// Returns the theorems of this crate. They are about the formulas of the core.
+///
+/// Only tests call this function. Other callers use [`all`], which includes these theorems.
+#[doc(hidden)]
+pub fn own() -> impl Iterator<Item = &'static theorem::Theorem> {
+    [
+        dimensions::THEOREMS,
+        stackings::THEOREMS,
+        loads::THEOREMS,
+        friction::THEOREMS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// Returns all theorems in reading order: those of the core, of this crate, of horizontal contacts and of random
+/// stackings.
 ///
 /// # Examples
 /// ```
@@ -89,7 +113,8 @@ impl Theorem {
 /// assert!(weight.coq.contains(&"Floor.the_weight_arrives"));
 /// ```
 pub fn all() -> impl Iterator<Item = Theorem> {
-    let core = theorem::all().map(|found| Theorem::new(found, Source::Core(found)));
+    let core = theorem::all().chain(own());
+    let core = core.map(|found| Theorem::new(found, Source::Core(found)));
     let horizontal = cannonpile_horizontal::theorem::all();
     let horizontal = horizontal.map(|found| Theorem::new(found, Source::Horizontal(found)));
     let disorder = cannonpile_disorder::theorem::all();

@@ -1,4 +1,7 @@
-//! The theorems of all crates, in one list.
+//! The theorems of all crates, in one list, and the theorems of this crate.
+
+mod numbers;
+mod own;
 
 use std::collections::BTreeSet;
 
@@ -18,10 +21,12 @@ fn names_are_unique_and_found() {
     assert!(cannonpile_proof::find("").is_none());
 }
 
-/// The list contains the theorems of the core, of horizontal contacts and of random stackings, in this order.
+/// The list contains the theorems of the core, of this crate, of horizontal contacts and of random stackings, in this
+/// order.
 #[test]
 fn list_is_complete_and_ordered() {
-    let core = theorem::all().map(|found| (found.name, found.prove()));
+    let core = theorem::all().chain(cannonpile_proof::own());
+    let core = core.map(|found| (found.name, found.prove()));
     let horizontal = cannonpile_horizontal::theorem::all();
     let horizontal = horizontal.map(|found| (found.name, found.prove()));
     let disorder = cannonpile_disorder::theorem::all();

@@ -15,14 +15,14 @@ const LAYERS: i128 = 12;
 type Values = Vec<(&'static str, Q)>;
 
 /// A bottom sphere: its force in mg/W and f₀, its horizontal position in 2R, and the values of L, i, j and s.
-pub(super) struct Bottom {
-    pub force: FloorForce<Q>,
-    pub x: Q,
-    pub y: Q,
+struct Bottom {
+    force: FloorForce<Q>,
+    x: Q,
+    y: Q,
     values: Values,
 }
 
-pub(super) fn base(pile: &Pile) -> Vec<Bottom> {
+fn base(pile: &Pile) -> Vec<Bottom> {
     let forces = pile.forces::<Q>();
     let weight = forces.increment_sum().expect("W");
     let of_force = |force: FloorForce<Q>| {
@@ -48,12 +48,12 @@ pub(super) fn base(pile: &Pile) -> Vec<Bottom> {
         .collect()
 }
 
-pub(super) fn at_layers(pile: &Pile) -> Values {
+fn at_layers(pile: &Pile) -> Values {
     vec![("L", int(pile.layers())), ("s", pile.sin_phi().clone())]
 }
 
 /// Σ over the base.
-pub(super) fn over(base: &[Bottom], term: impl Fn(&Bottom) -> Q) -> Q {
+fn over(base: &[Bottom], term: impl Fn(&Bottom) -> Q) -> Q {
     base.iter().map(term).sum()
 }
 

@@ -3,8 +3,6 @@
 mod balance;
 mod base;
 mod counts;
-mod dimensions;
-mod loads;
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;

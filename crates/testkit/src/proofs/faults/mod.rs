@@ -47,7 +47,8 @@ use faults;
 
 /// The faults of the core's formulas, ordered by the wrong formula.
 ///
-/// The core has no theorem about `pushed` and `beside`. The crate of horizontal contacts has them.
+/// The core itself has no theorem about some of them. The theorems about `pushed` and `beside` are in the crate of
+/// horizontal contacts, and those about loads, sign changes and bounds of layers are in `cannonpile-proof`.
 pub fn of_the_core() -> Vec<Fault> {
     [
         counts::faults(),

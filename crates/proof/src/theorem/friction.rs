@@ -1,14 +1,12 @@
 //! Theorems on two layers on a rough floor, without glue.
 
-use alloc::format;
-use alloc::vec::Vec;
-
+use cannonpile::each::Each;
+use cannonpile::geometry::Vector;
+use cannonpile::theorem::setting::{
+    P, Setting, by_component, cross, equations, half, int, nothing_left, symbol,
+};
+use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
 use num_traits::{One, Zero};
-
-use super::setting::{P, Setting, by_component, cross, equations, half, int, nothing_left, symbol};
-use super::{Formulas, ProofKind, Step, Theorem};
-use crate::each::Each;
-use crate::geometry::Vector;
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {

@@ -1,16 +1,18 @@
 //! Theorems on stackings and regions of any kind: runs, sign changes, point loads.
 
-use alloc::format;
-use alloc::vec::Vec;
+use core::num::NonZeroI64;
 
+use cannonpile::each::Each;
+use cannonpile::geometry::Vector;
+use cannonpile::lattice::{Direction, Sign};
+use cannonpile::scalar::{Algebra, Symbol};
+use cannonpile::theorem::setting::{
+    P, Setting, by_line, equations, int, nothing_left, symbol, transmitted,
+};
+use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
 use num_traits::{One, Zero};
 
-use super::setting::{P, Setting, by_line, equations, int, nothing_left, symbol, transmitted};
-use super::{Formulas, ProofKind, Step, Theorem};
-use crate::each::Each;
-use crate::geometry::Vector;
-use crate::lattice::{Direction, Sign};
-use crate::scalar::{Algebra, Symbol, THREE};
+const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {

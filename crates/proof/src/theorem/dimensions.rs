@@ -1,13 +1,9 @@
 //! Theorems on piles in other dimensions: discs, and d = 2 … 6.
 
-use alloc::format;
-use alloc::vec::Vec;
-
+use cannonpile::scalar::Symbol;
+use cannonpile::theorem::setting::{P, Setting, equations, int, last_layer, nothing_left, symbol};
+use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
 use num_traits::{One, Zero};
-
-use super::setting::{P, Setting, equations, int, last_layer, nothing_left, symbol};
-use super::{Formulas, ProofKind, Step, Theorem};
-use crate::scalar::Symbol;
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {

@@ -2,12 +2,11 @@
 
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
-use cannonpile::theorem::{Formulas, find};
 use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational as Q;
 use num_traits::Zero;
 
-use super::{RIGHT, evaluated, int, prove, value};
+use super::{Formulas, evaluated, find, int, prove, value};
 
 #[test]
 fn discs_on_the_floor() {
@@ -98,9 +97,9 @@ fn every_dimension() {
 fn squared_forces_have_a_horizontal_resultant() {
     let squares: Formulas = Formulas {
         transmitted: |received, own| received.clone() * &received + own,
-        ..RIGHT
+        ..Formulas::LIBRARY
     };
-    let proof = find("dimensions").expect("a theorem").prove_for(&squares);
+    let proof = find("dimensions").prove_for(&squares);
     let values = [("g_1", 2), ("g_2", 3), ("g_3", 5)].map(|(name, n)| (name, int(n)));
     for (coordinate, expected) in [(1, -22), (2, -10), (3, 32)] {
         let claim = format!("d = 3: no horizontal force, coordinate {coordinate}");

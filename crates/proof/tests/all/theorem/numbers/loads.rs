@@ -1,11 +1,53 @@
 //! Piles under gravity that leans: totals on the floor, and the least tilt that opens a contact.
 
-use cannonpile::Pile;
-use cannonpile_testkit::rational::ratio;
+use cannonpile::shape::Selection;
+use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational as Q;
 
-use super::base::{at_layers, base, over};
-use super::{int, piles, prove, value};
+use super::{int, prove, ratio, value};
+
+/// A bottom sphere: its force in mg/W and f₀, and its horizontal position in 2R.
+struct Bottom {
+    force: FloorForce<Q>,
+    x: Q,
+    y: Q,
+}
+
+fn base(pile: &Pile) -> Vec<Bottom> {
+    let forces = pile.forces::<Q>();
+    let weight = forces.increment_sum().expect("W");
+    let of_force = |force: FloorForce<Q>| {
+        let at = forces.position(force.site).expect("a position");
+        Bottom {
+            force: FloorForce {
+                normal: force.normal * &weight,
+                shear_x: force.shear_x * &weight,
+                shear_y: force.shear_y * &weight,
+                ..force
+            },
+            x: at.x,
+            y: at.y,
+        }
+    };
+    let bottom = forces.base(Selection::Base).expect("rows");
+    bottom
+        .map(|force| of_force(force.expect("a force")))
+        .collect()
+}
+
+/// Σ over the base.
+fn over(base: &[Bottom], term: impl Fn(&Bottom) -> Q) -> Q {
+    base.iter().map(term).sum()
+}
+
+/// Piles of 1 to `layers` layers on five bases: the equilateral one, with a smaller and a greater sin φ, and with one
+/// close to zero.
+fn piles(layers: i128) -> impl Iterator<Item = Pile> {
+    let sines = [(1, 2), (1, 3), (2, 5), (7, 9), (1, 1000)].map(|(n, d)| ratio(n, d));
+    let of_one_base =
+        move |s: Q| (1..=layers).map(move |l| Pile::isosceles(l, s.clone()).expect("a pile"));
+    sines.into_iter().flat_map(of_one_base)
+}
 
 /// Several tilts (x, y).
 fn tilts() -> [[Q; 2]; 3] {
@@ -20,7 +62,7 @@ fn total_force_and_moment() {
         for [x, y] in tilts() {
             let tilted = pile.clone().with_tilt([x.clone(), y.clone()]);
             let base = base(&tilted.expect("a pile"));
-            let mut values = at_layers(&pile);
+            let mut values = vec![("L", int(pile.layers())), ("s", pile.sin_phi().clone())];
             values.extend([("x", x), ("y", y)]);
             let value = |claim| value(&proof, claim, &values);
             assert_eq!(value("x: ΣF ="), over(&base, |b| b.force.shear_x.clone()));

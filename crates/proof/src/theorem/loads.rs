@@ -1,18 +1,14 @@
 //! Theorems on loads of any direction, and on gravity that leans.
 
-use alloc::format;
-use alloc::vec::Vec;
-
-use num_traits::{One, Zero};
-
-use super::setting::{
-    P, Setting, above, above_floor, by_component, by_line, equations, half, int, nothing_left,
-    sum_over_base, sum_over_pile, symbol, transmitted,
+use cannonpile::each::Each;
+use cannonpile::geometry::{Load, Vector};
+use cannonpile::lattice::{Direction, Sign};
+use cannonpile::theorem::setting::{
+    P, Setting, above, above_floor, by_component, by_line, cross, equations, half, int,
+    nothing_left, sum_over_base, sum_over_pile, symbol, transmitted,
 };
-use super::{Formulas, ProofKind, Step, Theorem};
-use crate::each::Each;
-use crate::geometry::{Load, Vector};
-use crate::lattice::{Direction, Sign};
+use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
+use num_traits::{One, Zero};
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
@@ -263,17 +259,6 @@ fn tilt(f: &Formulas) -> Vec<Step> {
         steps.extend(nearest.steps("discs", &of_disc, &squared));
     }
     steps
-}
-
-/// Returns a × b.
-fn cross(a: &Vector<P>, b: &Vector<P>) -> Vector<P> {
-    let part = |[a1, b1]: [&P; 2], [a2, b2]: [&P; 2]| a1.clone() * b2 - &(a2.clone() * b1);
-    let [x, y, z] = [[&a.x, &b.x], [&a.y, &b.y], [&a.z, &b.z]];
-    Vector {
-        x: part(y, z),
-        y: part(z, x),
-        z: part(x, y),
-    }
 }
 
 fn tilt_total(f: &Formulas) -> Vec<Step> {
