@@ -19,7 +19,7 @@
 //!    above the lower sphere. Along α it receives f + m − 1, where f ≥ 0 is the force that the upper sphere transmits
 //!    along α. At a sign change it transmits 1 − (f + m − 1)/3 along α. This force is tensile (negative) if f + m > 4,
 //!    hence for all m ≥ 5. The argument holds under any top, and for − runs by reflection. Theorem `edge` of
-//!    [`theorem`](crate::theorem) proves it for all f and m.
+//!    the crate `cannonpile-proof` proves it for all f and m.
 //! 2. *The rest is a finite search* in exact arithmetic, which [`under_one_sphere`] carries out. With runs of at most
 //!    four steps, no stacking with a fourth sign change is stable.
 //! 3. *A last run of any length is stable* if its first step is, since within a run the force on each line only grows.

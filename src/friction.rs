@@ -43,8 +43,8 @@
 //!
 //! For discs, F is horizontal too, with one λ for each upper disc, and Σ F = 0 makes neighbouring λ equal.
 //!
-//! The identities are the theorems `rough-contact`, `rough-floor` and `rough-unique` of [`theorem`](crate::theorem). The
-//! file `Friction.v` of the crate `cannonpile-proof` has the whole proof in Coq, for spheres and discs.
+//! The identities are the theorems `rough-contact`, `rough-floor` and `rough-unique` of the crate `cannonpile-proof`. Its
+//! file `Friction.v` has the whole proof in Coq, for spheres and discs.
 //!
 //! Three layers already have a state of self-stress. There the forces depend on the history, and no exact answer exists.
 

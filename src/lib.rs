@@ -59,7 +59,7 @@
 //! | forces row by row, for piles larger than memory | [`fill_row`](NearestLayers::fill_row) and similar methods; [`packing.places()`](Packing::places) for centres and contact points |
 //! | sums of forces | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
 //! | the stability of a pile; the tilts of gravity that it bears; the extreme forces on its base | [`Pile::standing`]; [`Pile::stability`]; [`Pile::base_extremes`] |
-//! | the stable stackings; theorems for every pile | [`census`]; [`theorem`] |
+//! | the stable stackings; the paper's theorems | [`census`]; [`theorem`] |
 //! | two layers with friction | [`Pile::on_rough_floor`] |
 //! | a force as a function of a load or tilt | [`Forces::with_load`], [`Forces::with_tilt`] |
 //! | to cancel a long computation | `Interrupt` |
@@ -75,7 +75,7 @@
 //! | means and ensembles over random stackings | `cannonpile-disorder` |
 //! | scenes, benchmark cases, files for LAMMPS, YADE and ParaView, a comparison with measured forces | `cannonpile-dem` |
 //! | figures, and an HTML viewer | `cannonpile-figure` |
-//! | the theorems in Coq | `cannonpile-proof` |
+//! | all theorems with their proofs, also in Coq | `cannonpile-proof` |
 //!
 //! # Features
 //! | feature | adds |
@@ -106,7 +106,7 @@
 //! | | [`Forces`], [`Packing`] | the forces, in pile units and in SI units |
 //! | | [`Standing`], [`stability`], [`census`] | stability |
 //! | | [`ForceChange`], [`friction`] | unequal spheres, to first order; two layers on a rough table |
-//! | | [`theorem`] | theorems about [`formula`], for every pile |
+//! | | [`theorem`] | the paper's theorems about [`formula`], for every pile |
 //! | tools | `data` | the serialised form of the types (feature `serde`) |
 //! | | `arbitrary` | random piles and their parts from plain bytes (feature `arbitrary`) |
 //! | | `testing` | proptest strategies for the same values (feature `proptest`) |

@@ -13,8 +13,9 @@
 //! once.
 //!
 //! # Known margins
-//! A straight pile under any top bears the triangle of tilts that one sphere alone bears, so t_c = ½ (theorem `tilt`).
-//! Of the eleven stackings that are stable under one sphere, two have the margin 0.
+//! A straight pile under any top bears the triangle of tilts that one sphere alone bears, so t_c = ½. This is theorem
+//! `tilt` of the crate `cannonpile-proof`. Of the eleven stackings that are stable under one sphere, two have the margin
+//! 0.
 
 use alloc::vec::Vec;
 
