@@ -12,9 +12,8 @@ use crate::command::{
     bounds, cases, census, check, completions, ensemble, explain, export, mean, plot, prove,
     response, scene, sensitivity, spheres, stability, summary, verify,
 };
-use crate::culprit::Culprit;
-use crate::error::Error;
 use crate::output::{Failure, print_message};
+use crate::{progress, signals, threads};
 
 const START: &str = "\
 Examples:
@@ -144,7 +143,7 @@ impl Command {
 const NO: u8 = 1;
 
 /// The exit status of a usage error, with one line on stderr and nothing on stdout.
-const USAGE_ERROR: u8 = 2;
+pub(crate) const USAGE_ERROR: u8 = 2;
 
 /// Returns the whole command line, for manual pages.
 #[must_use]
