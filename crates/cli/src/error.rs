@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+/// The exit status of a usage error, with one line on stderr and nothing on stdout.
+pub(crate) const USAGE_ERROR: u8 = 2;
+
 /// An error of one of the crates below the command line.
 ///
 /// The conversions unwrap nested errors: an error of the crate `cannonpile` is always [`Core`](Self::Core), whatever

@@ -12,6 +12,7 @@ use crate::command::{
     bounds, cases, census, check, completions, ensemble, explain, export, mean, plot, prove,
     response, scene, sensitivity, spheres, stability, summary, verify,
 };
+use crate::error::USAGE_ERROR;
 use crate::output::{Failure, print_message};
 use crate::{progress, signals, threads};
 
@@ -141,9 +142,6 @@ impl Command {
 
 /// The exit status if the answer is no.
 const NO: u8 = 1;
-
-/// The exit status of a usage error, with one line on stderr and nothing on stdout.
-pub(crate) const USAGE_ERROR: u8 = 2;
 
 /// Returns the whole command line, for manual pages.
 #[must_use]

@@ -69,8 +69,7 @@ fn turn_aborts_into_errors() {
     let _ = flag::register(SIGXFSZ, Arc::default());
     // Large requests are refused beforehand. This is for what remains: the allocator prints a line and aborts.
     let always = Arc::new(AtomicBool::new(true));
-    let _ =
-        flag::register_conditional_shutdown(SIGABRT, crate::program::USAGE_ERROR.into(), always);
+    let _ = flag::register_conditional_shutdown(SIGABRT, crate::error::USAGE_ERROR.into(), always);
 }
 
 /// Returns the signals that this process ignores, a bit for each, if the system tells them.

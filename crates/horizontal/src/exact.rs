@@ -154,6 +154,7 @@ impl<T: Field> Triangular<T> {
                         return None;
                     }
                     let was_zero = entry.is_none();
+                    // A coefficient that is not listed is 0.
                     let entry = entry.unwrap_or_else(T::zero) - &(c.clone() * &factor);
                     is_defined &= entry.is_defined();
                     match (was_zero, entry.is_zero()) {

@@ -251,6 +251,7 @@ impl Dictionary<'_> {
 
 fn add_multiple(to: &mut Slopes, factor: f64, slopes: &Slopes) {
     merge(to, slopes, |_, before, slope| {
+        // A slope that is not listed is 0.
         let sum = before.unwrap_or(0.0) + factor * slope;
         Some(sum).filter(|sum| sum.abs() >= FLAT)
     });

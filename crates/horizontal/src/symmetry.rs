@@ -135,6 +135,7 @@ impl Orbits {
                 if self.equations.first[row] == *equation {
                     let added = vec![(row, coefficient.clone())];
                     merge(&mut columns[*orbit], &added, |_, sum, added| {
+                        // A coefficient that is not listed is 0.
                         let sum = sum.unwrap_or_else(BigRational::zero) + added;
                         Some(sum).filter(|sum| !sum.is_zero())
                     });
