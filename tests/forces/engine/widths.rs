@@ -186,7 +186,7 @@ fn high_stackings_around_the_first_switches() {
     for (period, most) in [("+-", 106), ("+--", 60)] {
         for steps in switches(period, most) {
             // Release builds try the upper neighbour too, which takes debug builds four seconds.
-            let above = if cfg!(debug_assertions) { 0 } else { 1 };
+            let above = usize::from(!cfg!(debug_assertions));
             for steps in steps - 1..=steps + above {
                 let case = Case::under(&Bounds::SITE, &repeated(period, steps));
                 planes.insert(plan(&case).planes);
