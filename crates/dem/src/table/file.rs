@@ -109,9 +109,7 @@ impl Aside {
     /// Renames the temporary file to its path, and returns its size in bytes.
     pub(crate) fn keep(self) -> io::Result<u64> {
         if let Some((file, pending)) = self.file {
-            let kept =
-                pending.complete(|| file.persist(&self.target).map_err(|error| error.error))?;
-            drop(kept);
+            pending.complete(|| file.persist(&self.target).map_err(|error| error.error))?;
         }
         Ok(self.bytes)
     }
