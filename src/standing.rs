@@ -33,6 +33,7 @@ use crate::formula;
 use crate::geometry::LayerGap;
 use crate::lattice::{Dimension, Direction, Sign, Site};
 use crate::shape::{Selection, Shape};
+use crate::sorted::distinct;
 use crate::{ContactForce, Error, Packing, Pile};
 
 /// The verdict on the stability of a pile.
@@ -344,8 +345,7 @@ impl Pile {
                 sites.extend(above.into_iter().flatten());
             }
         }
-        sites.sort_unstable();
-        sites.dedup();
+        let sites = distinct(sites);
         let forces = self.forces::<BigRational>();
         let contacts = sites
             .into_iter()

@@ -22,7 +22,7 @@ use crate::Error;
 use crate::lattice::Direction;
 use crate::scalar::Algebra;
 use crate::shape::Stretch;
-use crate::sorted::Sorted;
+use crate::sorted::{Sorted, distinct};
 
 /// The maximum number of ends in an ordinary row: the two ends of the row, and four sites for each of the three lines.
 const ENDS_OF_A_ROW: u32 = 14;
@@ -79,9 +79,7 @@ impl<T: Algebra> Lines<'_, T> {
                 }
             }
             ends.extend(special.get(&row.j).into_iter().flatten());
-            ends.sort_unstable();
-            ends.dedup();
-            let inside = ends.into_iter().filter(|i| row.i.contains(i));
+            let inside = distinct(ends).into_iter().filter(|i| row.i.contains(i));
             (row.j, inside.map(|i| [i, row.j]).collect())
         }))
     }

@@ -361,7 +361,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         changes: usize,
     ) -> Received<T> {
         let mut forces = add(received, increments);
-        if self.extra_loads.contains_key(&site) {
+        if self.extra_loads.get(&site).is_some() {
             forces = add(forces, &self.extra(site));
         }
         Received { forces, changes }

@@ -303,7 +303,7 @@ impl Descent<'_, BigRational, Planes> {
     /// # Errors
     /// [`Error::Bug`] for a sphere that is not stored.
     pub(crate) fn are_alike(&self, [one, other]: [Site; 2]) -> Result<bool, Error> {
-        let extra = |site| self.lines.extra_loads.contains_key(&site);
+        let extra = |site| self.lines.extra_loads.get(&site).is_some();
         let cells = |Site { i, j, .. }| self.grid.site([i, j], self.stored.shift);
         let alike = self.layer.are_alike([cells(one)?, cells(other)?]);
         Ok(alike && !extra(one) && !extra(other))

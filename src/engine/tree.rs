@@ -31,6 +31,7 @@ use crate::formula;
 use crate::lattice::{Direction, Site};
 use crate::scalar::Algebra;
 use crate::shape::{Shape, Stretch};
+use crate::sorted::distinct;
 
 /// The maximum number of nodes in a tree.
 pub(crate) const MAX_NODES: usize = 4_000_000;
@@ -119,8 +120,7 @@ fn levels(
     let mut nodes = 0;
     while let (Some(stretch), false) = (shape.stretch_to(k), sites.is_empty()) {
         check_interrupt()?;
-        sites.sort_unstable();
-        sites.dedup();
+        sites = distinct(sites);
         nodes += sites.len();
         if nodes > FEW_NODES {
             refuse_beyond_memory(

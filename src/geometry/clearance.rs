@@ -27,6 +27,7 @@ use crate::each::Each;
 use crate::lattice::Dimension;
 use crate::scalar::Ring;
 use crate::shape::Shape;
+use crate::sorted::distinct;
 
 /// The difference of the layers of two spheres that touch or overlap.
 ///
@@ -237,9 +238,7 @@ impl Clearance {
             }
         }
         Inclination::new(spacing, self.dimension)?;
-        touching.sort_unstable();
-        touching.dedup();
-        Ok(touching)
+        Ok(distinct(touching))
     }
 }
 

@@ -99,11 +99,12 @@ impl Loading {
 
     /// Removes all forces of horizontal contacts.
     pub(crate) fn release(&mut self) {
-        for sphere in self.spheres.values_mut() {
+        for (site, mut sphere) in core::mem::take(&mut self.spheres) {
             (sphere.horizontal, sphere.pushes) = Default::default();
+            if sphere != Acting::default() {
+                self.spheres.insert(site, sphere);
+            }
         }
-        let none = Acting::default();
-        self.spheres.retain(|_, sphere| *sphere != none);
     }
 
     /// Returns the horizontal contacts with a force, in their order.

@@ -14,7 +14,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
 use super::{Algebra, Exactness, OwnNumerators, Ring, common_multiple};
-use crate::sorted::Sorted;
+use crate::sorted::{Sorted, distinct};
 
 /// A symbol of a [`Polynomial`], identified by its name.
 ///
@@ -61,10 +61,7 @@ impl Monomial {
 
     /// Returns the symbols of both monomials, sorted.
     fn symbols(&self, other: &Self) -> Vec<Symbol> {
-        let mut symbols: Vec<Symbol> = self.0.iter().chain(&other.0).map(|(s, _)| *s).collect();
-        symbols.sort_unstable();
-        symbols.dedup();
-        symbols
+        distinct(self.0.iter().chain(&other.0).map(|(s, _)| *s).collect())
     }
 
     /// Combines the exponents of each symbol, or returns `None` if one combination is `None`.
@@ -271,14 +268,8 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn symbols(&self) -> Vec<Symbol> {
-        let mut symbols: Vec<Symbol> = self
-            .terms
-            .iter()
-            .flat_map(|(monomial, _)| monomial.0.iter().map(|(s, _)| *s))
-            .collect();
-        symbols.sort_unstable();
-        symbols.dedup();
-        symbols
+        let powers = self.terms.iter().flat_map(|(monomial, _)| &monomial.0);
+        distinct(powers.map(|(symbol, _)| *symbol).collect())
     }
 
     /// Returns the polynomial with `value` substituted for `symbol`.
