@@ -51,8 +51,6 @@ pub(crate) use grid::{Grid, Layer, MAX_NUMBERS};
 #[cfg(feature = "std")]
 pub use interrupt::Interrupt;
 pub use interrupt::check as check_interrupt;
-#[cfg(feature = "rayon")]
-pub(crate) use interrupt::{current as current_request, within};
 pub(crate) use limbs::Planes;
 pub(crate) use lines::{Lines, Received};
 pub use meter::Counters;

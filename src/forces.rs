@@ -11,8 +11,6 @@ mod ends;
 mod layers;
 mod nearest;
 mod numerators;
-#[cfg(feature = "rayon")]
-pub mod parallel;
 mod screen;
 mod stress;
 mod sums;

@@ -52,7 +52,6 @@
 //! | one contact force, in any scalar, in multiples of f₀ | [`pile.forces::<T>()`](Pile::forces)[`.contact(site, direction)`](Forces::contact) |
 //! | the force of one bottom sphere on the floor; the stress of one sphere | [`.on_floor(site)`](Forces::on_floor), [`.stress(site)`](Forces::stress) |
 //! | all forces of a part, one by one | [`.contacts(part)`](Forces::contacts), [`.base(part)`](Forces::base); `part` is a [`Selection`](shape::Selection) |
-//! | the same on all cores (feature `rayon`) | `parallel::contacts(&forces, part)`, `parallel::base(&forces, part)` |
 //! | the sites of a part | [`pile.sites(part)`](Pile::sites); by rows: [`pile.rows(part)`](Pile::rows) |
 //! | many forces, fast, in slices | [`.layers(part)`](Forces::layers), also as [correctly rounded floats](Layers::nearest) or [exact integers](Layers::numerators) |
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for correctly rounded floats in slices |
@@ -81,7 +80,7 @@
 //! | feature | adds |
 //! |---|---|
 //! | `std` (default) | faster big integers; faster rounding of roots by double-doubles |
-//! | `rayon` | sweeps and slices on all cores; the module `parallel` |
+//! | `rayon` | sweeps and slices on all cores |
 //! | `serde` | `Serialize` and `Deserialize` for the data types; the module `data` |
 //! | `arbitrary` | `arbitrary`: random piles, regions, stackings and sites from plain bytes, for fuzz targets |
 //! | `proptest` | `testing`: proptest strategies for the same values |
@@ -177,9 +176,6 @@ pub mod theorem;
 pub use engine::Interrupt;
 pub use engine::{Counters, Method, Plan, Quantity, Question};
 pub use error::Error;
-#[cfg(feature = "rayon")]
-#[cfg_attr(docsrs, doc(cfg(feature = "rayon")))]
-pub use forces::parallel;
 pub use forces::{
     Answers, ContactForce, Contacts, FloorForce, FloorForces, Forces, Layer, Layers, NearestLayer,
     NearestLayers, NumeratorLayer, NumeratorLayers,

@@ -2,15 +2,11 @@
 
 mod counts;
 mod numbering;
-#[cfg(feature = "rayon")]
-mod parts;
 mod rows;
 mod runs;
 mod sites;
 
 pub use numbering::Numbering;
-#[cfg(feature = "rayon")]
-pub(crate) use parts::Part;
 pub use rows::{Rows, Selection};
 pub use sites::Sites;
 pub(crate) use sites::exact_hint;

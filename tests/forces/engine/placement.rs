@@ -263,21 +263,6 @@ fn rows<T: Algebra + PartialEq + Zero>(pile: &Pile, known: &Known<BigRational>) 
                 )?;
             }
         }
-        #[cfg(feature = "rayon")]
-        {
-            use cannonpile::parallel;
-            use rayon::iter::ParallelIterator;
-            let contacts: Result<_, Error> = parallel::contacts(&forces, Selection::All)
-                .unwrap()
-                .collect();
-            let floor: Result<_, Error> =
-                parallel::base(&forces, Selection::Base).unwrap().collect();
-            let both = Known {
-                contacts: contacts.unwrap(),
-                floor: floor.unwrap(),
-            };
-            same(&named("parallel"), &both, known)?;
-        }
     }
     Ok(())
 }

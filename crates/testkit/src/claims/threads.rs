@@ -1,32 +1,29 @@
 //! Threads do not change answers. Most piles are large enough that threads share the rows of a sweep, and some layers are
 //! large enough that threads share their slices.
 //!
-//! The same calls run in pools of one and of several threads: floats, numerators and exact forces, as slices and as items
-//! of parallel iterators. Parallel iterators also equal serial ones.
+//! The same calls run in pools of one and of several threads: floats and numerators, as slices.
 
 use std::sync::OnceLock;
 
 use arbitrary::Unstructured;
+use cannonpile::Pile;
 use cannonpile::lattice::{Region, Sign, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{Error, Pile, parallel};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
-use rayon::iter::ParallelIterator;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::{Checked, Failure, same};
 use crate::generators::number::ratio;
 use crate::generators::rarely;
 
-/// Compares the forces of a random layer, and those on the floor, in pools of one and of up to five threads.
+/// Compares the forces of all contacts, and those on the floor, in pools of one and of up to five threads.
 pub fn any_number(u: &mut Unstructured<'_>) -> Checked {
     let pile = large(u)?;
     let number = u.int_in_range(2..=5)?;
-    let k = u.int_in_range(0..=pile.layers() - 2)?;
-    agree(&pile, k, number)
+    agree(&pile, number)
 }
 
 /// A pile of a few layers, with up to two loads, under a hexagon or on one.
@@ -62,30 +59,12 @@ fn large(u: &mut Unstructured<'_>) -> Result<Pile, Failure> {
 }
 
 /// Compares the answers about one pile. Floats must be equal to the last bit.
-fn agree(pile: &Pile, k: i128, number: usize) -> Checked {
+fn agree(pile: &Pile, number: usize) -> Checked {
     let one = in_pool(1, || Filled::of(pile))?;
     let several = in_pool(number, || Filled::of(pile))?;
     same("floats", &several.floats, &one.floats)?;
     same("numerators", &several.numerators, &one.numerators)?;
-    same("floats on the floor", &several.floor, &one.floor)?;
-    let forces = pile.forces::<BigRational>();
-    let contacts: Result<Vec<_>, Error> = forces.contacts(Selection::Layer(k))?.collect();
-    let floor: Result<Vec<_>, Error> = forces.base(Selection::Base)?.collect();
-    let (contacts, floor) = (contacts?, floor?);
-    in_pool(number, || {
-        let items = parallel::contacts(&forces, Selection::Layer(k))?;
-        same(
-            "contacts",
-            &items.collect::<Result<Vec<_>, Error>>()?,
-            &contacts,
-        )?;
-        let items = parallel::base(&forces, Selection::Base)?;
-        same(
-            "forces on the floor",
-            &items.collect::<Result<Vec<_>, Error>>()?,
-            &floor,
-        )
-    })
+    same("floats on the floor", &several.floor, &one.floor)
 }
 
 /// Three values for each sphere.
