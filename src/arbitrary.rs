@@ -1,54 +1,120 @@
-//! Generators of random piles and their parts from plain bytes (feature `arbitrary`).
+//! Random piles and their parts from plain bytes (feature `arbitrary`): implementations of [`Arbitrary`].
 //!
-//! The property tests and the fuzz targets of this workspace use these generators. They read an [`Unstructured`], the
-//! byte source of the crate `arbitrary`, so proptest and libFuzzer share one description of the inputs. The values are
-//! biased towards difficult cases: single spheres, flat regions, alternating signs, weights of many machine words, and
-//! bounds close to [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
+//! proptest (`cannonpile::testing`) and libFuzzer draw values by them. Missing bytes are read as zeros, which give the
+//! simplest values, so too few bytes are not an error.
 //!
-//! | value | function |
+//! | type | values |
 //! |---|---|
-//! | a small pile, region or stacking; a site, sign or direction | `u.arbitrary()?`, by their implementation of [`Arbitrary`] |
-//! | signs of a stacking | [`signs`], [`signs_of`] |
-//! | a region | [`small_region`], [`region`] of any size, [`bounds`] that may be invalid |
-//! | a position near the boundary of a region, inside or outside | [`position_near`] |
-//! | a small pile and the data it is built from | [`description`], [`light_description`], [`tiny_description`] |
-//! | a small pile with moderate weights and loads, for tests with floats | [`moderate_pile`] |
-//! | a pile of one straight stacking under one sphere, with any sin φ | [`regular_pile`] |
-//! | a site of a pile of any size | [`site`] |
-//! | a weight or load | [`weight`], [`light_weight`] |
-//! | other numbers | [`number`] |
-//!
-//! Missing bytes are read as zeros, so too few bytes are not an error. The errors are those of the crate `arbitrary`.
-//! The strategies for proptest are in `cannonpile::testing` (feature `proptest`).
+//! | `Sign`, `Direction` | any |
+//! | `Stacking` | up to six layers |
+//! | `Region` | up to five sites a side, close to the origin |
+//! | `Site` | coordinates up to 9; it can lie outside a pile |
+//! | `Pile` | up to six layers under or on a region, of discs, or isosceles; up to three loads and three weights of at most 300 mg |
 //!
 //! # Examples
 //! ```
 //! use cannonpile::Pile;
-//! use cannonpile::arbitrary::{Unstructured, site};
+//! use cannonpile::arbitrary::Unstructured;
 //!
-//! /// The body of a fuzz target: no sphere has a negative weight.
+//! /// The body of a fuzz target: no pile weighs less than nothing.
 //! fn target(bytes: &[u8]) -> Result<(), Box<dyn std::error::Error>> {
-//!     let mut u = Unstructured::new(bytes);
-//!     let pile: Pile = u.arbitrary()?;
-//!     let site = site(&mut u, &pile)?;
-//!     assert!(pile.sphere_weight(site)? >= Default::default());
+//!     let pile: Pile = Unstructured::new(bytes).arbitrary()?;
+//!     assert!(pile.weight() >= Default::default());
 //!     Ok(())
 //! }
 //! target(b"any bytes at all")?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#[doc(hidden)]
-pub mod draw;
-pub mod number;
-mod pile;
-mod region;
-mod stacking;
+use alloc::vec::Vec;
+
+use num_rational::BigRational;
 
 pub use ::arbitrary::{Arbitrary, Unstructured};
-pub use pile::{
-    Description, description, light_description, light_weight, moderate_pile, regular_pile, site,
-    tiny_description, weight,
-};
-pub use region::{bounds, position_near, region, small_region};
-pub use stacking::{signs, signs_of};
+use ::arbitrary::{Error, Result};
+
+use crate::Pile;
+use crate::lattice::{Direction, Region, Sign, Site};
+use crate::stacking::Stacking;
+
+/// Converts an error of the library to one of the generator.
+fn valid<T>(made: core::result::Result<T, crate::Error>) -> Result<T> {
+    made.map_err(|_| Error::IncorrectFormat)
+}
+
+/// Either sign.
+impl<'a> Arbitrary<'a> for Sign {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        u.choose(&[Self::Plus, Self::Minus]).copied()
+    }
+}
+
+/// One of α, β, γ.
+impl<'a> Arbitrary<'a> for Direction {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        u.choose(&Self::ALL).copied()
+    }
+}
+
+/// A stacking of up to six layers.
+impl<'a> Arbitrary<'a> for Stacking {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let steps = u.int_in_range(0..=5)?;
+        let signs: Vec<Sign> = (0..steps).map(|_| u.arbitrary()).collect::<Result<_>>()?;
+        valid(Self::from_signs(signs))
+    }
+}
+
+/// A region of up to five sites a side.
+impl<'a> Arbitrary<'a> for Region {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let [x, y] = [u.int_in_range(-2..=2)?, u.int_in_range(-2..=2)?];
+        let [along_x, along_y] = [u.int_in_range(0..=4)?, u.int_in_range(0..=4)?];
+        // The bounds on i+j remove corners. Each sum from `low` to `high` belongs to a site, so the region is not empty.
+        let low = u.int_in_range(0..=along_x + along_y)?;
+        let high = u.int_in_range(low..=along_x + along_y)?;
+        let from = x + y;
+        valid(Self::new(
+            x..=x + along_x,
+            y..=y + along_y,
+            from + low..=from + high,
+        ))
+    }
+}
+
+/// A site with coordinates up to 9. It can lie outside a pile.
+impl<'a> Arbitrary<'a> for Site {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let [i, j] = [u.int_in_range(-9..=9)?, u.int_in_range(-9..=9)?];
+        let k = u.int_in_range(0..=9)?;
+        Ok(Self { i, j, k })
+    }
+}
+
+/// A pile of up to six layers, with up to three weights and three loads. All contact forces are below 10⁶ in units of f₀,
+/// so even `f32` does not overflow.
+impl<'a> Arbitrary<'a> for Pile {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let (region, stacking) = (u.arbitrary::<Region>()?, u.arbitrary::<Stacking>()?);
+        let layers = stacking.layers();
+        let pile = valid(Self::under(region, stacking.clone()))?;
+        let mut pile = valid(match u.int_in_range(0..=7)? {
+            6 => Self::discs(layers),
+            7 => Self::isosceles(layers, ratio(u.int_in_range(1..=11)?, 12)),
+            4 | 5 => Self::on(valid(pile.shape().layer(layers - 1))?, stacking),
+            _ => Ok(pile),
+        })?;
+        let sites: Vec<Site> = pile.shape().sites().collect();
+        for with in [Self::with_weight, Self::with_load] {
+            for _ in 0..u.int_in_range(0..=3)? {
+                let value = ratio(u.int_in_range(0..=300)?, *u.choose(&[1, 2, 3, 7])?);
+                pile = valid(with(pile, *u.choose(&sites)?, value))?;
+            }
+        }
+        Ok(pile)
+    }
+}
+
+fn ratio(n: i32, d: i32) -> BigRational {
+    BigRational::new(n.into(), d.into())
+}

@@ -82,8 +82,8 @@
 //! | `std` (default) | faster big integers; faster rounding of roots by double-doubles |
 //! | `rayon` | sweeps and slices on all cores |
 //! | `serde` | `Serialize` and `Deserialize` for the data types; the module `data` |
-//! | `arbitrary` | `arbitrary`: random piles, regions, stackings and sites from plain bytes, for fuzz targets |
-//! | `proptest` | `testing`: proptest strategies for the same values |
+//! | `arbitrary` | random piles, regions, stackings and sites from plain bytes, for fuzz targets |
+//! | `proptest` | `testing::piles`: random piles for proptest |
 //!
 //! The crate needs Rust 1.88 or later. The types of `num-bigint` 0.4 and `num-rational` 0.4 are part of its public API,
 //! which re-exports the crates as [`num_bigint`] and [`num_rational`].
@@ -108,7 +108,7 @@
 //! | | [`theorem`] | the paper's theorems about [`formula`], for every pile |
 //! | tools | `data` | the serialised form of the types (feature `serde`) |
 //! | | `arbitrary` | random piles and their parts from plain bytes (feature `arbitrary`) |
-//! | | `testing` | proptest strategies for the same values (feature `proptest`) |
+//! | | `testing` | random piles for proptest (feature `proptest`) |
 //! | errors | [`Error`] | the reasons why a query fails |
 //!
 //! # Guarantees

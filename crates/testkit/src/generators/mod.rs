@@ -5,8 +5,6 @@
 //! never fails for lack of bytes: it reads missing bytes as zeros, which select the first choice everywhere. So the first
 //! choice is the ordinary case. [`rarely`] draws a rare case, because `ratio` returns true if no bytes are left.
 //!
-//! Users need some generators too. Those are in `cannonpile::arbitrary`, and these modules re-export them.
-//!
 //! | file | contents |
 //! |---|---|
 //! | `disorder` | piles of random stackings (feature `disorder`) |
@@ -18,6 +16,8 @@
 //! | `stacking` | signs, runs, stackings as text |
 //! | `text` | numbers and sites as text: valid, with their values, and damaged |
 //! | `vtk` | files of VTK, of every kind and encoding (feature `dem`) |
+
+use arbitrary::{Result, Unstructured};
 
 #[cfg(feature = "disorder")]
 pub mod disorder;
@@ -33,4 +33,8 @@ pub mod text;
 #[cfg(feature = "dem")]
 pub mod vtk;
 
-pub use cannonpile::arbitrary::draw::rarely;
+/// Returns true once in `of` draws on average, and false if the bytes are exhausted.
+pub fn rarely(u: &mut Unstructured<'_>, of: u8) -> Result<bool> {
+    let of = of.max(1);
+    Ok(u.int_in_range(1..=of)? == of)
+}

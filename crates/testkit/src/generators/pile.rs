@@ -1,8 +1,6 @@
 //! Piles and sites in them: one layer, layers at the ends of integer widths, corners, bounds of the spacing.
 
 use arbitrary::{Result, Unstructured};
-use cannonpile::arbitrary::regular_pile;
-pub use cannonpile::arbitrary::site;
 use cannonpile::geometry::{Clearance, Spacing};
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Site};
 use cannonpile::{Error, Packing, Pile};
@@ -10,6 +8,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::number;
+use super::region::valid;
 
 /// A number of layers up to the maximum: few, near the powers of two where floats round or machine integers end, a power of
 /// ten, or any.
@@ -170,4 +169,49 @@ impl Sizes {
             .with_mass(self.mass)?
             .with_gravity(self.gravity)
     }
+}
+
+/// Draws a straight pile of `layers` layers under one sphere: equilateral, isosceles or of discs.
+pub fn regular_pile(u: &mut Unstructured<'_>, layers: i128) -> Result<Pile> {
+    valid(match u.int_in_range(0..=3)? {
+        0 => Pile::triangular(layers),
+        1 => Pile::discs(layers),
+        _ => Pile::isosceles(layers, number::sin_phi(u)?),
+    })
+}
+
+/// Draws a site of the pile. The layer is the top, second, last but one or bottom layer, or any layer. Along i and j,
+/// the site lies at an end, at a third of the length, or anywhere. The cost does not depend on the size of the layer.
+pub fn site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
+    let floor = pile.layers() - 1;
+    let k = match u.int_in_range(0..=2)? {
+        0 => floor,
+        // In low piles some of these layers coincide.
+        1 => [0, 1, floor - 1][u.choose_index(3)?].clamp(0, floor),
+        _ => u.int_in_range(0..=floor)?,
+    };
+    let region = valid(pile.shape().layer(k))?;
+    let (first, last) = region.y().into_inner();
+    let j = match pile.dimension() {
+        Dimension::Two => first,
+        Dimension::Three => first + offset(u, last - first)?,
+    };
+    // Every row of a region contains a site.
+    let (x, s) = (region.x(), region.s());
+    let [first, last] = [
+        *x.start().max(&(s.start() - j)),
+        *x.end().min(&(s.end() - j)),
+    ];
+    let i = first + offset(u, last - first)?;
+    Ok(Site { i, j, k })
+}
+
+/// Draws a number from 0, …, `last`, often 0, `last` or `last`/3.
+fn offset(u: &mut Unstructured<'_>, last: i128) -> Result<i128> {
+    Ok(match u.int_in_range(0..=3)? {
+        0 => 0,
+        1 => last,
+        2 => last / 3,
+        _ => u.int_in_range(0..=last)?,
+    })
 }

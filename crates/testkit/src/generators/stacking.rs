@@ -2,8 +2,7 @@
 //! texts.
 
 use arbitrary::{Result, Unstructured};
-pub use cannonpile::arbitrary::{signs, signs_of};
-use cannonpile::lattice::MAX_LAYERS;
+use cannonpile::lattice::{MAX_LAYERS, Sign};
 use cannonpile::stacking::{Notation, Run, Stacking};
 
 /// Runs as a user may list them. Some are empty, neighbours may have the same sign, lengths may be near the maximum, and a
@@ -80,4 +79,26 @@ fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
         }
     }
     Ok(letters.into_iter().collect())
+}
+
+/// Draws up to `most` Hägg signs.
+pub fn signs(u: &mut Unstructured<'_>, most: usize) -> Result<Vec<Sign>> {
+    let steps = u.int_in_range(0..=most)?;
+    signs_of(u, steps)
+}
+
+/// Draws exactly `steps` Hägg signs: all equal, of period 2 or 4, with at most one sign change, or independent.
+pub fn signs_of(u: &mut Unstructured<'_>, steps: usize) -> Result<Vec<Sign>> {
+    let first: Sign = u.arbitrary()?;
+    let signed = |plus: bool| if plus { first } else { -first };
+    Ok(match u.int_in_range(0..=4)? {
+        0 => vec![first; steps],
+        1 => (0..steps).map(|n| signed(n % 2 == 0)).collect(),
+        2 => (0..steps).map(|n| signed(n / 2 % 2 == 0)).collect(),
+        3 => {
+            let change = u.int_in_range(0..=steps)?;
+            (0..steps).map(|n| signed(n < change)).collect()
+        }
+        _ => (0..steps).map(|_| u.arbitrary()).collect::<Result<_>>()?,
+    })
 }
