@@ -11,7 +11,6 @@ mod ends;
 mod layers;
 mod nearest;
 mod numerators;
-mod screen;
 mod stress;
 mod sums;
 mod terms;

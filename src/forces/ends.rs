@@ -6,7 +6,6 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
 use super::Forces;
-use super::screen::Screen;
 use crate::Error;
 use crate::engine::{
     Descent, Engine, MAX_NODES, Meter, Planes, Quantity, Received, Wanted, check_interrupt,
@@ -19,17 +18,16 @@ use crate::shape::Selection;
 
 impl Forces<'_, BigRational> {
     /// Calls `visit` with the forces of some bottom spheres on the floor, as integers (shear_x, shear_y, normal).
-    /// Returns their common denominator. `across` is 4cos²φ.
+    /// Returns their common denominator.
     ///
     /// The extremes over the base are among these spheres. In a straight pile under one sphere they are the corners. In
     /// other piles they are the spheres between which the forces are linear, if these are far fewer than all. Otherwise
-    /// they are all bottom spheres that correctly rounded floats do not exclude.
+    /// they are all bottom spheres, up to symmetry.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10⁸ spheres.
     pub(crate) fn ends_of_base(
         &self,
-        across: &BigRational,
         mut visit: impl FnMut(&Vector<BigInt>),
     ) -> Result<BigInt, Error> {
         const MOST: u64 = 100_000_000;
@@ -84,7 +82,7 @@ impl Forces<'_, BigRational> {
                     let by_sweep = |row: &[[i128; 2]]| row.iter().map(received).collect();
                     self.visit_ends(by_sweep, &mut visit)?;
                 } else {
-                    self.visit_candidates(&sweep, across, &mut visit)?;
+                    self.visit_all(&sweep, &mut visit)?;
                 }
             }
             None if are_few => self.visit_ends(by_trees, &mut visit)?,
@@ -140,39 +138,24 @@ impl Forces<'_, BigRational> {
         Ok(())
     }
 
-    /// Visits the bottom spheres that floats do not exclude, with a sweep that has reached the base.
-    fn visit_candidates(
+    /// Visits the bottom spheres up to symmetry, with a sweep that has reached the base.
+    fn visit_all(
         &self,
         sweep: &Descent<'_, BigRational, Planes>,
-        across: &BigRational,
         visit: &mut impl FnMut(Site, &Received<BigRational>),
     ) -> Result<(), Error> {
-        let floor = self.floor();
         // Symmetric images have the same normal force and the same magnitude of shear, so one part is enough.
-        let part = sweep.part();
-        let mut screen = Screen::new((&self.terms, sweep), across);
-        if let Some(screen) = &mut screen {
-            // The extremes of a sample of rows come first. Then few spheres of the other rows are candidates.
-            for row in part.rows(floor).step_by(16) {
-                screen.candidates(row)?;
-            }
-        }
         let mut last = None;
-        for row in part.rows(floor) {
-            let sites = match &mut screen {
-                Some(screen) => screen.candidates(row)?,
-                None => row.into_iter().collect(),
+        for site in sweep.part().rows(self.floor()).flatten() {
+            check_interrupt()?;
+            // On a uniform base most spheres are extreme, so repeated values are skipped.
+            let is_repeated = match last {
+                Some(last) => sweep.are_alike([last, site])?,
+                None => false,
             };
-            for site in sites {
-                // On a uniform base most spheres are extreme, so repeated values are skipped.
-                let alike = match last {
-                    Some(last) => sweep.are_alike([last, site])?,
-                    None => false,
-                };
-                if !alike {
-                    visit(site, &sweep.received(site)?);
-                    last = Some(site);
-                }
+            if !is_repeated {
+                visit(site, &sweep.received(site)?);
+                last = Some(site);
             }
         }
         Ok(())

@@ -67,7 +67,7 @@ impl Pile {
         let forces = self.forces::<BigRational>();
         let across = self.across();
         let mut extremes = Extremes::default();
-        let unit = forces.ends_of_base(&across, |force| extremes.meet(force, &across))?;
+        let unit = forces.ends_of_base(|force| extremes.meet(force, &across))?;
         extremes.over(&unit)
     }
 }
