@@ -296,9 +296,9 @@ impl Merge {
     /// Prefixes an error with the file that causes it.
     fn message(&self, refused: &Unmergeable) -> Failure {
         let place = match refused {
-            Unmergeable::Other { place, .. }
-            | Unmergeable::Twice { place, .. }
-            | Unmergeable::Impossible { place } => self.parts.get(*place),
+            Unmergeable::Other { place, .. } | Unmergeable::Twice { place, .. } => {
+                self.parts.get(*place)
+            }
             _ => None,
         };
         let file = place.map_or_else(String::new, |path| format!("{}: ", path.display()));

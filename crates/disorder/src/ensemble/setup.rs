@@ -312,11 +312,3 @@ fn range_of(order: &Order, choice: &Choice, shard: Shard) -> Option<Range<u64>> 
     };
     Some(shard.range(total))
 }
-
-/// Returns the number of stackings of a shard. `None` if no run has such a shard.
-pub(super) fn stackings_of(ensemble: &Ensemble, choice: &Choice, shard: Shard) -> Option<BigUint> {
-    let steps = usize::try_from(ensemble.stackings().steps()).ok()?;
-    let order = Order::new(ensemble, choice, steps).ok()?;
-    let range = range_of(&order, choice, shard)?;
-    Some(BigUint::from(range.end - range.start) * order.factor)
-}

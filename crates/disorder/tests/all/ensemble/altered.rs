@@ -2,12 +2,10 @@
 
 use cannonpile::lattice::Region;
 use cannonpile_disorder::{
-    Choice, Distribution, Ensemble, FirstSign, RandomStackings, Samples, Shard, TallyRecord,
+    Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, TallyRecord,
 };
-use hmac_sha256::Hash;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
 use cannonpile_testkit::answers::ratio;
 
@@ -76,18 +74,6 @@ fn altered(text: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// Splits a record into its entries and its digest.
-fn split(text: &str) -> (&str, &str) {
-    text.rsplit_once(",\n  \"sha256\"").unwrap()
-}
-
-fn with_digest(entries: &str) -> String {
-    let digest = Hash::hash(entries.as_ref())
-        .map(|byte| format!("{byte:02x}"))
-        .concat();
-    format!("{entries},\n  \"sha256\": \"{digest}\"\n}}\n")
-}
-
 #[test]
 fn no_altered_number_is_accepted() {
     let mut count = 0;
@@ -104,63 +90,10 @@ fn no_altered_number_is_accepted() {
     assert!(count > 10_000, "{count}");
 }
 
-/// An altered record with a digest of its own is accepted only if it is possible.
-#[test]
-fn no_contradiction_is_accepted() {
-    let mut accepted = 0;
-    for text in parts() {
-        let (entries, _) = split(&text);
-        assert_eq!(with_digest(entries), text);
-        for altered in altered(entries).map(|entries| with_digest(&entries)) {
-            let Ok(record) = TallyRecord::read(altered.as_bytes()) else {
-                continue;
-            };
-            accepted += 1;
-            let tally = record.tally();
-            for with in &tally.faults {
-                for of in [&with.all, &with.standing] {
-                    agrees(of, tally.ensemble.bin_width(), &altered);
-                }
-                assert!(
-                    with.standing.sum_of_squares <= with.all.sum_of_squares,
-                    "{altered}"
-                );
-            }
-            let counts = [
-                ("stackings", Some(tally.stackings())),
-                ("left_out", tally.left_out()),
-            ];
-            for (name, count) in counts {
-                let is_written = |count| altered.contains(&format!("\"{name}\": {count},\n"));
-                assert!(count.is_none_or(is_written), "{altered}");
-            }
-        }
-    }
-    // The seed, for instance, may be any number.
-    assert!(accepted > 0);
-}
-
-/// Asserts that the sums are those of some forces in the bins.
-fn agrees(of: &Distribution, width: &BigRational, text: &str) {
-    assert_eq!(of.forces.total(), of.contacts, "{text}");
-    let count = BigRational::from_integer(of.contacts.clone().into());
-    assert!(&of.sum * &of.sum <= &of.sum_of_squares * count, "{text}");
-    let ends = |end: i64| {
-        let bins = (of.forces.first + end..).zip(&of.forces.counts);
-        let ends = bins.map(|(bin, count)| width * BigInt::from(count.clone()) * BigInt::from(bin));
-        ends.sum::<BigRational>()
-    };
-    assert!((ends(0)..=ends(1)).contains(&of.sum), "{text}");
-    assert!(!of.sum_of_squares.is_negative(), "{text}");
-}
-
 #[test]
 fn a_record_without_digest_is_refused() {
     let text = &parts()[0];
-    let (entries, _) = split(text);
+    let (entries, _) = text.rsplit_once(",\n  \"sha256\"").unwrap();
     let refused = TallyRecord::read(format!("{entries}\n}}\n").as_bytes()).unwrap_err();
     assert!(refused.to_string().contains("no digest"), "{refused}");
-    // Space between entries does not matter.
-    let spaced = text.replace(",\n", " ,\n\n ");
-    assert!(TallyRecord::read(spaced.as_bytes()).is_ok());
 }

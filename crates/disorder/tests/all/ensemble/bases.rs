@@ -288,35 +288,6 @@ fn parts_merge_into_the_whole_and_other_layers_are_rejected() -> Result<(), Erro
 }
 
 #[test]
-fn impossible_numbers_of_omitted_stackings_are_rejected() -> Result<(), Error> {
-    let tally = whole(&Scene::on("hexagon:3", FirstSign::Plus), 4)?;
-    assert_eq!(
-        Tally::merge(std::slice::from_ref(&tally)).as_ref(),
-        Ok(&tally)
-    );
-    let change = |change: fn(&mut Tally)| {
-        let mut changed = tally.clone();
-        change(&mut changed);
-        assert_eq!(
-            Tally::merge(&[changed]),
-            Err(Unmergeable::Impossible { place: 0 })
-        );
-    };
-    change(|tally| tally.faults[1].left_out = None);
-    change(|tally| *tally.faults[1].left_out.as_mut().unwrap() += 1_u32);
-    // The total is right, but too many stackings have two faults.
-    change(|tally| {
-        *tally.faults[1].left_out.as_mut().unwrap() -= 1_u32;
-        *tally.faults[2].left_out.as_mut().unwrap() += 1_u32;
-    });
-    let mut under = whole(&Scene::of("hexagon:1", FirstSign::Plus), 4)?;
-    under.faults[0].left_out = Some(BigUint::zero());
-    let refused = Tally::merge(&[under]);
-    assert_eq!(refused, Err(Unmergeable::Impossible { place: 0 }));
-    Ok(())
-}
-
-#[test]
 fn a_record_names_one_layer() -> Result<(), Box<dyn std::error::Error>> {
     let ensemble = Scene::on("hexagon:3,2", FirstSign::Plus).ensemble(3)?;
     let text = serde_json::to_string(&ensemble)?;

@@ -1,8 +1,7 @@
 //! Shards: any division merges into the whole, and errors name the tally that does not belong to the run.
 
 use cannonpile_disorder::{
-    Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard, Tally, TallyRecord,
-    Unmergeable, WithFaults,
+    Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard, Tally, Unmergeable,
 };
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -294,85 +293,6 @@ fn missing_and_repeated_parts_are_named() -> Result<(), Error> {
         }
     );
     assert_eq!(Tally::merge(&[]), Err(Unmergeable::Nothing));
-    // Tallies as from a truncated or edited file.
-    let mut cut = begin;
-    cut.faults.pop();
-    assert_eq!(
-        Tally::merge(&[third, cut]),
-        Err(Unmergeable::Impossible { place: 1 })
-    );
-    Ok(())
-}
-
-/// An edit of the counts of one number of faults.
-type Change = fn(&mut WithFaults);
-
-/// Bins at the limit are accepted if the extremes match. Bins beyond the limit, and bins without matching extremes, are
-/// rejected.
-#[test]
-fn impossible_bins_are_rejected() -> Result<(), Error> {
-    let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
-    let changed_of = |faults: usize, change: &dyn Fn(&mut WithFaults)| {
-        let mut changed = whole.clone();
-        change(&mut changed.faults[faults]);
-        let merged = Tally::merge(std::slice::from_ref(&changed));
-        match merged {
-            Err(Unmergeable::Impossible { place: 0 }) => false,
-            merged => {
-                assert_eq!(merged, Ok(changed));
-                true
-            }
-        }
-    };
-    let changed = |change: &dyn Fn(&mut WithFaults)| changed_of(1, change);
-    let up_to = |last: i64| {
-        changed(&|with| {
-            let normals = &mut with.all.normals;
-            let length = usize::try_from(last - normals.first + 1).unwrap();
-            normals.counts.resize(length, 0_u32.into());
-            *normals.counts.last_mut().unwrap() = 1_u32.into();
-            let greatest = with.all.greatest_normal.as_mut();
-            greatest.unwrap().force = ratio(last, 3);
-        })
-    };
-    assert!(up_to(99_999));
-    assert!(!up_to(100_000));
-    let down_to = |first: i64| {
-        changed(&|with| {
-            let normals = &mut with.all.normals;
-            let more = usize::try_from(normals.first - first).unwrap();
-            let zeros = vec![0_u32.into(); more];
-            normals.counts.splice(0..0, zeros);
-            normals.counts[0] = 1_u32.into();
-            normals.first = first;
-            with.all.least_normal.as_mut().unwrap().force = ratio(first, 3);
-        })
-    };
-    assert!(down_to(-100_000));
-    assert!(!down_to(-100_001));
-    assert!(!changed(&|with| {
-        let counts = &mut with.all.normals.counts;
-        let first = std::mem::take(&mut counts[0]);
-        counts[1] += first;
-    }));
-    assert!(!changed(&|with| {
-        let counts = &mut with.all.normals.counts;
-        let last = counts.len() - 1;
-        let count = std::mem::take(&mut counts[last]);
-        counts[last - 1] += count;
-    }));
-    // With three faults no stacking stands. Its empty histogram has no first bin.
-    assert!(whole.faults[3].standing.normals.counts.is_empty());
-    assert!(changed_of(3, &|_| {}));
-    let refused: [Change; 4] = [
-        |with| with.standing.normals.first = 1,
-        |with| with.standing.forces.first = -1,
-        |with| with.standing.least_normal = with.all.least_normal.clone(),
-        |with| with.standing.greatest = with.all.greatest.clone(),
-    ];
-    for change in refused {
-        assert!(!changed_of(3, &change));
-    }
     Ok(())
 }
 
@@ -386,105 +306,6 @@ fn bins_at_the_integer_limits() -> Result<(), Error> {
     let last = i128::from(i64::MAX) + 1;
     let counts = [last - 2, last - 1, last, last + 1].map(|bin| bins.count(bin));
     assert_eq!(counts, [0_u32, 4, 4, 0].map(Into::into));
-    Ok(())
-}
-
-/// Tallies as from a file with edited numbers.
-#[test]
-fn impossible_counts_are_rejected() -> Result<(), Error> {
-    let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
-    assert_eq!(
-        Tally::merge(std::slice::from_ref(&whole)).as_ref(),
-        Ok(&whole)
-    );
-    let refused = |name: &str, changed: Tally| {
-        let found = Tally::merge(&[changed]);
-        assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }), "{name}");
-    };
-    let changes: [(&str, Change); 10] = [
-        ("another number of faults", |with| with.faults += 1),
-        ("more stand than there are", |with| {
-            with.standing.stackings = with.all.stackings.clone() + 1_u32;
-        }),
-        ("horizontal contacts", |with| with.held = Some(1_u32.into())),
-        ("a contact lost", |with| with.all.contacts -= 1_u32),
-        ("another least force", |with| {
-            with.all.least.as_mut().unwrap().force += ratio(1, 1);
-        }),
-        ("another greatest normal force", |with| {
-            with.standing.greatest_normal.as_mut().unwrap().force -= ratio(1, 1);
-        }),
-        ("a stacking with other faults", |with| {
-            with.all.greatest.as_mut().unwrap().stacking = "++++".parse().unwrap();
-        }),
-        ("a stacking of other layers", |with| {
-            with.all.greatest.as_mut().unwrap().stacking = "+-".parse().unwrap();
-        }),
-        ("no least force", |with| with.all.least = None),
-        ("a bin before the first", |with| {
-            with.all.normals.counts.insert(0, 0_u32.into());
-            with.all.normals.first -= 1;
-        }),
-    ];
-    for (name, change) in changes {
-        let mut changed = whole.clone();
-        change(&mut changed.faults[1]);
-        refused(name, changed);
-    }
-    // The total is right, but one number of faults has too many stackings.
-    let mut changed = whole;
-    changed.faults[1].all.stackings += 1_u32;
-    changed.faults[2].all.stackings -= 1_u32;
-    refused("a stacking counted elsewhere", changed);
-    Ok(())
-}
-
-#[test]
-fn files_with_another_fault_probability_are_rejected() -> Result<(), Box<dyn std::error::Error>> {
-    let q = ratio(1, 3);
-    for (choice, wrong, said) in [
-        (Choice::All, "7/3", "at least 0 and at most 1, not 7/3"),
-        (
-            drawn(9, 1, q.clone())?,
-            "1/4",
-            "the fault probability 1/3, not",
-        ),
-    ] {
-        let tally = ensemble("hexagon:1", 5)?.run(&choice, Shard::WHOLE)?;
-        let record = TallyRecord::new(tally, q.clone())?;
-        let mut text = Vec::new();
-        record.write(&mut text)?;
-        let text = String::from_utf8(text)?;
-        assert_eq!(TallyRecord::read(text.as_bytes())?, record);
-        let changed = text.replace(
-            "\n  \"fault_probability\": \"1/3\"",
-            &format!("\n  \"fault_probability\": \"{wrong}\""),
-        );
-        let refused = TallyRecord::read(changed.as_bytes()).unwrap_err();
-        assert_eq!(refused.kind(), std::io::ErrorKind::InvalidData);
-        assert!(refused.to_string().contains(said), "{refused}");
-    }
-    Ok(())
-}
-
-#[test]
-fn impossible_counts_with_horizontal_contacts_are_rejected() -> Result<(), AnyError> {
-    let touching = ensemble("hexagon:1", 6)?.with_horizontal_contacts()?;
-    let whole = held(&touching, &Choice::All, Shard::WHOLE)?;
-    assert_eq!(
-        Tally::merge(std::slice::from_ref(&whole)).as_ref(),
-        Ok(&whole)
-    );
-    let row = &whole.faults[2];
-    for held in [
-        row.all.stackings.clone() + 1_u32,
-        row.standing.stackings.clone() - 1_u32,
-    ] {
-        let mut changed = whole.clone();
-        changed.faults[2].held = Some(held);
-        let found = Tally::merge(&[changed]);
-        assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }));
-    }
     Ok(())
 }
 
