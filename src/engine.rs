@@ -52,20 +52,20 @@ pub(crate) use grid::{Grid, Layer, MAX_NUMBERS};
 pub use interrupt::Interrupt;
 pub use interrupt::check as check_interrupt;
 pub(crate) use limbs::Planes;
-pub(crate) use lines::{Lines, Received};
+pub(crate) use lines::{LineForces, SphereForces};
 pub use meter::Counters;
 pub(crate) use meter::Meter;
 pub(crate) use nearest::{Readout, Unit};
 pub use parallel::{map, threads, try_for_each};
 pub use plan::Plan;
-pub(crate) use plan::{Keeping, trees_are_cheaper, unless_too_large};
+pub(crate) use plan::{Storage, trees_are_cheaper, unless_too_large};
 pub use question::{Method, Quantity, Question};
 pub(crate) use rows::{Engine, shortest_exact_sweep};
 pub(crate) use single::received;
 pub(crate) use slices::{fill_rows, split_front};
-pub(crate) use sweep::Descent;
+pub(crate) use sweep::Sweep;
 pub(crate) use table::Table;
-pub(crate) use tree::{MAX_NODES, Wanted, nodes, size_of_tree};
+pub(crate) use tree::{LineSelection, MAX_NODES, nodes, size_of_tree};
 
 // Re-exports for the other crates of the workspace.
 pub use crate::error::{bug, copies, refuse_beyond, refuse_beyond_memory};

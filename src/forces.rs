@@ -29,8 +29,8 @@ use alloc::vec::Vec;
 
 use crate::each::Each;
 use crate::engine::{
-    Counters, Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact,
-    nodes, received,
+    Counters, LineSelection, Meter, Method, Plan, Quantity, Question, SphereForces, Storage,
+    closed_contact, nodes, received,
 };
 use crate::formula;
 use crate::geometry::{Load, Vector, position};
@@ -40,7 +40,7 @@ use crate::shape::{Rows, Selection};
 use crate::{Error, Pile};
 
 use terms::{Terms, horizontal, of_direction, to_scalar, to_scalars};
-use walk::Walk;
+use walk::RowEngine;
 
 /// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
 ///
@@ -152,7 +152,7 @@ impl Pile {
         if quantity.is_of_contacts() {
             rows = rows.off_the_floor();
         }
-        self.system().plan(&rows, quantity, method, Keeping::Limbs)
+        self.system().plan(&rows, quantity, method, Storage::Limbs)
     }
 
     /// Returns the number of spheres at sign changes on which the force of a contact depends. These spheres are the
@@ -374,7 +374,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn from_above(&self, site: Site) -> Result<[T; 3], Error> {
         let site = self.pile.shape().check(site)?;
-        self.terms.contacts(self.received(site, Wanted::All)?)
+        self.terms
+            .contacts(self.received(site, LineSelection::All)?)
     }
 
     /// Returns the forces from `site` on the spheres below, by direction, in f₀. The force along γ is zero for discs.
@@ -423,7 +424,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
         if site.k != floor {
             return Err(Error::NotOnFloor { site, floor });
         }
-        self.terms.floor(site, &self.received(site, Wanted::All)?)
+        self.terms
+            .floor(site, &self.received(site, LineSelection::All)?)
     }
 
     /// Iterates over the contact forces of a part of the pile in row order, in f₀. The contacts of a sphere are those
@@ -450,7 +452,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         let rows = self.pile.rows(part)?.off_the_floor();
         let by_site = self.pile.dimension().directions().len();
         let asked = (Quantity::ContactMultiples, by_site);
-        Answers::new(self, rows, asked, Walk::contacts_in)
+        Answers::new(self, rows, asked, RowEngine::contacts_in)
     }
 
     /// Iterates over the forces of bottom spheres on the floor, in row order.
@@ -471,7 +473,12 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn base(&self, part: Selection) -> Result<FloorForces<'p, T>, Error> {
         let rows = self.pile.rows(part)?;
-        Answers::new(self, rows, (Quantity::FloorMultiples, 1), Walk::on_floor_in)
+        Answers::new(
+            self,
+            rows,
+            (Quantity::FloorMultiples, 1),
+            RowEngine::on_floor_in,
+        )
     }
 
     /// Iterates over the layers of `part`, from the top. Each layer writes its contact forces, in f₀, into
@@ -591,22 +598,22 @@ impl<'p, T: Algebra> Forces<'p, T> {
         if let Some(force) = closed_contact(lines, contact, self.method, self.meter) {
             return Ok((force, 0));
         }
-        let wanted = Wanted::for_contact(self.pile.shape(), site, direction);
+        let wanted = LineSelection::for_contact(self.pile.shape(), site, direction);
         let above = self.received(site, wanted)?;
-        let Received { forces, changes } = lines.to_below(site, above, self.meter);
+        let SphereForces { forces, changes } = lines.to_below(site, above, self.meter);
         Ok((of_direction(forces, direction), changes))
     }
 
     /// Returns the forces on a sphere from above, along the wanted lines.
-    fn received(&self, site: Site, wanted: Wanted) -> Result<Received<T>, Error> {
+    fn received(&self, site: Site, wanted: LineSelection) -> Result<SphereForces<T>, Error> {
         let Terms { lines, system, .. } = &self.terms;
         received((lines, system), (site, wanted), self.method, self.meter)
     }
 
     /// Returns the forces of a sphere on the spheres below.
-    fn transmitted(&self, site: Site) -> Result<Received<T>, Error> {
+    fn transmitted(&self, site: Site) -> Result<SphereForces<T>, Error> {
         self.check_off_the_floor(site)?;
-        let above = self.received(site, Wanted::All)?;
+        let above = self.received(site, LineSelection::All)?;
         Ok(self.terms.lines.to_below(site, above, self.meter))
     }
 
@@ -636,7 +643,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
             rows,
             quantity,
             self.method,
-            Keeping::of::<T>(&self.terms.system),
+            Storage::of::<T>(&self.terms.system),
         )
     }
 
@@ -681,7 +688,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn resultant_above(&self, site: Site) -> Result<Vector<T>, Error> {
         let site = self.pile.shape().check(site)?;
-        let Received { forces, changes } = self.received(site, Wanted::All)?;
+        let SphereForces { forces, changes } = self.received(site, LineSelection::All)?;
         let force = formula::resultant(&forces, &self.terms.directions_above(site.k));
         self.terms.vector("a resultant force", force, changes)
     }
@@ -759,7 +766,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn unbalanced(&self, site: Site) -> Result<Vector<T>, Error> {
         let below = self.transmitted(site)?;
-        let above = self.received(site, Wanted::All)?;
+        let above = self.received(site, LineSelection::All)?;
         let (terms, changes) = (&self.terms, below.changes);
         let rescaled = |force| terms.lines.rescaled(force, above.changes, changes);
         let received = above.forces.each(rescaled);

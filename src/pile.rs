@@ -744,7 +744,7 @@ impl Pile {
     #[must_use]
     pub fn is_uniform(&self) -> bool {
         let system = self.system();
-        system.is_even() && system.is_upright()
+        system.has_unit_weights() && system.gravity_is_vertical()
     }
 
     /// Returns the sum of gravity and load on a sphere.

@@ -11,8 +11,8 @@ pub use rows::{Rows, Selection};
 pub use sites::Sites;
 pub(crate) use sites::exact_hint;
 
+pub(crate) use runs::RunLayers;
 use runs::Steps;
-pub(crate) use runs::Stretch;
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -55,7 +55,7 @@ pub struct Shape {
     dimension: Dimension,
     stacking: Stacking,
     /// The runs of the stacking, from the top.
-    stretches: Vec<Stretch>,
+    stretches: Vec<RunLayers>,
     /// The total numbers of steps.
     whole: Steps,
     anchor: Anchor,
@@ -187,7 +187,7 @@ impl Shape {
     fn new(dimension: Dimension, stacking: Stacking, anchor: Anchor) -> Self {
         let (mut from, mut above) = (0, Steps::default());
         let stretch = |(index, Run { sign, steps }): (usize, Run)| {
-            let stretch = Stretch {
+            let stretch = RunLayers {
                 index,
                 sign,
                 from,
@@ -373,7 +373,7 @@ impl Shape {
     /// Returns the numbers of spheres above a site of layer k on its lines, within `run`, which must lead to this
     /// layer.
     #[inline]
-    pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
+    pub(crate) fn spheres_above(&self, run: &RunLayers, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
         let region = self.whole_region(k);
         // The counts are zero outside the pile.
         region.map_or([0; 3], |region| {
@@ -382,7 +382,7 @@ impl Shape {
     }
 
     /// Returns the counts of [`spheres_above`](Self::spheres_above) along a row of layer k, from the site (i, j) on.
-    pub(crate) fn row_counts(&self, run: &Stretch, k: i128, site: [i128; 2]) -> [Trapezoid; 3] {
+    pub(crate) fn row_counts(&self, run: &RunLayers, k: i128, site: [i128; 2]) -> [Trapezoid; 3] {
         let nothing = Trapezoid {
             cap: 0,
             rises: None,

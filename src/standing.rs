@@ -25,8 +25,8 @@ use num_traits::{One, Signed, Zero};
 
 use crate::each::Each;
 use crate::engine::{
-    Descent, Grid, Lines, MAX_NUMBERS, Meter, Planes, Received, Wanted, shortest_exact_sweep,
-    trees_are_cheaper, unless_too_large,
+    Grid, LineForces, LineSelection, MAX_NUMBERS, Meter, Planes, SphereForces, Sweep,
+    shortest_exact_sweep, trees_are_cheaper, unless_too_large,
 };
 use crate::error::{bug, named, refuse_beyond};
 use crate::formula;
@@ -361,7 +361,7 @@ impl Pile {
             return Ok(Vec::new());
         };
         let system = self.system();
-        let lines = Lines::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&system);
         let (mut ends, mut sites) = (BigUint::zero(), BigUint::zero());
         for k in layers {
             ends += lines.most_ends_of_pieces(*k)?;
@@ -428,19 +428,19 @@ impl Packing<'_> {
 
 /// Returns the smallest force below a layer, among the spheres between which the forces are linear.
 fn least_at_ends(
-    lines: &Lines<'_, BigRational>,
+    lines: &LineForces<'_, BigRational>,
     directions: &[Direction],
     k: i128,
 ) -> Result<ContactForce<BigRational>, Error> {
     let mut least: Option<(BigInt, Site, Direction)> = None;
     let mut denominator = BigInt::one();
     for (_, row) in lines.ends_of_pieces(k)? {
-        let above = lines.forces_above(k, &row, Wanted::All)?;
+        let above = lines.forces_above(k, &row, LineSelection::All)?;
         let changes = above.changes;
         for ([i, j], forces) in row.into_iter().zip(above.forces) {
             let site = Site { i, j, k };
-            let Received { forces, changes } =
-                lines.to_below(site, Received { forces, changes }, Meter::NONE);
+            let SphereForces { forces, changes } =
+                lines.to_below(site, SphereForces { forces, changes }, Meter::NONE);
             denominator = lines.scale(changes);
             for (force, direction) in forces.into_iter().zip(directions.iter().copied()) {
                 if least.as_ref().is_none_or(|(least, ..)| force < *least) {
@@ -460,8 +460,8 @@ fn least_at_ends(
 
 /// Returns the smallest force below the current layer of a sweep.
 fn least_transmitted(
-    sweep: &mut Descent<'_, BigRational, Planes>,
-    lines: &Lines<'_, BigRational>,
+    sweep: &mut Sweep<'_, BigRational, Planes>,
+    lines: &LineForces<'_, BigRational>,
 ) -> Result<ContactForce<BigRational>, Error> {
     sweep.add_extras_here()?;
     let (k, changes) = (sweep.k(), sweep.turned_already());

@@ -7,22 +7,22 @@
 
 use num_traits::Zero;
 
-use super::lines::{Line, Lines, start_of};
+use super::lines::{Line, LineForces, start_of};
 use super::meter::Meter;
 use super::question::Method;
-use super::tree::Wanted;
+use super::tree::LineSelection;
 use crate::each::Each;
 use crate::formula;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
-use crate::shape::Stretch;
+use crate::shape::RunLayers;
 
 /// Returns the force that a sphere of a straight stacking transmits along one line.
 ///
 /// The force is the sum of the increments of this sphere and of the spheres above it on the line. The caller has
 /// checked the site. Returns `None` if the stacking has a sign change, or if another method is requested.
 pub(crate) fn closed_contact<T: Algebra>(
-    lines: &Lines<'_, T>,
+    lines: &LineForces<'_, T>,
     (site, direction): (Site, Direction),
     method: Option<Method>,
     meter: Meter<'_>,
@@ -40,11 +40,11 @@ pub(crate) fn closed_contact<T: Algebra>(
     Some(force)
 }
 
-impl<T: Algebra> Lines<'_, T> {
+impl<T: Algebra> LineForces<'_, T> {
     /// Returns the forces from above on a sphere without a sign change above it, and zero on lines outside `wanted`.
     ///
     /// The caller has checked the site. Returns `None` below a sign change.
-    pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
+    pub(crate) fn closed(&self, site: Site, wanted: LineSelection) -> Option<[T::Numerator; 3]> {
         let Site { i, j, k } = site;
         let Some(run) = self.shape.stretch_to(k) else {
             return Some([(); 3].each(|()| T::Numerator::zero()));
@@ -66,7 +66,7 @@ impl<T: Algebra> Lines<'_, T> {
     /// numerator over the denominator before any sign change.
     pub(super) fn counted(
         &self,
-        run: Stretch,
+        run: RunLayers,
         k: i128,
         site: [i128; 2],
         direction: Direction,

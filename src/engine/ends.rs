@@ -17,17 +17,17 @@ use alloc::vec::Vec;
 
 use num_bigint::BigUint;
 
-use super::lines::{Lines, start_of};
+use super::lines::{LineForces, start_of};
 use crate::Error;
 use crate::lattice::Direction;
 use crate::scalar::Algebra;
-use crate::shape::Stretch;
+use crate::shape::RunLayers;
 use crate::sorted::{Sorted, distinct};
 
 /// The maximum number of ends in an ordinary row: the two ends of the row, and four sites for each of the three lines.
 const ENDS_OF_A_ROW: u32 = 14;
 
-impl<T: Algebra> Lines<'_, T> {
+impl<T: Algebra> LineForces<'_, T> {
     /// Returns an upper bound of the number of sites that [`ends_of_pieces`](Self::ends_of_pieces) yields.
     pub(crate) fn most_ends_of_pieces(&self, k: i128) -> Result<BigUint, Error> {
         let region = self.shape.layer(k)?;
@@ -86,7 +86,7 @@ impl<T: Algebra> Lines<'_, T> {
 
     /// Returns, by row, the sites of layer `k` with an extra weight, or with one above them on a line of the run `run`.
     /// Their neighbours in the row are included.
-    fn ends_of_extras(&self, k: i128, run: Option<Stretch>) -> Sorted<i128, Vec<i128>> {
+    fn ends_of_extras(&self, k: i128, run: Option<RunLayers>) -> Sorted<i128, Vec<i128>> {
         let mut rows: Sorted<i128, Vec<i128>> = Sorted::new();
         let mut insert_around = |[i, j]: [i128; 2]| {
             rows.entry(j, Vec::new()).extend([i - 1, i, i + 1]);
@@ -111,7 +111,7 @@ mod tests {
 
     use super::*;
     use crate::Pile;
-    use crate::engine::Wanted;
+    use crate::engine::LineSelection;
     use crate::lattice::{Region, Site};
 
     /// Returns piles with and without sign changes, with lines of odd and of even length. Each pile has a variant with
@@ -177,7 +177,7 @@ mod tests {
     fn a_row_of_the_top_has_its_ends() {
         let pile = Pile::under(Region::triangle(4).unwrap(), "+".parse().unwrap()).unwrap();
         let system = pile.system();
-        let lines = Lines::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&system);
         let ends: Vec<_> = lines.ends_of_pieces(0).unwrap().collect();
         let row = |j, ends: &[i128]| (j, ends.iter().map(|i| [*i, j]).collect());
         assert_eq!(
@@ -196,7 +196,7 @@ mod tests {
         let mut unlisted = 0;
         for pile in piles {
             let system = pile.system();
-            let lines = Lines::<BigRational>::new(&system);
+            let lines = LineForces::<BigRational>::new(&system);
             for k in 1..pile.layers() {
                 for (j, ends) in lines.ends_of_pieces(k).unwrap() {
                     let row = pile
@@ -207,7 +207,10 @@ mod tests {
                         .find(|row| row.j == j)
                         .unwrap();
                     let sites: Vec<[i128; 2]> = row.i.map(|i| [i, j]).collect();
-                    let forces = lines.forces_above(k, &sites, Wanted::All).unwrap().forces;
+                    let forces = lines
+                        .forces_above(k, &sites, LineSelection::All)
+                        .unwrap()
+                        .forces;
                     for (site, around) in sites.iter().skip(1).zip(forces.windows(3)) {
                         if ends.contains(site) {
                             continue;

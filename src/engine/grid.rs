@@ -24,7 +24,7 @@ use crate::each::Each;
 use crate::error::{bug, refuse_beyond_memory};
 use crate::lattice::{Region, small};
 use crate::scalar::Algebra;
-use crate::shape::{Shape, Stretch};
+use crate::shape::{RunLayers, Shape};
 
 /// The maximum number of values in a sweep: 1 GiB of `i64`.
 pub(crate) const MAX_NUMBERS: u64 = 1 << 27;
@@ -54,7 +54,7 @@ pub(crate) struct Grid<'p> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pass {
     /// The run of the pass. It may continue below layer `k`.
-    pub(crate) run: Stretch,
+    pub(crate) run: RunLayers,
     /// Whether the sign changes at layer `k`.
     pub(crate) turns: bool,
     /// The layer at which the pass begins.

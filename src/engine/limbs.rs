@@ -446,7 +446,7 @@ mod tests {
     use crate::Pile;
     use crate::engine::rows::exact_sweep;
     use crate::engine::single::plain_sweep;
-    use crate::engine::{Cells, Descent, Lines};
+    use crate::engine::{Cells, LineForces, Sweep};
     use crate::lattice::{Dimension, Region, Site};
     use crate::shape::Shape;
 
@@ -586,10 +586,9 @@ mod tests {
     /// Compares the forces on all lines of some layers, in limbs and in big integers.
     fn compare(pile: &Pile) {
         let (system, last) = (pile.system(), pile.layers() - 1);
-        let lines = Lines::<BigRational>::new(&system);
-        let mut exact: Descent<'_, BigRational, Planes> =
-            exact_sweep(&lines, &system, last).unwrap();
-        let mut plain: Descent<'_, BigRational, Cells<BigInt>> =
+        let lines = LineForces::<BigRational>::new(&system);
+        let mut exact: Sweep<'_, BigRational, Planes> = exact_sweep(&lines, &system, last).unwrap();
+        let mut plain: Sweep<'_, BigRational, Cells<BigInt>> =
             plain_sweep(&lines, &system, last).unwrap();
         // The first steps cross 13 layers, so that passes are deferred. The last steps cross single layers.
         for k in (0..=last).filter(|k| *k % 13 == 7 || last - *k < 4) {

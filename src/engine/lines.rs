@@ -23,14 +23,14 @@ use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Row, Sign, Site};
 use crate::pile::{Extra, System};
 use crate::scalar::{Algebra, Ring};
-use crate::shape::{Shape, Stretch};
+use crate::shape::{RunLayers, Shape};
 use crate::sorted::Sorted;
 
 /// The forces on a sphere, by direction, as numerators.
 #[derive(Clone, Debug)]
-pub(crate) struct Received<T: Algebra> {
+pub(crate) struct SphereForces<T: Algebra> {
     pub(crate) forces: [T::Numerator; 3],
-    /// The number of sign changes above. The denominator is [`Lines::scale`] of this number.
+    /// The number of sign changes above. The denominator is [`LineForces::scale`] of this number.
     pub(crate) changes: usize,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Received<T: Algebra> {
 ///
 /// A force after d sign changes has the denominator [`scale`](Self::scale)(d).
 #[derive(Clone, Debug)]
-pub(crate) struct Lines<'p, T: Algebra> {
+pub(crate) struct LineForces<'p, T: Algebra> {
     pub(super) shape: &'p Shape,
     /// The increments of an ordinary sphere, under the sign of the runs with an even index and under the other one.
     /// They differ only under gravity that leans.
@@ -106,7 +106,7 @@ fn horizontal<N: Ring>(Load { x, y, .. }: Load<N>, w: &N) -> Vector<N> {
     Vector { x, y, z }
 }
 
-impl<'p, T: Algebra> Lines<'p, T> {
+impl<'p, T: Algebra> LineForces<'p, T> {
     pub(crate) fn new(system: &System<'p>) -> Self {
         // One denominator serves all increments and loads.
         let least = BigRational::new(BigInt::one(), system.denominator());
@@ -325,7 +325,12 @@ impl<'p, T: Algebra> Lines<'p, T> {
     }
 
     /// Returns the forces that a sphere transmits, by direction, from the forces that it receives.
-    pub(crate) fn to_below(&self, site: Site, above: Received<T>, meter: Meter<'_>) -> Received<T> {
+    pub(crate) fn to_below(
+        &self,
+        site: Site,
+        above: SphereForces<T>,
+        meter: Meter<'_>,
+    ) -> SphereForces<T> {
         let increments = self.increments_below(site.k);
         self.below_layer(&increments, site, above, meter)
     }
@@ -336,9 +341,9 @@ impl<'p, T: Algebra> Lines<'p, T> {
         &self,
         increments: &[T::Numerator; 3],
         site: Site,
-        above: Received<T>,
+        above: SphereForces<T>,
         meter: Meter<'_>,
-    ) -> Received<T> {
+    ) -> SphereForces<T> {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
             return above;
         };
@@ -359,12 +364,12 @@ impl<'p, T: Algebra> Lines<'p, T> {
         site: Site,
         received: [T::Numerator; 3],
         changes: usize,
-    ) -> Received<T> {
+    ) -> SphereForces<T> {
         let mut forces = add(received, increments);
         if self.extra_loads.get(&site).is_some() {
             forces = add(forces, &self.extra(site));
         }
-        Received { forces, changes }
+        SphereForces { forces, changes }
     }
 }
 
@@ -378,7 +383,7 @@ fn add<N: Ring>([a, b, c]: [N; 3], [own_a, own_b, own_c]: &[N; 3]) -> [N; 3] {
 }
 
 impl Line {
-    pub(super) fn through(site: Site, direction: Direction, run: Stretch) -> Self {
+    pub(super) fn through(site: Site, direction: Direction, run: RunLayers) -> Self {
         let place = start_of([site.i, site.j], direction, run.sign, site.k);
         Self {
             run: run.index,

@@ -247,7 +247,7 @@ mod tests {
 
     use super::*;
     use crate::Pile;
-    use crate::engine::Lines;
+    use crate::engine::LineForces;
     use crate::engine::rows::exact_sweep;
     use crate::formula::tripled_half_turn;
     use crate::lattice::Region;
@@ -273,7 +273,7 @@ mod tests {
     /// a half-turn.
     fn compare<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(pile: &Pile) {
         let (system, last) = (pile.system(), pile.layers() - 1);
-        let lines = Lines::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, last).unwrap();
         for k in 1..=last {
             sweep.advance(k, crate::engine::Meter::NONE).unwrap();

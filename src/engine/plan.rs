@@ -22,14 +22,14 @@ pub(crate) const CHUNK: i128 = 1024;
 
 /// The representation of the numbers in a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Keeping {
+pub(crate) enum Storage {
     /// In limbs, whose number follows from the proved bound.
     Limbs,
     /// In the given number of 64-bit words for each value.
     Words(usize),
 }
 
-impl Keeping {
+impl Storage {
     /// Returns the representation of the numerators of a scalar in a sweep of a system.
     pub(crate) fn of<T: Algebra>(system: &System<'_>) -> Self {
         match T::EXACTNESS {
@@ -179,7 +179,7 @@ impl System<'_> {
         rows: &Rows<'_>,
         quantity: Quantity,
         method: Option<Method>,
-        keeping: Keeping,
+        keeping: Storage,
     ) -> Result<Plan, Error> {
         if let Some(method) = method {
             self.check_method(method)?;
@@ -222,11 +222,11 @@ impl System<'_> {
                 if let Err(too_large) = self.plan_trees(&mut plan, rows) {
                     let growing = match keeping {
                         // This sweep uses big integers, whose digits are stored on the heap.
-                        Keeping::Limbs => {
+                        Storage::Limbs => {
                             let digits = self.size_of_sweep(last).planes;
-                            Keeping::Words(digits + size_of::<BigInt>().div_ceil(size_of::<i64>()))
+                            Storage::Words(digits + size_of::<BigInt>().div_ceil(size_of::<i64>()))
                         }
-                        words @ Keeping::Words(_) => words,
+                        words @ Storage::Words(_) => words,
                     };
                     self.plan_sweep(&mut plan, rows, growing)
                         .map_err(|_| too_large)?;
@@ -300,12 +300,12 @@ impl System<'_> {
     }
 
     /// Plans one sweep, down to the last layer of `rows`.
-    fn plan_sweep(&self, plan: &mut Plan, rows: &Rows<'_>, keeping: Keeping) -> Result<(), Error> {
+    fn plan_sweep(&self, plan: &mut Plan, rows: &Rows<'_>, keeping: Storage) -> Result<(), Error> {
         let (last, shape) = (last_of(rows), self.shape);
         let size = self.size_of_sweep(last);
         let words = match keeping {
-            Keeping::Limbs => size.planes,
-            Keeping::Words(words) => words,
+            Storage::Limbs => size.planes,
+            Storage::Words(words) => words,
         };
         let words_in_all = Grid::numbers(shape, last, words)?;
         plan.method = Method::Sweep;

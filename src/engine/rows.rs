@@ -8,14 +8,14 @@ use num_rational::BigRational;
 use super::cells::Cells;
 use super::grid::{Grid, Layer};
 use super::limbs::Planes;
-use super::lines::{Lines, Received};
+use super::lines::{LineForces, SphereForces};
 use super::meter::Meter;
 use super::plan::{CHUNK, Plan, last_of};
 use super::question::Method;
 use super::single::{by_tree, plain_sweep, received};
-use super::sweep::Descent;
+use super::sweep::Sweep;
 use super::thirds::has_threefold_symmetry;
-use super::tree::Wanted;
+use super::tree::LineSelection;
 use crate::Error;
 use crate::lattice::Row;
 use crate::pile::System;
@@ -30,14 +30,14 @@ pub(crate) enum Engine<'p, T: Algebra, L> {
     /// A tree for each piece of a row.
     Tree,
     /// A sweep, with one layer in memory.
-    Sweep(Box<Descent<'p, T, L>>),
+    Sweep(Box<Sweep<'p, T, L>>),
 }
 
 impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     fn new(
         plan: &Plan,
         rows: &Rows<'_>,
-        sweep: impl FnOnce(i128) -> Result<Descent<'p, T, L>, Error>,
+        sweep: impl FnOnce(i128) -> Result<Sweep<'p, T, L>, Error>,
     ) -> Result<Self, Error> {
         Ok(match plan.method {
             Method::Tree if rows.one().is_none() => Self::Tree,
@@ -73,12 +73,12 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     /// Returns the forces from above on each sphere of a piece of a row. A sweep must be at the layer of the row.
     pub(crate) fn received_in(
         &self,
-        pile: (&Lines<'p, T>, &System<'p>),
+        pile: (&LineForces<'p, T>, &System<'p>),
         piece: &Row,
         meter: Meter<'_>,
-    ) -> Vec<Result<Received<T>, Error>> {
+    ) -> Vec<Result<SphereForces<T>, Error>> {
         let sites = piece.clone().into_iter();
-        let one = |method, site| received(pile, (site, Wanted::All), method, meter);
+        let one = |method, site| received(pile, (site, LineSelection::All), method, meter);
         match self {
             Self::Single(method) => sites.map(|site| one(*method, site)).collect(),
             Self::Tree => match received_in(pile.0, piece, meter) {
@@ -99,10 +99,10 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     /// be at the layer of the row.
     pub(crate) fn transmitted_in(
         &self,
-        pile: (&Lines<'p, T>, &System<'p>),
+        pile: (&LineForces<'p, T>, &System<'p>),
         piece: &Row,
         meter: Meter<'_>,
-    ) -> Vec<Result<Received<T>, Error>> {
+    ) -> Vec<Result<SphereForces<T>, Error>> {
         let sites = piece.clone().into_iter();
         let lines = pile.0;
         let increments = lines.increments_below(piece.k);
@@ -129,7 +129,7 @@ impl<'p, T: Algebra> Engine<'p, T, Cells<T::Numerator>> {
     pub(crate) fn plain(
         plan: &Plan,
         rows: &Rows<'_>,
-        (lines, system): (&Lines<'p, T>, &System<'p>),
+        (lines, system): (&LineForces<'p, T>, &System<'p>),
     ) -> Result<Self, Error> {
         Self::new(plan, rows, |last| plain_sweep(lines, system, last))
     }
@@ -143,7 +143,7 @@ impl<'p> Engine<'p, BigRational, Planes> {
     pub(crate) fn exact(
         plan: &Plan,
         rows: &Rows<'_>,
-        (lines, system): (&Lines<'p, BigRational>, &System<'p>),
+        (lines, system): (&LineForces<'p, BigRational>, &System<'p>),
     ) -> Result<Self, Error> {
         Self::new(plan, rows, |last| shortest_exact_sweep(lines, system, last))
     }
@@ -154,14 +154,14 @@ impl<'p> Engine<'p, BigRational, Planes> {
 /// # Errors
 /// [`Error::TooLarge`] if a layer does not fit in memory.
 pub(crate) fn exact_sweep<'p>(
-    lines: &Lines<'p, BigRational>,
+    lines: &LineForces<'p, BigRational>,
     system: &System<'_>,
     last: i128,
-) -> Result<Descent<'p, BigRational, Planes>, Error> {
+) -> Result<Sweep<'p, BigRational, Planes>, Error> {
     let size = system.size_of_sweep(last);
     let grid = Grid::new(lines.shape, last, size.planes)?;
     let layer = Planes::new(&grid, system.bound_of_sweep(last));
-    Descent::new(lines.clone(), grid, layer)
+    Sweep::new(lines.clone(), grid, layer)
 }
 
 /// Returns the forces from above on consecutive spheres of a row, with one tree for each piece of it.
@@ -169,17 +169,17 @@ pub(crate) fn exact_sweep<'p>(
 /// # Errors
 /// [`Error::TooLarge`] if a tree has too many nodes.
 fn received_in<T: Algebra>(
-    lines: &Lines<'_, T>,
+    lines: &LineForces<'_, T>,
     row: &Row,
     meter: Meter<'_>,
-) -> Result<Vec<Received<T>>, Error> {
+) -> Result<Vec<SphereForces<T>>, Error> {
     let mut received = Vec::new();
     for piece in row.pieces(CHUNK) {
         let sites: Vec<[i128; 2]> = piece.i.map(|i| [i, piece.j]).collect();
-        let above = by_tree(lines, row.k, &sites, Wanted::All, meter)?;
+        let above = by_tree(lines, row.k, &sites, LineSelection::All, meter)?;
         let changes = above.changes;
         let forces = above.forces.into_iter();
-        received.extend(forces.map(|forces| Received { forces, changes }));
+        received.extend(forces.map(|forces| SphereForces { forces, changes }));
     }
     Ok(received)
 }
@@ -190,14 +190,14 @@ fn received_in<T: Algebra>(
 /// # Errors
 /// As for [`exact_sweep`].
 pub(crate) fn shortest_exact_sweep<'p>(
-    lines: &Lines<'p, BigRational>,
+    lines: &LineForces<'p, BigRational>,
     system: &System<'_>,
     last: i128,
-) -> Result<Descent<'p, BigRational, Planes>, Error> {
+) -> Result<Sweep<'p, BigRational, Planes>, Error> {
     if !has_threefold_symmetry(system) {
         return exact_sweep(lines, system, last);
     }
     let grid = Grid::of_thirds(lines.shape, last, system.size_of_sweep(last).planes)?;
     let layer = Planes::new(&grid, system.bound_of_sweep(last));
-    Descent::new(lines.clone(), grid, layer)
+    Sweep::new(lines.clone(), grid, layer)
 }

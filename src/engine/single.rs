@@ -4,12 +4,12 @@ use num_traits::Zero;
 
 use super::cells::Cells;
 use super::grid::Grid;
-use super::lines::{Lines, Received};
+use super::lines::{LineForces, SphereForces};
 use super::meter::Meter;
-use super::plan::{Keeping, unless_too_large};
+use super::plan::{Storage, unless_too_large};
 use super::question::Method;
-use super::sweep::Descent;
-use super::tree::{Above, Wanted};
+use super::sweep::Sweep;
+use super::tree::{Above, LineSelection};
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::Site;
@@ -21,17 +21,17 @@ use crate::scalar::{Algebra, Exactness};
 /// # Errors
 /// [`Error::TooLarge`] if the method does not fit in memory.
 pub(crate) fn received<T: Algebra>(
-    (lines, system): (&Lines<'_, T>, &System<'_>),
-    (site, wanted): (Site, Wanted),
+    (lines, system): (&LineForces<'_, T>, &System<'_>),
+    (site, wanted): (Site, LineSelection),
     method: Option<Method>,
     meter: Meter<'_>,
-) -> Result<Received<T>, Error> {
+) -> Result<SphereForces<T>, Error> {
     match method {
         Some(Method::Sweep) => return by_sweep(lines, system, site, meter),
         None | Some(Method::Closed) => {
             if let Some(forces) = lines.closed(site, wanted) {
                 meter.visit(1);
-                return Ok(Received { forces, changes: 0 });
+                return Ok(SphereForces { forces, changes: 0 });
             }
         }
         Some(Method::Tree) => {}
@@ -39,7 +39,7 @@ pub(crate) fn received<T: Algebra>(
     let by_tree = || {
         let above = by_tree(lines, site.k, &[[site.i, site.j]], wanted, meter)?;
         let forces = above.forces.into_iter().next();
-        Ok(Received {
+        Ok(SphereForces {
             forces: forces.ok_or_else(|| bug("a tree above one sphere has its forces"))?,
             changes: above.changes,
         })
@@ -53,10 +53,10 @@ pub(crate) fn received<T: Algebra>(
 
 /// Returns the forces from above on spheres of one layer, by one tree.
 pub(super) fn by_tree<T: Algebra>(
-    lines: &Lines<'_, T>,
+    lines: &LineForces<'_, T>,
     k: i128,
     sites: &[[i128; 2]],
-    wanted: Wanted,
+    wanted: LineSelection,
     meter: Meter<'_>,
 ) -> Result<Above<T>, Error> {
     let above = lines.forces_above(k, sites, wanted)?;
@@ -67,11 +67,11 @@ pub(super) fn by_tree<T: Algebra>(
 
 /// Returns the forces from above on one sphere, by a sweep of all layers down to it.
 fn by_sweep<T: Algebra>(
-    lines: &Lines<'_, T>,
+    lines: &LineForces<'_, T>,
     system: &System<'_>,
     site: Site,
     meter: Meter<'_>,
-) -> Result<Received<T>, Error> {
+) -> Result<SphereForces<T>, Error> {
     let mut sweep = plain_sweep(lines, system, site.k)?;
     sweep.advance(site.k, meter)?;
     meter.visit(1);
@@ -83,13 +83,13 @@ fn by_sweep<T: Algebra>(
 /// # Errors
 /// [`Error::TooLarge`] if a layer does not fit in memory.
 pub(crate) fn plain_sweep<'p, T: Algebra>(
-    lines: &Lines<'p, T>,
+    lines: &LineForces<'p, T>,
     system: &System<'_>,
     last: i128,
-) -> Result<Descent<'p, T, Cells<T::Numerator>>, Error> {
-    let mut words = match Keeping::of::<T>(system) {
-        Keeping::Words(words) => words,
-        Keeping::Limbs => size_of::<T::Numerator>().div_ceil(size_of::<i64>()),
+) -> Result<Sweep<'p, T, Cells<T::Numerator>>, Error> {
+    let mut words = match Storage::of::<T>(system) {
+        Storage::Words(words) => words,
+        Storage::Limbs => size_of::<T::Numerator>().div_ceil(size_of::<i64>()),
     };
     if T::EXACTNESS == Exactness::Exact {
         // The digits of a big integer are stored on the heap.
@@ -97,5 +97,5 @@ pub(crate) fn plain_sweep<'p, T: Algebra>(
     }
     let grid = Grid::new(lines.shape, last, words)?;
     let layer = Cells::new(&grid, &T::Numerator::zero());
-    Descent::new(lines.clone(), grid, layer)
+    Sweep::new(lines.clone(), grid, layer)
 }

@@ -29,7 +29,7 @@ use super::cells::Cells;
 use super::grid::{Grid, Layer, Pass, Stored};
 use super::interrupt::check as check_interrupt;
 use super::limbs::{Least, Planes};
-use super::lines::{Lines, Received};
+use super::lines::{LineForces, SphereForces};
 use super::meter::Meter;
 use super::nearest::{Readout, Unit};
 use super::slices::split_front;
@@ -43,8 +43,8 @@ use crate::scalar::{Algebra, CorrectlyRounded};
 
 /// The state of a sweep: the forces on all lines of one layer.
 #[derive(Clone, Debug)]
-pub(crate) struct Descent<'p, T: Algebra, S> {
-    lines: Lines<'p, T>,
+pub(crate) struct Sweep<'p, T: Algebra, S> {
+    lines: LineForces<'p, T>,
     grid: Grid<'p>,
     layer: S,
     /// The last pass, or `None` at the top.
@@ -56,12 +56,12 @@ pub(crate) struct Descent<'p, T: Algebra, S> {
     extras_added: bool,
 }
 
-impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
+impl<'p, T: Algebra, S: Layer<T>> Sweep<'p, T, S> {
     /// Returns a sweep that starts at the top.
     ///
     /// # Errors
     /// [`Error::Bug`].
-    pub(crate) fn new(lines: Lines<'p, T>, grid: Grid<'p>, layer: S) -> Result<Self, Error> {
+    pub(crate) fn new(lines: LineForces<'p, T>, grid: Grid<'p>, layer: S) -> Result<Self, Error> {
         Ok(Self {
             lines,
             stored: grid.stored(0)?,
@@ -143,7 +143,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     ///
     /// # Errors
     /// [`Error::Bug`] if the sphere belongs to another layer.
-    pub(crate) fn received(&self, site: Site) -> Result<Received<T>, Error> {
+    pub(crate) fn received(&self, site: Site) -> Result<SphereForces<T>, Error> {
         if site.k != self.k {
             return Err(bug("a sweep is queried only at its current layer"));
         }
@@ -151,7 +151,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         let mut forces = self.layer.at(self.grid.site(image, self.stored.shift)?);
         // After the rotations, the force along each direction is on the line of the rotated direction.
         forces.rotate_left(turned(0, turns));
-        Ok(Received {
+        Ok(SphereForces {
             forces,
             changes: self.changes(),
         })
@@ -162,14 +162,14 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     ///
     /// # Errors
     /// [`Error::Bug`] if the sphere belongs to another layer.
-    pub(crate) fn received_before_turn(&self, site: Site) -> Result<Received<T>, Error> {
-        let Received { forces, changes } = self.received(site)?;
+    pub(crate) fn received_before_turn(&self, site: Site) -> Result<SphereForces<T>, Error> {
+        let SphereForces { forces, changes } = self.received(site)?;
         Ok(match self.pass {
-            Some(pass) if pass.turns => Received {
+            Some(pass) if pass.turns => SphereForces {
                 forces: half_turn::<T>(&forces),
                 changes: changes + 2,
             },
-            _ => Received { forces, changes },
+            _ => SphereForces { forces, changes },
         })
     }
 
@@ -188,7 +188,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     }
 
     /// Returns the forces that a sphere of the current layer transmits to its supports. `increments` are those
-    /// [below](Lines::increments_below) the layer.
+    /// [below](LineForces::increments_below) the layer.
     ///
     /// # Errors
     /// [`Error::Bug`] if the sphere belongs to another layer.
@@ -197,19 +197,19 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         increments: &[T::Numerator; 3],
         site: Site,
         meter: Meter<'_>,
-    ) -> Result<Received<T>, Error> {
-        let Received { forces, changes } = self.received(site)?;
+    ) -> Result<SphereForces<T>, Error> {
+        let SphereForces { forces, changes } = self.received(site)?;
         Ok(match self.pass {
             Some(pass) if pass.turns => self.lines.with_own(increments, site, forces, changes + 1),
             _ => {
-                let above = Received { forces, changes };
+                let above = SphereForces { forces, changes };
                 self.lines.below_layer(increments, site, above, meter)
             }
         })
     }
 }
 
-impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
+impl<'p, T: Algebra> Sweep<'p, T, Cells<T::Numerator>> {
     /// Returns a function from a row of the current layer to the forces on its lines. It returns [`Error::Bug`] for a
     /// row of another layer.
     pub(crate) fn carried_by_rows<'s>(
@@ -220,7 +220,7 @@ impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
     }
 }
 
-impl Descent<'_, BigRational, Planes> {
+impl Sweep<'_, BigRational, Planes> {
     /// Writes the correctly rounded values of a readout for a row of the current layer. Returns whether every value is
     /// a float.
     ///
@@ -338,7 +338,7 @@ mod tests {
     fn write(row: &Row) -> Result<bool, Error> {
         let pile = pile();
         let system = pile.system();
-        let lines = Lines::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
         sweep.advance(4, crate::engine::Meter::NONE).unwrap();
         let readout = Readout {
@@ -355,7 +355,7 @@ mod tests {
     fn a_sweep_never_goes_back_up() {
         let pile = pile();
         let system = pile.system();
-        let lines = Lines::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
         for (requested, at) in [(4, 4), (1, 4), (4, 4), (5, 5)] {
             sweep

@@ -58,7 +58,8 @@ impl<V> Table<V> {
         value: impl Fn(i128, usize) -> Result<V, Error>,
     ) -> Result<Option<Self>, Error> {
         let shape = system.shape;
-        let applies = system.is_straight() && system.is_even() && system.fills_its_layers();
+        let applies =
+            system.is_straight() && system.has_unit_weights() && system.fills_its_layers();
         if !applies || most > MOST {
             return Ok(None);
         }

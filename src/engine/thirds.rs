@@ -53,9 +53,9 @@ const LAYERS: i128 = 9;
 /// Returns whether the forces of a pile have threefold symmetry.
 pub(crate) fn has_threefold_symmetry(system: &System<'_>) -> bool {
     let [a, b, c] = &system.increments;
-    let even = a == b && b == c && system.fills_its_layers() && system.is_upright();
+    let even = a == b && b == c && system.fills_its_layers() && system.gravity_is_vertical();
     // If the rotation maps the base or the top onto itself, it does so with all layers.
-    even && system.is_ordinary() && system.shape.base().sum_of_turn().is_some()
+    even && system.has_no_loads() && system.shape.base().sum_of_turn().is_some()
 }
 
 impl<'p> Grid<'p> {
@@ -224,7 +224,7 @@ mod tests {
     use crate::Pile;
     use crate::engine::limbs::Least;
     use crate::engine::rows::{exact_sweep, shortest_exact_sweep};
-    use crate::engine::{Cells, Descent, Lines, Planes, Readout, Unit};
+    use crate::engine::{Cells, LineForces, Planes, Readout, Sweep, Unit};
     use crate::lattice::{Region, Row};
     use crate::scalar::Surd;
 
@@ -256,7 +256,7 @@ mod tests {
     }
 
     /// Returns the numbers on the lines of a row as floats.
-    fn floats(sweep: &Descent<'_, BigRational, Planes>, row: &Row) -> [Vec<f64>; 3] {
+    fn floats(sweep: &Sweep<'_, BigRational, Planes>, row: &Row) -> [Vec<f64>; 3] {
         let readout = Readout {
             combination: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
             own: [(); 3].map(|()| BigInt::ZERO),
@@ -273,7 +273,7 @@ mod tests {
     fn compare(pile: &Pile, stops: i128) {
         let (system, last) = (pile.system(), pile.layers() - 1);
         assert!(has_threefold_symmetry(&system));
-        let lines = Lines::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&system);
         let mut whole = exact_sweep(&lines, &system, last).unwrap();
         let mut third = shortest_exact_sweep(&lines, &system, last).unwrap();
         for k in (0..=last).filter(|k| (last - k) % stops == 0) {
@@ -327,12 +327,12 @@ mod tests {
     fn thirds_in_plain_numbers_give_the_same_numbers() {
         let pile = Pile::under(Region::SITE, "+-+--+-+-+++-+".parse().unwrap()).unwrap();
         let (system, last) = (pile.system(), pile.layers() - 1);
-        let lines = Lines::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&system);
         let mut whole = exact_sweep(&lines, &system, last).unwrap();
         let grid = Grid::of_thirds(pile.shape(), last, 1).unwrap();
         assert!(grid.last < last);
         let cells = Cells::new(&grid, &BigInt::ZERO);
-        let mut third = Descent::<BigRational, Cells<BigInt>>::new(lines, grid, cells).unwrap();
+        let mut third = Sweep::<BigRational, Cells<BigInt>>::new(lines, grid, cells).unwrap();
         whole.advance(last, crate::engine::Meter::NONE).unwrap();
         third.advance(last, crate::engine::Meter::NONE).unwrap();
         for site in pile.shape().layer(last).unwrap().rows(last).flatten() {

@@ -23,14 +23,14 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::interrupt::check as check_interrupt;
-use super::lines::{Lines, start_of};
+use super::lines::{LineForces, start_of};
 use crate::Error;
 use crate::each::Each;
 use crate::error::{bug, refuse_beyond_memory};
 use crate::formula;
 use crate::lattice::{Direction, Site};
 use crate::scalar::Algebra;
-use crate::shape::{Shape, Stretch};
+use crate::shape::{RunLayers, Shape};
 use crate::sorted::distinct;
 
 /// The maximum number of nodes in a tree.
@@ -46,7 +46,7 @@ const BYTES_A_NODE: usize = 256;
 pub(crate) struct Above<T: Algebra> {
     /// The forces by site, in the order of the question.
     pub(crate) forces: Vec<[T::Numerator; 3]>,
-    /// The number of sign changes above. The denominator is [`Lines::scale`] of this number.
+    /// The number of sign changes above. The denominator is [`LineForces::scale`] of this number.
     pub(crate) changes: usize,
     /// The number of spheres at sign changes on which the forces depend.
     pub(crate) nodes: usize,
@@ -54,21 +54,21 @@ pub(crate) struct Above<T: Algebra> {
 
 /// A level of a tree: spheres of one layer whose forces from above are needed, sorted and distinct.
 struct Level {
-    stretch: Stretch,
+    stretch: RunLayers,
     k: i128,
     sites: Vec<[i128; 2]>,
     /// The lines whose forces are needed.
-    wanted: Wanted,
+    wanted: LineSelection,
 }
 
 /// The lines of a sphere that an answer needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Wanted {
+pub(crate) enum LineSelection {
     One(Direction),
     All,
 }
 
-impl Wanted {
+impl LineSelection {
     /// Returns the lines on which the force of a contact below a sphere depends: the line of the contact, or all three
     /// at a sign change, which mixes them.
     pub(crate) fn for_contact(shape: &Shape, site: Site, direction: Direction) -> Self {
@@ -93,14 +93,14 @@ impl Wanted {
 /// # Errors
 /// [`Error::TooLarge`] for more than 4 million.
 pub(crate) fn size_of_tree(shape: &Shape, k: i128, sites: &[[i128; 2]]) -> Result<usize, Error> {
-    levels(shape, k, sites, Wanted::All).map(|levels| nodes_above(&levels))
+    levels(shape, k, sites, LineSelection::All).map(|levels| nodes_above(&levels))
 }
 
 /// Returns the number of spheres at sign changes on which the force of a contact depends.
 pub(crate) fn nodes(shape: &Shape, site: Site, direction: Direction) -> Result<usize, Error> {
-    let wanted = Wanted::for_contact(shape, site, direction);
+    let wanted = LineSelection::for_contact(shape, site, direction);
     let levels = levels(shape, site.k, &[[site.i, site.j]], wanted)?;
-    Ok(nodes_above(&levels) + usize::from(wanted == Wanted::All))
+    Ok(nodes_above(&levels) + usize::from(wanted == LineSelection::All))
 }
 
 /// Returns the number of nodes above the spheres of the question.
@@ -113,7 +113,7 @@ fn levels(
     shape: &Shape,
     k: i128,
     sites: &[[i128; 2]],
-    wanted: Wanted,
+    wanted: LineSelection,
 ) -> Result<Vec<Level>, Error> {
     let mut levels = Vec::new();
     let (mut k, mut sites, mut wanted) = (k, sites.to_vec(), wanted);
@@ -147,12 +147,12 @@ fn levels(
             sites,
             wanted,
         });
-        (k, sites, wanted) = (stretch.from, starts, Wanted::All);
+        (k, sites, wanted) = (stretch.from, starts, LineSelection::All);
     }
     Ok(levels)
 }
 
-impl<T: Algebra> Lines<'_, T> {
+impl<T: Algebra> LineForces<'_, T> {
     /// Returns the forces from above on spheres of layer `k`, and zero on lines outside `wanted`. The caller has
     /// checked the sites.
     ///
@@ -162,7 +162,7 @@ impl<T: Algebra> Lines<'_, T> {
         &self,
         k: i128,
         sites: &[[i128; 2]],
-        wanted: Wanted,
+        wanted: LineSelection,
     ) -> Result<Above<T>, Error> {
         let levels = levels(self.shape, k, sites, wanted)?;
         let nodes = nodes_above(&levels);

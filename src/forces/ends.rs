@@ -8,8 +8,8 @@ use num_rational::BigRational;
 use super::Forces;
 use crate::Error;
 use crate::engine::{
-    Descent, Engine, MAX_NODES, Meter, Planes, Quantity, Received, Wanted, check_interrupt,
-    shortest_exact_sweep, size_of_tree, trees_are_cheaper,
+    Engine, LineSelection, MAX_NODES, Meter, Planes, Quantity, SphereForces, Sweep,
+    check_interrupt, shortest_exact_sweep, size_of_tree, trees_are_cheaper,
 };
 use crate::error::refuse_beyond;
 use crate::geometry::Vector;
@@ -34,13 +34,13 @@ impl Forces<'_, BigRational> {
         let (terms, floor) = (&self.terms, self.floor());
         let (lines, shape) = (&terms.lines, terms.system.shape);
         let unit = terms.floor_unit(shape.changes_above(floor));
-        let mut visit = |site, above: &Received<BigRational>| {
+        let mut visit = |site, above: &SphereForces<BigRational>| {
             visit(&terms.floor_numerators(site, above).0);
         };
         let rows = self.pile.rows(Selection::Base)?;
         if self.pile.is_paper_pile() {
             for corner in rows.corners() {
-                visit(corner, &self.received(corner, Wanted::All)?);
+                visit(corner, &self.received(corner, LineSelection::All)?);
             }
             return Ok(unit);
         }
@@ -54,9 +54,9 @@ impl Forces<'_, BigRational> {
         // The bound of the number of ends is not sharp.
         let are_few = &ends * 2_u32 < sites;
         let by_trees = |row: &[[i128; 2]]| {
-            let above = lines.forces_above(floor, row, Wanted::All)?;
+            let above = lines.forces_above(floor, row, LineSelection::All)?;
             let changes = above.changes;
-            let received = |forces| Received { forces, changes };
+            let received = |forces| SphereForces { forces, changes };
             Ok(above.forces.into_iter().map(received).collect())
         };
         if are_few && trees_are_cheaper(&(ends + self.trees_of_base()?), &sites) {
@@ -125,8 +125,8 @@ impl Forces<'_, BigRational> {
     /// of a row.
     fn visit_ends(
         &self,
-        above: impl Fn(&[[i128; 2]]) -> Result<Vec<Received<BigRational>>, Error>,
-        visit: &mut impl FnMut(Site, &Received<BigRational>),
+        above: impl Fn(&[[i128; 2]]) -> Result<Vec<SphereForces<BigRational>>, Error>,
+        visit: &mut impl FnMut(Site, &SphereForces<BigRational>),
     ) -> Result<(), Error> {
         let k = self.floor();
         for (_, row) in self.terms.lines.ends_of_pieces(k)? {
@@ -141,8 +141,8 @@ impl Forces<'_, BigRational> {
     /// Visits the bottom spheres up to symmetry, with a sweep that has reached the base.
     fn visit_all(
         &self,
-        sweep: &Descent<'_, BigRational, Planes>,
-        visit: &mut impl FnMut(Site, &Received<BigRational>),
+        sweep: &Sweep<'_, BigRational, Planes>,
+        visit: &mut impl FnMut(Site, &SphereForces<BigRational>),
     ) -> Result<(), Error> {
         // Symmetric images have the same normal force and the same magnitude of shear, so one part is enough.
         let mut last = None;

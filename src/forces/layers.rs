@@ -15,10 +15,10 @@ use num_traits::ToPrimitive;
 
 use super::Forces;
 use super::terms::Terms;
-use super::walk::Walk;
+use super::walk::RowEngine;
 use crate::Error;
 use crate::engine::{
-    Descent, Engine, Meter, Method, Plan, Planes, Quantity, Received, Table, split_front,
+    Engine, Meter, Method, Plan, Planes, Quantity, SphereForces, Sweep, Table, split_front,
 };
 use crate::error::bug;
 use crate::formula::triples;
@@ -44,7 +44,7 @@ use crate::shape::{Selection, Shape};
 /// ```
 pub struct Layers<'p, T: Algebra> {
     pub(super) terms: Terms<'p, T>,
-    walk: Walk<'p, T>,
+    walk: RowEngine<'p, T>,
     /// The distinct forces of a straight pile, which are copied into the slices.
     pub(super) table: Option<Table<T>>,
     /// The remaining layers.
@@ -70,7 +70,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
         // The bottom layer has no contacts below it. The layers above it need the same plan.
         let plan = forces.plan(&rows, Quantity::ContactMultiples)?;
         Ok(Self {
-            walk: Walk::new(&plan, &rows, &terms)?,
+            walk: RowEngine::new(&plan, &rows, &terms)?,
             table: table(&plan, &terms, ahead.end - 1)?,
             may_overflow: may_overflow::<T>(&terms.system, ahead.end - 1),
             terms,
@@ -295,7 +295,7 @@ impl<'p> Layers<'p, BigRational> {
     }
 
     /// Returns the forces from above on consecutive spheres of a row of the current layer.
-    pub(super) fn received_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
+    pub(super) fn received_in(&self, row: &Row) -> Result<Vec<SphereForces<BigRational>>, Error> {
         let (terms, engine) = self.exact()?;
         let system = (&terms.lines, &terms.system);
         let received = engine.received_in(system, row, self.meter);
@@ -303,7 +303,10 @@ impl<'p> Layers<'p, BigRational> {
     }
 
     /// Returns the forces of consecutive spheres of a row of the current layer on the spheres below.
-    pub(super) fn transmitted_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
+    pub(super) fn transmitted_in(
+        &self,
+        row: &Row,
+    ) -> Result<Vec<SphereForces<BigRational>>, Error> {
         let (terms, engine) = self.exact()?;
         let system = (&terms.lines, &terms.system);
         let below = engine.transmitted_in(system, row, self.meter);
@@ -312,15 +315,15 @@ impl<'p> Layers<'p, BigRational> {
 
     fn exact(&self) -> Result<(&Terms<'p, BigRational>, &Engine<'p, BigRational, Planes>), Error> {
         match &self.walk {
-            Walk::Exact(terms, engine) => Ok((terms, engine)),
-            Walk::Plain(..) => Err(bug("rationals are computed by the exact engine")),
+            RowEngine::Exact(terms, engine) => Ok((terms, engine)),
+            RowEngine::Plain(..) => Err(bug("rationals are computed by the exact engine")),
         }
     }
 
     /// Returns the exact sweep, which works on limbs, if there is one.
-    pub(super) fn exact_sweep(&self) -> Option<&Descent<'p, BigRational, Planes>> {
+    pub(super) fn exact_sweep(&self) -> Option<&Sweep<'p, BigRational, Planes>> {
         match &self.walk {
-            Walk::Exact(_, Engine::Sweep(sweep)) => Some(sweep),
+            RowEngine::Exact(_, Engine::Sweep(sweep)) => Some(sweep),
             _ => None,
         }
     }

@@ -11,7 +11,7 @@ use core::ops::Deref;
 use num_rational::BigRational;
 use num_traits::One;
 
-use source::{Asked, Source};
+use source::{RowQuantity, RowValues};
 
 use super::layers::{Layer, Layers, check_lengths};
 use crate::Error;
@@ -45,7 +45,7 @@ pub struct NearestLayers<'p, F> {
     /// The distinct forces of a straight pile.
     table: Option<Table<F>>,
     /// The sources of the last requests, each with its quantity and layer.
-    prepared: Vec<(Asked, i128, Source<F>)>,
+    prepared: Vec<(RowQuantity, i128, RowValues<F>)>,
 }
 
 /// One layer of a pile and its forces, correctly rounded.
@@ -95,9 +95,9 @@ impl<'p> Layers<'p, BigRational> {
         let table = if self.above_the_floor().is_empty() {
             None
         } else {
-            match self.source(&units, Asked::Contacts, 0)? {
-                Source::Table(table) => Some(table),
-                Source::Lines { .. } | Source::Counts { .. } => None,
+            match self.source(&units, RowQuantity::Contacts, 0)? {
+                RowValues::Table(table) => Some(table),
+                RowValues::Lines { .. } | RowValues::Counts { .. } => None,
             }
         };
         Ok(NearestLayers {
@@ -185,7 +185,7 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         }
         let units = &self.units;
         self.layers.fill_each(slices, |layer, slices| {
-            layer.fill_nearest(units, Asked::Contacts, slices)
+            layer.fill_nearest(units, RowQuantity::Contacts, slices)
         })
     }
 
@@ -216,7 +216,7 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill_row(&mut self, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
-        self.write(Asked::Contacts, row, slices)
+        self.write(RowQuantity::Contacts, row, slices)
     }
 
     /// Returns whether every nonzero contact force is certain to be rounded to a normal float, with full precision.
@@ -272,7 +272,7 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
         slices: [[&mut [F]; 3]; 3],
     ) -> Result<(), Error> {
         for (axis, slices) in slices.into_iter().enumerate() {
-            self.write(Asked::Along(axis), row, slices)?;
+            self.write(RowQuantity::Along(axis), row, slices)?;
         }
         Ok(())
     }
@@ -298,10 +298,10 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill_row_of_base(&mut self, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
-        self.write(Asked::Floor, row, slices)
+        self.write(RowQuantity::Floor, row, slices)
     }
 
-    fn write(&mut self, asked: Asked, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
+    fn write(&mut self, asked: RowQuantity, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
         let (shape, Row { k, j, i }) = (self.layers.shape(), row.clone());
         check_lengths(row.length()?, &slices)?;
         if i.is_empty() {
@@ -311,19 +311,19 @@ impl<'p, F: CorrectlyRounded> NearestLayers<'p, F> {
             let site = shape.check(Site { i, j, k })?;
             let floor = shape.layers() - 1;
             match asked {
-                Asked::Floor if k < floor => return Err(Error::NotOnFloor { site, floor }),
-                Asked::Contacts | Asked::Along(_) if k == floor => {
+                RowQuantity::Floor if k < floor => return Err(Error::NotOnFloor { site, floor }),
+                RowQuantity::Contacts | RowQuantity::Along(_) if k == floor => {
                     return Err(Error::OnFloor { site });
                 }
                 _ => {}
             }
         }
         self.layers.go_down_to(k)?;
-        if let (Asked::Contacts, Some(table)) = (asked, &self.table) {
+        if let (RowQuantity::Contacts, Some(table)) = (asked, &self.table) {
             return table.fill_row(row, slices);
         }
-        let known = |(what, at, source): &(Asked, i128, Source<F>)| {
-            *what == asked && (*at == k || !matches!(source, Source::Lines { .. }))
+        let known = |(what, at, source): &(RowQuantity, i128, RowValues<F>)| {
+            *what == asked && (*at == k || !matches!(source, RowValues::Lines { .. }))
         };
         if !self.prepared.iter().any(known) {
             self.prepared.retain(|(what, ..)| *what != asked);
@@ -363,7 +363,8 @@ impl<F: CorrectlyRounded> NearestLayer<'_, '_, F> {
             return self.layer.fill_from_table(table, slices);
         }
         self.layer.check_above_the_floor()?;
-        self.layer.fill_nearest(self.units, Asked::Contacts, slices)
+        self.layer
+            .fill_nearest(self.units, RowQuantity::Contacts, slices)
     }
 
     /// Writes the forces of the bottom layer on the floor into slices, row after row: normal, shear along x and shear
@@ -388,7 +389,8 @@ impl<F: CorrectlyRounded> NearestLayer<'_, '_, F> {
     /// ```
     pub fn fill_base(&self, slices: [&mut [F]; 3]) -> Result<(), Error> {
         self.layer.check_on_the_floor()?;
-        self.layer.fill_nearest(self.units, Asked::Floor, slices)
+        self.layer
+            .fill_nearest(self.units, RowQuantity::Floor, slices)
     }
 }
 

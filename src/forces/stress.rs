@@ -6,11 +6,11 @@ use core::iter::zip;
 use num_traits::Zero;
 
 use super::terms::{Terms, to_scalar};
-use super::walk::Walk;
+use super::walk::RowEngine;
 use super::{Answers, Forces};
 use crate::Error;
 use crate::each::Each;
-use crate::engine::{Engine, Layer, Meter, Quantity, Received, Wanted};
+use crate::engine::{Engine, Layer, LineSelection, Meter, Quantity, SphereForces};
 use crate::geometry::{Vector, square_across};
 use crate::lattice::{Axis, Direction, HorizontalContact, Row, Site};
 use crate::scalar::{Algebra, Ring};
@@ -50,7 +50,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn stress(&self, site: Site) -> Result<[T; 6], Error> {
-        let above = self.received(self.pile.shape().check(site)?, Wanted::All)?;
+        let above = self.received(self.pile.shape().check(site)?, LineSelection::All)?;
         let below = (site.k != self.floor()).then(|| {
             let above = above.clone();
             self.terms.lines.to_below(site, above, self.meter)
@@ -84,12 +84,12 @@ impl<'p, T: Algebra> Forces<'p, T> {
             self,
             rows,
             (Quantity::ContactMultiples, 1),
-            Walk::stresses_in,
+            RowEngine::stresses_in,
         )
     }
 }
 
-impl<T: Algebra> Walk<'_, T> {
+impl<T: Algebra> RowEngine<'_, T> {
     /// Returns the stress of each sphere of a piece of a row. A sweep must be at the layer of the row.
     fn stresses_in(&self, piece: &Row, meter: Meter<'_>) -> Vec<Result<[T; 6], Error>> {
         match self {
@@ -131,8 +131,8 @@ impl<'p, T: Algebra> Terms<'p, T> {
     fn stress(
         &self,
         site: Site,
-        above: &Received<T>,
-        below: Option<&Received<T>>,
+        above: &SphereForces<T>,
+        below: Option<&SphereForces<T>>,
     ) -> Result<[T; 6], Error> {
         let Self { lines, system, .. } = self;
         let changes = below.map(|below| below.changes);

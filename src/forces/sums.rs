@@ -16,7 +16,7 @@ use crate::each::Each;
 use crate::error::refuse_beyond;
 use crate::formula;
 use crate::formula::{force, half_turn, transmitted};
-use crate::shape::{Selection, Stretch};
+use crate::shape::{RunLayers, Selection};
 use crate::sorted::Sorted;
 
 /// The largest number of layers that are summed one by one.
@@ -151,7 +151,7 @@ impl Terms<'_, BigRational> {
     }
 
     /// Adds the increments of some layers of a run to the sums, by direction.
-    fn with_own(&self, sums: [BigInt; 3], run: &Stretch, layers: Range<i128>) -> [BigInt; 3] {
+    fn with_own(&self, sums: [BigInt; 3], run: &RunLayers, layers: Range<i128>) -> [BigInt; 3] {
         let spheres = BigInt::from(self.system.shape.spheres_in(layers.clone()));
         let ordinary = self.lines.increments_after(run.index);
         let mut own = ordinary.each(|w| force(spheres.clone(), &w));

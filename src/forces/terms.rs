@@ -10,7 +10,7 @@ use num_traits::ToPrimitive;
 use super::FloorForce;
 use crate::Error;
 use crate::each::Each;
-use crate::engine::{Lines, Readout, Received, Unit};
+use crate::engine::{LineForces, Readout, SphereForces, Unit};
 use crate::formula;
 use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Sign, Site};
@@ -21,7 +21,7 @@ use crate::scalar::{Algebra, Ring, Surd};
 #[derive(Clone, Debug)]
 pub(super) struct Terms<'p, T: Algebra> {
     pub(super) system: System<'p>,
-    pub(super) lines: Lines<'p, T>,
+    pub(super) lines: LineForces<'p, T>,
     /// W, over `sum_scale`.
     increment_sum: T::Numerator,
     pub(super) sum_scale: T::Numerator,
@@ -38,7 +38,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         let components = array::from_fn::<_, 9, _>(|n| directions[n / 3][n % 3].clone());
         let (components, direction_scale) = T::numerators(&components);
         Self {
-            lines: Lines::new(&system),
+            lines: LineForces::new(&system),
             system,
             increment_sum,
             sum_scale,
@@ -92,8 +92,8 @@ impl<'p, T: Algebra> Terms<'p, T> {
     }
 
     /// Converts numerators into contact forces in f₀.
-    pub(super) fn contacts(&self, numerators: Received<T>) -> Result<[T; 3], Error> {
-        let Received { forces, changes } = numerators;
+    pub(super) fn contacts(&self, numerators: SphereForces<T>) -> Result<[T; 3], Error> {
+        let SphereForces { forces, changes } = numerators;
         to_scalars("a contact force", forces, &self.lines.scale(changes))
     }
 
@@ -110,7 +110,11 @@ impl<'p, T: Algebra> Terms<'p, T> {
     }
 
     /// Returns the force of a bottom sphere on the floor.
-    pub(super) fn floor(&self, site: Site, above: &Received<T>) -> Result<FloorForce<T>, Error> {
+    pub(super) fn floor(
+        &self,
+        site: Site,
+        above: &SphereForces<T>,
+    ) -> Result<FloorForce<T>, Error> {
         let (force, unit) = self.floor_numerators(site, above);
         let force = to_scalars("a force on the floor", force.into_array(), &unit)?;
         let [shear_x, shear_y, normal] = force;
@@ -127,9 +131,9 @@ impl<'p, T: Algebra> Terms<'p, T> {
     pub(super) fn floor_numerators(
         &self,
         site: Site,
-        above: &Received<T>,
+        above: &SphereForces<T>,
     ) -> (Vector<T::Numerator>, T::Numerator) {
-        let Received { forces, changes } = above;
+        let SphereForces { forces, changes } = above;
         let directions = self.directions_above(site.k);
         let load = self.load(site, *changes);
         let force = formula::support_load(forces, &directions, &load.z) + &horizontal(&load);

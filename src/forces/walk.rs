@@ -17,14 +17,14 @@ use crate::shape::{Rows, exact_hint};
 
 /// The computation of forces for some rows of a pile, from the top down.
 #[derive(Clone, Debug)]
-pub(super) enum Walk<'p, T: Algebra> {
+pub(super) enum RowEngine<'p, T: Algebra> {
     /// The engine on numerators of the scalar.
     Plain(Box<Terms<'p, T>>, Engine<'p, T, Cells<T::Numerator>>),
     /// The exact engine on integers, for a scalar that is exact itself.
     Exact(Box<Terms<'p, BigRational>>, Engine<'p, BigRational, Planes>),
 }
 
-impl<'p, T: Algebra> Walk<'p, T> {
+impl<'p, T: Algebra> RowEngine<'p, T> {
     pub(super) fn new(plan: &Plan, rows: &Rows<'_>, terms: &Terms<'p, T>) -> Result<Self, Error> {
         // Integers cannot represent loads in another exact scalar.
         if T::EXACTNESS == Exactness::Exact && !terms.system.has_scalar_loads {
@@ -137,7 +137,7 @@ impl<'p, T: Algebra> Walk<'p, T> {
 }
 
 /// A function that computes the forces of a piece of a row, sphere by sphere.
-type Compute<'p, T, A> = fn(&Walk<'p, T>, &Row, Meter<'_>) -> Vec<Result<A, Error>>;
+type Compute<'p, T, A> = fn(&RowEngine<'p, T>, &Row, Meter<'_>) -> Vec<Result<A, Error>>;
 
 /// An iterator over the forces of a part of a pile, in row order: contact forces ([`Contacts`](crate::Contacts)) or
 /// forces on the floor ([`FloorForces`](crate::FloorForces)).
@@ -147,7 +147,7 @@ type Compute<'p, T, A> = fn(&Walk<'p, T>, &Row, Meter<'_>) -> Vec<Result<A, Erro
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Answers<'p, T: Algebra, A> {
     plan: Plan,
-    walk: Walk<'p, T>,
+    walk: RowEngine<'p, T>,
     rows: Rows<'p>,
     /// The rest of the current row.
     row: Option<Row>,
@@ -167,7 +167,7 @@ impl<'p, T: Algebra, A> Answers<'p, T, A> {
     ) -> Result<Self, Error> {
         let plan = forces.plan(&rows, quantity)?;
         Ok(Self {
-            walk: Walk::new(&plan, &rows, &forces.terms)?,
+            walk: RowEngine::new(&plan, &rows, &forces.terms)?,
             plan,
             rows,
             row: None,

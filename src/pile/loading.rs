@@ -132,7 +132,7 @@ impl Loading {
     }
 
     /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
-    pub(crate) fn is_ordinary(&self) -> bool {
+    pub(crate) fn has_no_loads(&self) -> bool {
         self.extras().next().is_none()
     }
 

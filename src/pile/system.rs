@@ -116,17 +116,17 @@ impl System<'_> {
 
     /// Returns whether every sphere has the weight mg and carries no load or horizontal contact force. Then a straight
     /// pile has few distinct forces.
-    pub(crate) fn is_even(&self) -> bool {
-        !self.loading.is_weightless() && self.is_ordinary()
+    pub(crate) fn has_unit_weights(&self) -> bool {
+        !self.loading.is_weightless() && self.has_no_loads()
     }
 
     /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
-    pub(crate) fn is_ordinary(&self) -> bool {
-        !self.has_scalar_loads && self.loading.is_ordinary()
+    pub(crate) fn has_no_loads(&self) -> bool {
+        !self.has_scalar_loads && self.loading.has_no_loads()
     }
 
     /// Returns whether gravity on ordinary spheres is vertical.
-    pub(crate) fn is_upright(&self) -> bool {
+    pub(crate) fn gravity_is_vertical(&self) -> bool {
         !self.has_scalar_loads && self.loading.ordinary().is_vertical()
     }
 }

@@ -23,7 +23,7 @@ impl Steps {
 
 /// A [`Run`](crate::stacking::Run) with its first and last layer in a pile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Stretch {
+pub(crate) struct RunLayers {
     /// The number of sign changes above the run.
     pub(crate) index: usize,
     pub(crate) sign: Sign,
@@ -75,7 +75,7 @@ impl Shape {
 
     /// Returns the run whose steps lead down to layer k, or `None` for the top layer.
     #[inline]
-    pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
+    pub(crate) fn stretch_to(&self, k: i128) -> Option<RunLayers> {
         self.stretch(self.run_to(k)?)
     }
 
@@ -88,7 +88,7 @@ impl Shape {
 
     /// Returns the run with this many sign changes above it.
     #[inline]
-    pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
+    pub(crate) fn stretch(&self, index: usize) -> Option<RunLayers> {
         self.stretches.get(index).copied()
     }
 

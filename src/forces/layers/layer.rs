@@ -10,11 +10,9 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use super::below::Below;
 use super::{Layers, check_lengths};
-use crate::engine::{
-    Cells, Descent, Engine, Meter, Table, check_interrupt, fill_rows, split_front,
-};
+use crate::engine::{Cells, Engine, Meter, Sweep, Table, check_interrupt, fill_rows, split_front};
 use crate::error::bug;
-use crate::forces::walk::Walk;
+use crate::forces::walk::RowEngine;
 use crate::lattice::{Region, Row, Site};
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::Shape;
@@ -163,7 +161,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
         if let Some(table) = table {
             return table.fill(self.k..self.k + 1, slices);
         }
-        if let Walk::Plain(_, Engine::Sweep(sweep)) = walk {
+        if let RowEngine::Plain(_, Engine::Sweep(sweep)) = walk {
             return self.fill_from(sweep, slices);
         }
         self.fill_by_rows(slices, |row| walk.transmitted_in(row, *meter))
@@ -347,7 +345,7 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// Fills slices row by row from the cells of a sweep.
     fn fill_from(
         &self,
-        sweep: &Descent<'_, T, Cells<T::Numerator>>,
+        sweep: &Sweep<'_, T, Cells<T::Numerator>>,
         slices: [&mut [T]; 3],
     ) -> Result<(), Error> {
         let lines = &self.layers.terms.lines;

@@ -30,7 +30,7 @@ pub(crate) struct Units {
 
 /// The quantity that is written for each sphere, as three numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Asked {
+pub(super) enum RowQuantity {
     /// The contact forces, by direction.
     Contacts,
     /// The components of the contact forces along one axis, by direction.
@@ -40,7 +40,7 @@ pub(super) enum Asked {
 }
 
 /// The source of a quantity along the rows of a layer.
-pub(super) enum Source<F> {
+pub(super) enum RowValues<F> {
     /// The distinct forces of a straight pile.
     Table(Table<F>),
     /// The numbers of increments on the lines that lead to the floor of a straight pile.
@@ -61,32 +61,32 @@ impl Layers<'_, BigRational> {
     pub(super) fn source<F: CorrectlyRounded>(
         &self,
         units: &Units,
-        asked: Asked,
+        asked: RowQuantity,
         k: i128,
-    ) -> Result<Source<F>, Error> {
+    ) -> Result<RowValues<F>, Error> {
         let terms = &self.terms;
         let by_direction = match asked {
-            Asked::Contacts => [(); 3].each(|()| units.contact.clone()),
-            Asked::Along(axis) => {
+            RowQuantity::Contacts => [(); 3].each(|()| units.contact.clone()),
+            RowQuantity::Along(axis) => {
                 let scale = &terms.direction_scale;
                 terms.directions_below(k).each(|direction| {
                     let component = direction.into_array()[axis].clone();
                     units.vector[axis].scaled(&BigRational::new(component, scale.clone()))
                 })
             }
-            Asked::Floor => {
+            RowQuantity::Floor => {
                 let units = Box::new(terms.floor_units(&units.floor));
                 if self.table.is_some()
                     && let Some(readout) = terms.floor_readout_of_counts()
                     && let Some(table) = Table::new(&terms.system, k + 1, |n, _| small(n))?
                 {
-                    return Ok(Source::Counts {
+                    return Ok(RowValues::Counts {
                         table,
                         readout,
                         units,
                     });
                 }
-                return Ok(Source::Lines {
+                return Ok(RowValues::Lines {
                     units,
                     readout: terms.floor_readout(),
                 });
@@ -100,12 +100,12 @@ impl Layers<'_, BigRational> {
             };
             let table = Table::new(&terms.system, self.most_increments(), nearest)?;
             return table
-                .map(Source::Table)
+                .map(RowValues::Table)
                 .ok_or_else(|| bug("a pile with a table of exact forces has one of floats"));
         }
         let changes = self.shape().changes_above(k + 1);
         let denominator = terms.lines.scale(changes);
-        Ok(Source::Lines {
+        Ok(RowValues::Lines {
             units: Box::new(by_direction.each(|unit| Unit::new(unit, denominator.clone()))),
             readout: self.contacts_readout(changes),
         })
@@ -129,15 +129,15 @@ impl Layers<'_, BigRational> {
     /// Writes the quantity `asked` for consecutive spheres of a row of the current layer.
     pub(super) fn write_row<F: CorrectlyRounded>(
         &self,
-        (asked, source): (Asked, &Source<F>),
+        (asked, source): (RowQuantity, &RowValues<F>),
         row: &Row,
         [a, b, c]: [&mut [F]; 3],
     ) -> Result<(), Error> {
         check_interrupt()?;
         let (units, readout) = match source {
-            Source::Table(table) => return table.fill_row(row, [a, b, c]),
-            Source::Lines { units, readout } => (units, readout),
-            Source::Counts {
+            RowValues::Table(table) => return table.fill_row(row, [a, b, c]),
+            RowValues::Lines { units, readout } => (units, readout),
+            RowValues::Counts {
                 table,
                 readout,
                 units,
@@ -176,7 +176,7 @@ impl Layers<'_, BigRational> {
     /// Returns the quantity `asked` for a sphere with loads or with a weight of its own.
     fn at_extra<F: CorrectlyRounded>(
         &self,
-        (asked, units): (Asked, &[Unit; 3]),
+        (asked, units): (RowQuantity, &[Unit; 3]),
         Site { i, j, k }: Site,
     ) -> Result<[F; 3], Error> {
         let row = Row { k, j, i: i..i + 1 };
@@ -186,8 +186,8 @@ impl Layers<'_, BigRational> {
     }
 
     /// Returns the quantity `asked` for consecutive spheres as integers, before rounding.
-    fn numbers(&self, asked: Asked, row: &Row) -> Result<Vec<[BigInt; 3]>, Error> {
-        if asked != Asked::Floor {
+    fn numbers(&self, asked: RowQuantity, row: &Row) -> Result<Vec<[BigInt; 3]>, Error> {
+        if asked != RowQuantity::Floor {
             let below = self.transmitted_in(row)?.into_iter();
             return Ok(below.map(|below| below.forces).collect());
         }
@@ -204,7 +204,7 @@ impl Layer<'_, '_, BigRational> {
     pub(super) fn fill_nearest<F: CorrectlyRounded>(
         &self,
         units: &Units,
-        asked: Asked,
+        asked: RowQuantity,
         slices: [&mut [F]; 3],
     ) -> Result<(), Error> {
         check_lengths(self.sphere_count(), &slices)?;
@@ -215,13 +215,13 @@ impl Layer<'_, '_, BigRational> {
     /// Writes the quantity `asked` into slices over the layer, row after row.
     fn write<F: CorrectlyRounded>(
         &self,
-        (asked, source): (Asked, &Source<F>),
+        (asked, source): (RowQuantity, &RowValues<F>),
         slices: [&mut [F]; 3],
     ) -> Result<(), Error> {
         let (layers, k) = (self.layers, self.k());
         let [a, b, c] = slices;
         // All cores read the limbs, as if every sphere were ordinary. The result counts only if no float overflows.
-        if let Source::Lines {
+        if let RowValues::Lines {
             units,
             readout: Some(readout),
         } = source
@@ -229,7 +229,7 @@ impl Layer<'_, '_, BigRational> {
         {
             let defined = AtomicBool::new(true);
             // The images of a contact force are equal to it, so the stored spheres are enough.
-            let by_images = asked == Asked::Contacts;
+            let by_images = asked == RowQuantity::Contacts;
             fill_rows(&self.region, k, [&mut *a, &mut *b, &mut *c], |row, out| {
                 let (row, out) = if by_images {
                     sweep.stored_piece(row, out)?
@@ -264,7 +264,7 @@ impl Layer<'_, '_, BigRational> {
 
 /// Returns three integers of a sphere times their units, correctly rounded.
 fn nearest<F: CorrectlyRounded>(
-    (asked, units): (Asked, &[Unit; 3]),
+    (asked, units): (RowQuantity, &[Unit; 3]),
     [x, y, z]: &[BigInt; 3],
 ) -> Result<[F; 3], Error> {
     let [unit_x, unit_y, unit_z] = units;
@@ -281,7 +281,7 @@ fn small(n: i128) -> Result<i64, Error> {
     i64::try_from(n).map_err(|_| bug("a table has few increments"))
 }
 
-impl Asked {
+impl RowQuantity {
     fn overflow<F>(self) -> Error {
         Error::Overflow {
             quantity: match self {
