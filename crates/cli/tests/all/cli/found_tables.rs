@@ -304,3 +304,8 @@ fn pieces_that_are_not_there_are_named() {
         &Refused(&[".vtu"]),
     );
 }
+
+#[test]
+fn compressed_files() {
+    answers("gzip-with-zeros-at-the-end", "in.csv.gz", &EXACT);
+}

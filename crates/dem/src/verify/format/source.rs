@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 
-use flate2::read::MultiGzDecoder;
+use flate2::bufread::GzDecoder;
 
 use super::encoding::Encoding;
 use crate::verify::refusal::Refusal;
@@ -26,8 +26,7 @@ impl<'r> Source<'r> {
     ) -> Result<Self, Refusal> {
         let raw = Self::sampled(Box::new(input))?;
         let source = if raw.sample.starts_with(b"\x1f\x8b") {
-            let decoder = MultiGzDecoder::new(raw.all());
-            Self::sampled(Box::new(Checked(decoder)))?
+            Self::sampled(Box::new(Members(Some(GzDecoder::new(raw.all())))))?
         } else {
             raw
         };
@@ -76,18 +75,39 @@ fn utf_16(sample: &[u8]) -> Option<Encoding> {
     }
 }
 
-/// A decoder whose errors say that the data are damaged.
-struct Checked<R>(R);
+/// The members of a gzip file, one after the other. Zeros after the last one pad the file to whole blocks.
+struct Members<R>(Option<GzDecoder<R>>);
 
-impl<R: Read> Read for Checked<R> {
+impl<R: BufRead> Read for Members<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.0.read(buffer).map_err(|error| match error.kind() {
-            io::ErrorKind::InvalidInput | io::ErrorKind::Other => {
-                let reason = "the compressed data are damaged or cut off";
-                io::Error::new(io::ErrorKind::InvalidData, reason)
+        let damaged = |reason: &str| io::Error::new(io::ErrorKind::InvalidData, reason);
+        while let Some(member) = &mut self.0 {
+            let read = member.read(buffer).map_err(|error| match error.kind() {
+                io::ErrorKind::InvalidInput
+                | io::ErrorKind::UnexpectedEof
+                | io::ErrorKind::Other => damaged("the compressed data are damaged or cut off"),
+                _ => error,
+            })?;
+            if read > 0 || buffer.is_empty() {
+                return Ok(read);
             }
-            _ => error,
-        })
+            let Some(mut rest) = self.0.take().map(GzDecoder::into_inner) else {
+                break;
+            };
+            while rest.fill_buf()?.first() == Some(&0) {
+                rest.consume(1);
+            }
+            match rest.fill_buf()?.first() {
+                None => {}
+                Some(0x1f) => self.0 = Some(GzDecoder::new(rest)),
+                Some(_) => {
+                    return Err(damaged(
+                        "there are bytes after the end of the compressed data",
+                    ));
+                }
+            }
+        }
+        Ok(0)
     }
 }
 
@@ -122,10 +142,15 @@ mod tests {
             gzip(bytes),
             // Two files may be written one after the other.
             [gzip(begin), gzip(end)].concat(),
+            [gzip(begin), vec![0; 100_000], gzip(end), vec![0]].concat(),
         ] {
             assert!(packed.len() < bytes.len() / 2);
             assert!(all(&packed) == bytes);
         }
+        let more = [gzip(bytes), b"\n".to_vec()].concat();
+        let read = Source::open(&*more, None).and_then(Source::bytes);
+        let said = "there are bytes after the end of the compressed data";
+        assert!(matches!(read, Err(Refusal::Io(error)) if error.to_string() == said));
         let cut = gzip(bytes);
         let cut = cut.get(..cut.len() / 2).unwrap();
         let read = Source::open(cut, None).and_then(Source::bytes);
