@@ -309,3 +309,22 @@ fn pieces_that_are_not_there_are_named() {
 fn compressed_files() {
     answers("gzip-with-zeros-at-the-end", "in.csv.gz", &EXACT);
 }
+
+#[test]
+fn parts_of_forces() {
+    let rough =
+        "verify in.csv --layers 2 --top triangle:3 --spacing 1.2 --floor rough --floor-table";
+    for (folder, columns) in [
+        ("tangential-columns-dropped", "fx=fx,fy=fy,fz=fz"),
+        ("whole-and-tangential-force", "fx=fx-tx,fy=fy-ty,fz=fz-tz"),
+    ] {
+        let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/all/cli/tables");
+        let mut command = command();
+        command.current_dir(tables.join(folder));
+        command
+            .args(rough.split(' '))
+            .args(["floor.csv", "--columns", columns]);
+        let output = output(&mut command);
+        assert_eq!(output.status.code(), Some(0), "{folder}: {output:?}");
+    }
+}

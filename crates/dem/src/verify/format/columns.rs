@@ -36,56 +36,45 @@ pub(in crate::verify) enum Quantity {
 impl Quantity {
     pub(super) const COUNT: usize = 21;
 
-    pub(super) const ALL: [Self; Self::COUNT] = [
-        Self::Id1,
-        Self::Id2,
-        Self::Force,
-        Self::Fx,
-        Self::Fy,
-        Self::Fz,
-        Self::X,
-        Self::Y,
-        Self::Z,
-        Self::X1,
-        Self::Y1,
-        Self::Z1,
-        Self::X2,
-        Self::Y2,
-        Self::Z2,
-        Self::Tx,
-        Self::Ty,
-        Self::Tz,
-        Self::Id,
-        Self::Kind,
-        Self::Step,
+    /// Each quantity with the names of its column if the user names none: first that of this crate, then those of LAMMPS.
+    const NAMES: [(Self, &[&str]); Self::COUNT] = [
+        (Self::Id1, &["id1", "patom1", "natom1"]),
+        (Self::Id2, &["id2", "patom2", "natom2"]),
+        (Self::Force, &["force"]),
+        (Self::Fx, &["fx", "force_vector_x"]),
+        (Self::Fy, &["fy", "force_vector_y"]),
+        (Self::Fz, &["fz", "force_vector_z"]),
+        (Self::X, &["x"]),
+        (Self::Y, &["y"]),
+        (Self::Z, &["z"]),
+        (Self::X1, &["x1"]),
+        (Self::Y1, &["y1"]),
+        (Self::Z1, &["z1"]),
+        (Self::X2, &["x2"]),
+        (Self::Y2, &["y2"]),
+        (Self::Z2, &["z2"]),
+        (Self::Tx, &["tx"]),
+        (Self::Ty, &["ty"]),
+        (Self::Tz, &["tz"]),
+        (Self::Id, &["id"]),
+        // Only the user knows which kinds are read.
+        (Self::Kind, &[]),
+        (Self::Step, &["step", "timestep", "time_step"]),
     ];
 
-    /// Returns the names of the column if the user names none: first that of this crate, then those of LAMMPS.
+    pub(super) const NUMBERS: &[Self] = &[Self::Id1, Self::Id2];
+    pub(super) const FIRST: [Self; 3] = [Self::X1, Self::Y1, Self::Z1];
+    pub(super) const SECOND: [Self; 3] = [Self::X2, Self::Y2, Self::Z2];
+    pub(super) const POINT: [Self; 3] = [Self::X, Self::Y, Self::Z];
+    pub(super) const VECTOR: [Self; 3] = [Self::Fx, Self::Fy, Self::Fz];
+    pub(super) const TANGENTIAL: [Self; 3] = [Self::Tx, Self::Ty, Self::Tz];
+
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        Self::NAMES.into_iter().map(|(quantity, _)| quantity)
+    }
+
     pub(super) const fn names(self) -> &'static [&'static str] {
-        match self {
-            Self::Id1 => &["id1", "patom1", "natom1"],
-            Self::Id2 => &["id2", "patom2", "natom2"],
-            Self::Force => &["force"],
-            Self::Fx => &["fx", "force_vector_x"],
-            Self::Fy => &["fy", "force_vector_y"],
-            Self::Fz => &["fz", "force_vector_z"],
-            Self::X => &["x"],
-            Self::Y => &["y"],
-            Self::Z => &["z"],
-            Self::X1 => &["x1"],
-            Self::Y1 => &["y1"],
-            Self::Z1 => &["z1"],
-            Self::X2 => &["x2"],
-            Self::Y2 => &["y2"],
-            Self::Z2 => &["z2"],
-            Self::Tx => &["tx"],
-            Self::Ty => &["ty"],
-            Self::Tz => &["tz"],
-            Self::Id => &["id"],
-            // Only the user knows which kinds are read.
-            Self::Kind => &[],
-            Self::Step => &["step", "timestep", "time_step"],
-        }
+        Self::NAMES[self as usize].1
     }
 
     /// Returns whether a column with this name contains the quantity.
@@ -126,7 +115,8 @@ impl Quantity {
 /// vectors may be sums of columns with factors:
 ///
 /// * `fx=-f_x` reads a vector that is the force on the second sphere.
-/// * `fx=#10+#13` adds a normal and a tangential part.
+/// * `fx=#10+#13` adds a normal and a tangential part, and `fx=fx-tx` takes the tangential part away. A name in the header may
+///   contain the sign too, and comes first.
 /// * `force=1e7*overlap` is the force of a linear spring of 10⁷ N/m.
 ///
 /// A quantity that is not mapped is read from the column with its own name, in capital or small letters. For LAMMPS, `patom1`, `patom2`, `natom1`
@@ -296,8 +286,7 @@ impl Columns {
         let (key, column) = assignment
             .split_once('=')
             .ok_or_else(|| Error::syntax(assignment, ASSIGNMENT))?;
-        let mut all = Quantity::ALL.into_iter();
-        let quantity = all
+        let quantity = Quantity::all()
             .find(|quantity| quantity.name() == key.trim() && *quantity != Quantity::Id)
             .ok_or_else(|| Error::syntax(key, QUANTITY))?;
         if self.terms(quantity).is_some() {
@@ -357,9 +346,19 @@ fn split(text: &str, mark: char) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Parses a sum of columns with signs and factors. A + ends a column name; a - does so only before #.
+/// Parses a sum of columns with signs and factors. A + ends a column name. A - does so after a quote and before #; in other
+/// names, the header decides.
 fn terms(text: &str) -> Result<Vec<Term>, Error> {
-    let spaced = text.replace("-#", "+-#");
+    let (mut spaced, mut is_quoted, mut before) = (String::new(), false, None);
+    for (place, c) in text.char_indices() {
+        let ends_name = before == Some('"') || text[place..].starts_with("-#");
+        if c == '-' && !is_quoted && before.is_some() && ends_name {
+            spaced.push('+');
+        }
+        spaced.push(c);
+        is_quoted ^= c == '"';
+        before = Some(c).filter(|c| !c.is_whitespace()).or(before);
+    }
     let spaced = spaced.strip_prefix('+').unwrap_or(&spaced);
     split(spaced, '+').map(term).collect()
 }

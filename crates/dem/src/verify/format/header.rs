@@ -63,7 +63,7 @@ impl Header {
             width,
             has_names: names.is_some(),
             is_open: names.is_some_and(|names| names.last() == Some(&"")),
-            sums: Quantity::ALL.map(|_| Vec::new()),
+            sums: [const { Vec::new() }; Quantity::COUNT],
             kinds: columns.kinds().to_vec(),
             first_id: columns.first_id(),
             needs,
@@ -84,6 +84,7 @@ impl Header {
                 *place = sum;
             }
         }
+        header.drop_added_tangential();
         match header.missing() {
             None => Ok(header),
             Some(quantity) => Err(Fault::NoColumn {
@@ -119,91 +120,83 @@ impl Header {
         is_there: impl Fn(&Quantity) -> bool,
         is_mapped: impl Fn(&Quantity) -> bool,
     ) -> Vec<Quantity> {
-        use Quantity::{Force, Fx, Fy, Fz, Id, Id1, Id2, Kind, Step};
-        use Quantity::{Tx, Ty, Tz, X, X1, X2, Y, Y1, Y2, Z, Z1, Z2};
-        const NUMBERS: &[Quantity] = &[Id1, Id2];
-        const CENTRES: &[Quantity] = &[X1, Y1, Z1, X2, Y2, Z2];
-        const POINT: &[Quantity] = &[X, Y, Z];
-        const VECTOR: &[Quantity] = &[Fx, Fy, Fz];
-        const TANGENTIAL: &[Quantity] = &[Tx, Ty, Tz];
+        use Quantity::{Force, Id, Kind, Step, X, X1, X2, Z, Z1, Z2};
         let are_there = |quantities: &[Quantity]| quantities.iter().all(&is_there);
         let is_any_mapped = |quantities: &[Quantity]| quantities.iter().any(&is_mapped);
+        let centres = [Quantity::FIRST, Quantity::SECOND].concat();
         let has_point = are_there(&[X, Z]) && !are_there(&[X1, Z1, X2, Z2]);
-        let has_centres = CENTRES.iter().any(&is_there);
+        let has_centres = centres.iter().any(&is_there);
         let identity = match self.needs.identity {
-            Identity::Numbers => NUMBERS,
+            Identity::Numbers => Quantity::NUMBERS,
             Identity::OnFloor => &[Id],
-            Identity::Places if has_centres && (!has_point || is_any_mapped(CENTRES)) => CENTRES,
-            Identity::Places => POINT,
+            Identity::Places if has_centres && (!has_point || is_any_mapped(&centres)) => &centres,
+            Identity::Places => &Quantity::POINT,
         };
-        let is_incomplete = is_there(&Force) && !are_there(VECTOR) && !is_any_mapped(VECTOR);
-        let vector = if is_incomplete { &[] } else { VECTOR };
-        // A vector that the user maps is a sum that may contain the tangential force.
-        let has_tangential = if is_any_mapped(VECTOR) {
-            is_any_mapped(TANGENTIAL)
-        } else {
-            TANGENTIAL.iter().any(&is_there)
-        };
-        let tangential = if self.needs.tangential && has_tangential {
-            TANGENTIAL
+        let vector = &Quantity::VECTOR[..];
+        let is_incomplete = is_there(&Force) && !are_there(vector) && !is_any_mapped(vector);
+        let vector = if is_incomplete { &[] } else { vector };
+        let has_tangential = self.needs.tangential && Quantity::TANGENTIAL.iter().any(&is_there);
+        let tangential = if has_tangential {
+            &Quantity::TANGENTIAL[..]
         } else {
             &[]
         };
         [identity, &[Force], vector, tangential, &[Kind, Step]].concat()
     }
 
+    /// Drops the tangential force if the vector already contains it: the sums of both have a column with one sign.
+    fn drop_added_tangential(&mut self) {
+        let is_added =
+            Quantity::VECTOR
+                .into_iter()
+                .zip(Quantity::TANGENTIAL)
+                .any(|(whole, part)| {
+                    let mut parts = self.sum_of(part).iter();
+                    parts.any(|(column, factor)| {
+                        let mut terms = self.sum_of(whole).iter();
+                        terms.any(|(other, of_whole)| other == column && factor * of_whole > 0.0)
+                    })
+                });
+        if is_added {
+            for part in Quantity::TANGENTIAL {
+                self.sums[part as usize].clear();
+            }
+        }
+    }
+
     /// Returns the first necessary quantity without a column.
     fn missing(&self) -> Option<Quantity> {
-        use Quantity::{Force, Fx, Fy, Fz, Id, Id1, Id2, Tx, Ty, Tz, X, X1, X2, Z, Z1, Z2};
+        use Quantity::{Force, Id, X, X1, X2, Z, Z1, Z2};
         let identity: &[Quantity] = match self.needs.identity {
-            Identity::Numbers => &[Id1, Id2],
+            Identity::Numbers => Quantity::NUMBERS,
             Identity::OnFloor => &[Id],
             Identity::Places if self.has_centres() => &[X1, Z1, X2, Z2],
             Identity::Places => &[X, Z],
         };
         // With a vector, the magnitude is not necessary.
-        let force: &[Quantity] = if self.has_vector() {
-            &[Fx, Fy, Fz]
+        let has_vector = self.has_any(Quantity::VECTOR);
+        let force = if has_vector {
+            &Quantity::VECTOR[..]
         } else {
             &[Force]
         };
-        let tangential: &[Quantity] = if self.has_tangential() {
-            &[Tx, Ty, Tz]
-        } else {
-            &[]
-        };
-        let lacks = |quantity: &Quantity| !self.has(*quantity);
+        let has_tangential = self.has_any(Quantity::TANGENTIAL);
+        let tangential = Quantity::TANGENTIAL.iter().filter(|_| has_tangential);
         let needed = identity.iter().chain(force).chain(tangential);
-        needed.copied().find(lacks)
+        needed.copied().find(|quantity| !self.has_any([*quantity]))
     }
 
     fn sum_of(&self, quantity: Quantity) -> &[(usize, f64)] {
         self.sums.get(quantity as usize).map_or(&[], Vec::as_slice)
     }
 
-    fn has(&self, quantity: Quantity) -> bool {
-        !self.sum_of(quantity).is_empty()
+    fn has_any<const N: usize>(&self, quantities: [Quantity; N]) -> bool {
+        let mut quantities = quantities.into_iter();
+        quantities.any(|quantity| !self.sum_of(quantity).is_empty())
     }
 
     fn has_centres(&self) -> bool {
-        use Quantity::{X1, X2, Y1, Y2, Z1, Z2};
-        [X1, Y1, Z1, X2, Y2, Z2]
-            .into_iter()
-            .any(|quantity| self.has(quantity))
-    }
-
-    fn has_vector(&self) -> bool {
-        use Quantity::{Fx, Fy, Fz};
-        [Fx, Fy, Fz]
-            .into_iter()
-            .any(|component| self.has(component))
-    }
-
-    fn has_tangential(&self) -> bool {
-        use Quantity::{Tx, Ty, Tz};
-        [Tx, Ty, Tz]
-            .into_iter()
-            .any(|component| self.has(component))
+        self.has_any(Quantity::FIRST) || self.has_any(Quantity::SECOND)
     }
 
     /// Returns the columns that are read, counted from 0. Some may occur twice.
@@ -216,7 +209,7 @@ impl Header {
         if cells.len() != self.width {
             return self.text_or(cells, self.row_of(cells.len()));
         }
-        if self.has(Quantity::Kind) {
+        if self.has_any([Quantity::Kind]) {
             let kind = self.cell(Quantity::Kind, cells)?;
             if !self.kinds.iter().any(|known| known == kind) {
                 return Ok(Row::OtherKind(kind));
@@ -262,8 +255,7 @@ impl Header {
     /// Returns the cells that are numbers in a row.
     pub(super) fn numbers<'c>(&self, cells: &[&'c str]) -> impl Iterator<Item = &'c str> {
         let words = [Quantity::Kind, Quantity::Step];
-        let quantities = Quantity::ALL.into_iter();
-        let numbers = quantities.filter(move |quantity| !words.contains(quantity));
+        let numbers = Quantity::all().filter(move |quantity| !words.contains(quantity));
         let columns = numbers.flat_map(|quantity| self.sum_of(quantity));
         columns.filter_map(|(column, _)| cells.get(*column).copied())
     }
@@ -298,23 +290,20 @@ impl Header {
             // No sphere has the number 0.
             Identity::OnFloor => Spheres::Numbers([self.id(Quantity::Id, cells)?, 0]),
             Identity::Places if self.has_centres() => Spheres::Places(Place::Centres([
-                vector([Quantity::X1, Quantity::Y1, Quantity::Z1])?,
-                vector([Quantity::X2, Quantity::Y2, Quantity::Z2])?,
+                vector(Quantity::FIRST)?,
+                vector(Quantity::SECOND)?,
             ])),
-            Identity::Places => {
-                let point = vector([Quantity::X, Quantity::Y, Quantity::Z])?;
-                Spheres::Places(Place::Point(point))
-            }
+            Identity::Places => Spheres::Places(Place::Point(vector(Quantity::POINT)?)),
         };
-        let components = [Quantity::Fx, Quantity::Fy, Quantity::Fz];
-        let force = match (self.has(Quantity::Force), self.has_vector()) {
+        let components = Quantity::VECTOR;
+        let force = match (self.has_any([Quantity::Force]), self.has_any(components)) {
             (true, true) => Force::Both(number(Quantity::Force)?, vector(components)?),
             (false, true) => Force::Vector(vector(components)?),
             // A header without a force and without a vector was rejected before.
             (_, false) => Force::Along(number(Quantity::Force)?),
         };
-        let tangential = [Quantity::Tx, Quantity::Ty, Quantity::Tz];
-        let tangential = self.has_tangential().then(|| vector(tangential));
+        let tangential = Quantity::TANGENTIAL;
+        let tangential = self.has_any(tangential).then(|| vector(tangential));
         Ok(Entry {
             spheres,
             force,
@@ -388,7 +377,7 @@ fn named(
         return Ok(sum);
     }
     let mut sum = Vec::new();
-    for term in terms {
+    for term in &differences(terms, names) {
         let place = match &term.column {
             Column::Numbered(place) if *place < width => *place,
             Column::Numbered(place) => {
@@ -419,6 +408,30 @@ fn named(
         sum.push((place, term.factor));
     }
     Ok(sum)
+}
+
+/// Splits each name that is not a column at its signs −, if the parts are columns.
+fn differences(terms: &[Term], names: &[&str]) -> Vec<Term> {
+    let mut split = Vec::new();
+    for term in terms {
+        match &term.column {
+            Column::Named(name) if !names.contains(&name.as_str()) => {
+                let parts: Vec<&str> = name.split('-').map(str::trim).collect();
+                let are_columns = parts.iter().all(|part| names.contains(part));
+                let parts = if are_columns {
+                    parts
+                } else {
+                    vec![name.as_str()]
+                };
+                split.extend((0..).zip(parts).map(|(n, part)| Term {
+                    factor: if n == 0 { term.factor } else { -1.0 },
+                    column: Column::Named(part.to_owned()),
+                }));
+            }
+            _ => split.push(term.clone()),
+        }
+    }
+    split
 }
 
 /// Finds the column whose name contains a +, so that it was parsed as a sum, unless the parts are columns too.
