@@ -127,7 +127,7 @@ impl Command {
             Self::Explain(command) => &command.scene,
             Self::Export(command) => &command.scene,
             Self::Scene(command) => &command.scene,
-            Self::Verify(command) => &command.scene,
+            Self::Verify(command) => return command.scene.as_ref(),
             Self::Plot(command) => return command.scene(),
             Self::Cases(_)
             | Self::Census(_)

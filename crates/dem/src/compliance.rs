@@ -277,6 +277,11 @@ impl Compliance {
     pub fn rms_vector_error(&self, stiffness: f64) -> f64 {
         self.vectors.rms(self.contacts) * (self.unit / stiffness)
     }
+
+    /// Returns the unit of stiffness, mg/R in N/m.
+    pub(crate) const fn unit(&self) -> f64 {
+        self.unit
+    }
 }
 
 const UNIT: &str = "mg/R";

@@ -34,15 +34,21 @@
 //! * On a rough floor, the normal and the tangential force of each contact are compared, and the friction of the floor. The
 //!   error of a tangential force is |**T** − **T**₀|/|**T**₀|, or relative to the largest |**T**₀| where **T**₀ is 0. The
 //!   moment on a sphere is Σ **r** × **T**, with **r** from its centre to the contact.
-//! * If all measured forces are the exact ones times one factor, the report names this factor. A factor of 9.81 means
-//!   different gravity, and −1 means the opposite sign convention.
+//! * If one bottom sphere has a force of the floor, all that press on the floor need one; on a rough floor always.
+//! * Equal rows of one contact are repetitions, or shares of its force if their sums are nearer to the exact forces.
+//! * If one factor takes away most of the error, the report names this factor. A factor of 9.81 means different gravity, and −1
+//!   means the opposite sign convention.
 //!
 //! # Other codes' tables
 //! A [`Reader`] compares a file while it reads it. [`Columns`] maps columns of any names, and a [`Preset`] holds the
 //! columns of a known code. Contacts are matched by the numbers of the spheres, or by position in any [`Frame`].
 //!
 //! # Diagnosis
-//! [`Comparison::findings`] explains the differences. [`Unbalanced`] is the residual force on each sphere. A
+//! [`Comparison::findings`] explains the differences, mostly by the loads of the spheres. With exact forces, the sum of the forces
+//! on each sphere is its weight and load. If all sums are off by one factor, gravity differs; by one vector, it leans; one of them,
+//! a mass differs. If they balance, the directions of the forces show a wrong spacing or diameter, and errors that are in
+//! proportion to the [compliance](crate::Compliance) show soft springs. If none balances, the pile moves, or friction bears a part.
+//! [`Unbalanced`] is the residual force on each sphere. A
 //! [`RefinementStudy`] yields the observed order of accuracy of several simulations.
 //!
 //! # Examples
@@ -93,6 +99,7 @@
 mod axes;
 mod comparison;
 mod difference;
+mod digits;
 mod entry;
 mod finding;
 mod floor;
@@ -104,6 +111,7 @@ mod kind;
 mod ledger;
 mod listed;
 mod loaded;
+mod loads;
 mod measured;
 mod moments;
 mod placed;
@@ -116,6 +124,7 @@ mod registration;
 mod report;
 mod rows;
 mod slots;
+mod soft;
 mod symptoms;
 mod tally;
 mod unbalanced;
@@ -125,7 +134,7 @@ pub use axes::{Axes, Coordinate, TableAxis};
 pub use comparison::Comparison;
 pub use difference::{Difference, Extra};
 pub use entry::Force;
-pub use finding::{Finding, FrictionFault, FrictionOf};
+pub use finding::{Finding, FindingKind};
 pub use format::{
     Columns, Dialect, DialectOptions, Mark, Preset, RowCounts, Separator, TextEncoding,
 };

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, Read};
+use std::path::Path;
 
 use cannonpile::Pile;
 use cannonpile::geometry::Spacing;
@@ -22,7 +23,7 @@ pub(super) const VERTICAL_LOADS: &str =
     "random stackings support vertical loads only: leave out the horizontal components";
 pub(super) const UPRIGHT_GRAVITY: &str = "random stackings support upright gravity only: leave it out, or use the commands for one stacking";
 
-#[derive(Args)]
+#[derive(Args, Clone, Default)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct SceneOptions {
     /// TOML file with these options, - for stdin; the command line overrides it
@@ -98,6 +99,23 @@ pub(crate) struct SceneOptions {
 }
 
 impl SceneOptions {
+    /// Returns the options of the file `scene.toml` beside a table, with its name, or no options without such a file.
+    pub(crate) fn beside(table: &Path) -> Result<(Self, Option<String>), Failure> {
+        let path = table.with_file_name("scene.toml");
+        if table == Path::new("-") || !path.is_file() {
+            return Ok((Self::default(), None));
+        }
+        let name = path.display().to_string();
+        let file =
+            NamedFile::read(&name).map_err(|error| Failure::Message(format!("{name}: {error}")))?;
+        let scene_file = Some(file);
+        let options = Self {
+            scene_file,
+            ..Self::default()
+        };
+        Ok((options, Some(name)))
+    }
+
     /// Returns the scene and its pile, in the isostatic state.
     ///
     /// This function checks sizes and weights even if the command does not use them.
@@ -338,10 +356,9 @@ impl SceneOptions {
     }
 
     /// Returns whether the scene file is read from stdin.
-    pub(crate) fn is_from_stdin(&self) -> bool {
-        self.scene_file
-            .as_ref()
-            .is_some_and(|file| file.name == "-")
+    pub(crate) fn is_from_stdin(options: Option<&Self>) -> bool {
+        let file = options.and_then(|options| options.scene_file.as_ref());
+        file.is_some_and(|file| file.name == "-")
     }
 
     /// Converts an error of a command that always computes in floats.

@@ -34,15 +34,17 @@ force. Without these columns, fx, fy, fz is the whole force. --floor-table adds 
 bottom sphere, with columns of these names and a dialect that its first lines decide. The friction of the floor is compared,
 and the largest sum of moments on a sphere is reported.
 
-Findings explain the differences: a constant factor, swapped axes, a missing layer, and so on. The json report also records
-the scene, the SHA-256 of the file and the version of this program.
+The first line of the report is the verdict with its reason; the others say what else there is to say. Findings explain the
+differences: a constant factor, one sphere of another mass, soft springs, swapped axes, and so on. --format csv and json have the full
+record; json also has the scene, the SHA-256 of the file and the version of this program. Without scene options, the file
+scene.toml beside FILE is read.
 
 The kind of FILE is known by its content: a text table, a LAMMPS dump local file, a VTK file (.vtp, .vtu, .vtk), or a file of
 ParaView that names such files (.pvtp, .pvtu, .vtm, .pvd). It may be compressed by gzip. Of a text table the first
 lines decide the dialect: separator, quotes, comments, decimal sign, header, row of units. The report shows it, and the
 options under Table override it. Only the columns that are needed are read.
 
---columns takes names of the header, or #N for the N-th column. It accepts signs, factors and sums: fx=-#10-#13,
+--columns takes names of the header, or #N for the N-th column. It accepts signs, factors and sums: fx=-#10-#13, fx=fx-tx,
 force=1e7*overlap. A name with a comma is quoted: force=\"Force, normal\". kind=contact_type:SS reads only rows with SS in
 this column; the other rows are contacts with walls. step=time names the column of the time step: the last one is read, or
 that of --step. With two centres x1…z2, fx,fy,fz is the force on the first sphere. With a contact point x,y,z, the force is
@@ -84,7 +86,7 @@ pub(crate) struct Verify {
     )]
     parameter: Option<Parameter>,
     #[command(flatten)]
-    pub(crate) scene: SceneOptions,
+    pub(crate) scene: Option<SceneOptions>,
     /// Largest accepted relative error; 0 requires correctly rounded forces
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,
@@ -208,7 +210,7 @@ impl Verify {
         let given = [
             ("FILE", is_stdin(&self.measured)),
             ("--floor-table", is_stdin(&self.floor_table)),
-            ("--scene", self.scene.is_from_stdin()),
+            ("--scene", SceneOptions::is_from_stdin(self.scene.as_ref())),
         ];
         let from_stdin = given.iter().filter(|(_, is_stdin)| *is_stdin);
         if let [(one, _), (other, _), ..] = from_stdin.collect::<Vec<_>>()[..] {
@@ -220,11 +222,16 @@ impl Verify {
             let reason = "--parameter requires --refinement: add it, or leave out --parameter";
             return Err(Failure::Message(reason.into()));
         }
-        let (scene, pile) = self.scene.read_any()?;
+        let (options, scene_file) = match (&self.scene, &self.measured) {
+            (Some(options), _) => (options.clone(), None),
+            (None, Some(table)) => SceneOptions::beside(table)?,
+            (None, None) => Default::default(),
+        };
+        let (scene, pile) = options.read_any()?;
         let pile = in_state(&scene, pile)?;
         let packing = scene.packing(&pile)?;
         let verdict = match (&self.measured, &self.refinement) {
-            (Some(path), _) => self.compare_file(path, &scene, &packing)?,
+            (Some(path), _) => self.compare_file(path, scene_file.as_deref(), &scene, &packing)?,
             (None, Some(_)) if scene.floor == Floor::Rough => {
                 let reason = "--refinement: its theory has no friction: leave out --floor rough, or give one FILE";
                 return Err(Failure::Message(reason.into()));
@@ -241,6 +248,7 @@ impl Verify {
     fn compare_file(
         &self,
         path: &Path,
+        scene_file: Option<&str>,
         scene: &Scene,
         packing: &Packing<'_>,
     ) -> Result<bool, Failure> {
@@ -263,12 +271,13 @@ impl Verify {
             Some(source) => report.with_source(source),
             None => report,
         };
+        let report = report.with_scene_file(scene_file);
         let content = |out: &mut dyn Write| report.write(format.into(), out);
         self.output.write_with(&progress, content, None, || {
-            let (Some(file), Some(unbalanced)) = (&self.unbalanced, &read.unbalanced) else {
+            let Some(file) = &self.unbalanced else {
                 return Ok(());
             };
-            let table = unbalanced.table(packing)?;
+            let table = read.unbalanced.table(packing)?;
             write_to("unbalanced", Some(file), |out| {
                 table.write(format_of_extension(file), NumberFormat::F64, out)
             })
@@ -310,10 +319,6 @@ impl Verify {
             Some(step) => reader.with_step(step.clone()),
             None => reader,
         };
-        let reader = match &self.unbalanced {
-            Some(_) => reader.with_balance(),
-            None => reader,
-        };
         if !by_place {
             return Ok(reader);
         }
@@ -331,7 +336,10 @@ impl Verify {
         };
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
-            Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
+            Refusal::OutOfRange => format!(
+                "{}: {refusal}",
+                self.scene.clone().unwrap_or_default().place_of_size(scene)
+            ),
             Refusal::Io(error) if error.kind() == io::ErrorKind::InvalidData => {
                 format!("{name}, {error}: compress it again, or give it as it is")
             }

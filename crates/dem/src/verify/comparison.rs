@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::difference::{Difference, Extra};
-use super::finding::Finding;
+use super::finding::{Finding, FindingKind, counted, short};
 use super::friction::WithFriction;
 use super::ledger::Ledger;
 use super::measured::{Measured, over};
@@ -83,7 +83,7 @@ impl Comparison {
             let admitted = ledger.admit(&measured, entry);
             admitted.map_err(|fault| Refusal::Entry { entry, fault })?;
         }
-        let (judged, _) = ledger.judge(false).map_err(of_entry)?;
+        let (judged, _) = ledger.judge().map_err(of_entry)?;
         Ok(Self(judged))
     }
 
@@ -103,7 +103,10 @@ impl Comparison {
     /// // The force on the upper disc has a vertical part of 1/2 mg, and a horizontal one of 1/2 mg·tan(θ/2), here 1/6.
     /// let measured = [([1, 2], 1.0), ([1, 3], -1.0)];
     /// let measured = measured.map(|(ids, x)| Measured::of_vector(ids, [x / 6.0, 0.0, 0.5]));
-    /// let comparison = Comparison::on_rough_floor(&packing, measured)?;
+    /// // The floor has the number 0.
+    /// let floor = [([2, 0], 1.0), ([3, 0], -1.0)];
+    /// let floor = floor.map(|(ids, x)| Measured::of_vector(ids, [x / 6.0, 0.0, 1.5]));
+    /// let comparison = Comparison::on_rough_floor(&packing, measured.into_iter().chain(floor))?;
     /// assert_eq!((comparison.matched(), comparison.tangential()), (2, 2));
     /// assert!(comparison.accepted(1e-12));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
@@ -157,6 +160,26 @@ impl Comparison {
     #[must_use]
     pub fn matched(&self) -> u64 {
         self.0.matched()
+    }
+
+    /// Returns the number of entries that are shares of the force of another entry: equal entries are, if their sums are nearer
+    /// to the exact forces.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile_dem::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// let halves = [2, 3, 4, 2, 3, 4].map(|id| Measured::new([1, id], 0.46225016 / 2.0));
+    /// let comparison = Comparison::new(&packing, halves)?;
+    /// assert!(comparison.accepted(1e-6));
+    /// assert_eq!((comparison.shares(), comparison.repeated()), (3, 0));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn shares(&self) -> u64 {
+        self.0.shares
     }
 
     /// Returns the number of entries that list a pair a second time.
@@ -507,9 +530,8 @@ impl Comparison {
         over(&self.0.errors, tolerance)
     }
 
-    /// Returns the common factor between measured and exact forces, if it differs from 1. Each measured force equals
-    /// this factor times the exact one, within a relative error of `tolerance`. Forces of 0 are left out. `None` for fewer
-    /// than two contacts with a force.
+    /// Returns the common factor between measured and exact forces, if it differs from 1 by more than `tolerance`, and takes away
+    /// most of the error. Forces of 0 are left out. `None` for fewer than two contacts with a force.
     ///
     /// # Examples
     /// ```
@@ -527,7 +549,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn common_factor(&self, tolerance: f64) -> Option<f64> {
-        self.0.symptoms.factor(tolerance)
+        Some(self.0.symptoms.factor(tolerance)?.0)
     }
 
     /// Explains the differences: one wrong factor, swapped axes, a missing layer (see [`Finding`]). The list
@@ -536,15 +558,16 @@ impl Comparison {
     /// # Examples
     /// ```
     /// # use cannonpile::geometry::Spacing;
-    /// # use cannonpile_dem::verify::{Comparison, Finding, Measured};
+    /// # use cannonpile_dem::verify::{Comparison, FindingKind, Measured};
     /// # use cannonpile::{Packing, Pile};
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let weighed = [2, 3, 4].map(|id| Measured::new([1, id], 9.81 * 0.46225016352102427));
     /// let comparison = Comparison::new(&packing, weighed)?;
-    /// let [Finding::Factor(factor)] = comparison.findings(1e-6)[..] else { panic!() };
-    /// assert!((factor - 9.81).abs() < 1e-12);
+    /// let [finding] = &comparison.findings(1e-6)[..] else { panic!() };
+    /// assert_eq!(finding.kind, FindingKind::Factor);
+    /// assert!(finding.text.starts_with("all forces are 9.81 times the exact ones"));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
@@ -552,39 +575,75 @@ impl Comparison {
         if self.accepted(tolerance) {
             return Vec::new();
         }
-        let mut findings = self.0.symptoms.findings(tolerance);
-        let pairs = self.contradictory(tolerance);
-        findings.extend((pairs > 0).then_some(Finding::Contradiction { pairs }));
-        let is_factor = |finding: &Finding| matches!(finding, Finding::Factor(_));
-        let has_factor = findings.iter().any(is_factor);
-        // A common factor explains the forces of the floor too.
-        let error = self.floor_error().filter(|error| *error > tolerance);
-        findings.extend(error.filter(|_| !has_factor).map(|error| Finding::Floor {
-            spheres: over(&self.0.floor_errors, tolerance),
-            error,
-        }));
-        let factor = self.common_factor(tolerance);
-        let is_unexplained = |friction: &&WithFriction| {
-            !factor.is_some_and(|factor| friction.has_factor(factor, tolerance))
+        let error = self.largest_error().unwrap_or(0.0);
+        let digits = self.0.symptoms.digits.explain(error, self.0.difference);
+        let mut findings = match digits.filter(|_| error > tolerance) {
+            Some(digits) => vec![digits],
+            None => self.0.symptoms.findings(tolerance),
         };
-        // A factor that explains all forces needs no other finding.
-        if let Some(friction) = self.0.friction.as_ref().filter(is_unexplained) {
-            let normal = self.largest_error();
-            let is_right = normal.is_none_or(|error| error <= tolerance);
-            let others = friction.findings(tolerance, is_right);
-            if others.first().is_some_and(Finding::is_of_contacts) {
-                findings.retain(|finding| !is_factor(finding));
-            }
-            findings.extend(others);
-        }
-        let off_floor = self.0.off_floor;
-        findings.extend(off_floor.map(|(spheres, first)| Finding::OffFloor { spheres, first }));
-        let mut fallen = self.0.fallen(tolerance);
-        let first = fallen.next();
-        findings.extend(first.map(|first| {
-            let spheres = 1 + fallen.count() as u64;
-            Finding::Fallen { spheres, first }
+        let pairs = self.contradictory(tolerance);
+        findings.extend((pairs > 0).then(|| {
+            let text = format!("two rows disagree on the force of {pairs} of the pairs: does the table hold several steps?");
+            Finding::new(FindingKind::Contradiction, text)
         }));
+        if !findings.iter().any(Finding::hides_others) {
+            findings.extend(self.of_forces(error, tolerance));
+        }
+        findings.extend(self.0.off_floor.map(|(spheres, first)| {
+            let spheres = counted(spheres, "bottom sphere");
+            let text = format!("the force of the floor is missing below {spheres}, first sphere {first}: do they touch the floor?");
+            Finding::new(FindingKind::OffFloor, text)
+        }));
+        let fallen: Vec<u64> = self.0.fallen(tolerance).collect();
+        findings.extend(fallen.first().map(|first| {
+            let (others, are) = match fallen.len() {
+                1 => ("touches".to_owned(), "is"),
+                2 => ("and another touch".to_owned(), "are"),
+                more => (format!("and {} others touch", more - 1), "are"),
+            };
+            let text = format!("sphere {first} {others} the floor, but {are} above the bottom layer: has the pile fallen?");
+            Finding::new(FindingKind::Fallen, text)
+        }));
+        findings
+    }
+
+    /// Returns the explanations of the values of the forces: the first that fits.
+    fn of_forces(&self, error: f64, tolerance: f64) -> Vec<Finding> {
+        let (judged, is_right) = (&self.0, error <= tolerance);
+        let mut findings = Vec::new();
+        let is_soft = !is_right && judged.loads.may_be_soft(error);
+        if let Some(stiffness) = judged.stiffness.filter(|_| is_soft) {
+            let text = format!(
+                "springs of {stiffness:.2e} N/m explain the errors: they are too soft; the errors shrink as the stiffness grows"
+            );
+            findings.push(Finding::new(FindingKind::Springs, text));
+        } else if let Some(friction) = &judged.friction {
+            let factor = judged.symptoms.factor(tolerance);
+            let explains =
+                |(factor, left): &(f64, f64)| friction.has_factor(*factor, left.max(tolerance));
+            if !factor.as_ref().is_some_and(explains) {
+                findings = friction.findings(tolerance, is_right);
+            }
+            let of_contacts = [FindingKind::Moment, FindingKind::Friction];
+            if !findings
+                .iter()
+                .any(|finding| of_contacts.contains(&finding.kind))
+            {
+                findings.splice(0..0, factor.map(Finding::factor));
+            }
+        } else if !is_right {
+            findings = judged.loads.findings(&judged.symptoms, error, tolerance);
+        }
+        // What explains the contacts explains the floor too.
+        let floor = self.floor_error().filter(|error| *error > tolerance);
+        if let Some(error) = floor.filter(|_| is_right || findings.is_empty()) {
+            let spheres = over(&judged.floor_errors, tolerance);
+            let text = format!(
+                "the normal force of the floor is wrong at {spheres} of the bottom spheres, by up to {error:.1e} of the exact \
+                 force: are they held in place by other means?"
+            );
+            findings.push(Finding::new(FindingKind::Floor, text));
+        }
         findings
     }
 
@@ -633,12 +692,52 @@ impl Comparison {
         self.0.worst.as_ref()
     }
 
+    /// Returns the reason why the comparison is not accepted, or the error up to which it is.
+    pub(super) fn reason(&self, tolerance: f64) -> String {
+        let error = short(self.largest_error().unwrap_or(0.0));
+        if self.accepted(tolerance) {
+            let floor = match self.floor() {
+                0 => String::new(),
+                floor => format!(" and {floor} with the floor"),
+            };
+            let agree = counted(self.matched(), "contact") + &floor;
+            return format!("{agree} agree within {tolerance:?}, the largest error is {error:?}");
+        }
+        let contacts = format!("of {}", counted(self.contacts(), "contact"));
+        let off = format!("{contacts} ARE off by more than {tolerance:?}, by up to {error:?}");
+        let reasons = [
+            (self.missing(), contacts + " ARE missing"),
+            (
+                self.extra(tolerance),
+                "of the other pairs HAVE a force".to_owned(),
+            ),
+            (self.beyond(tolerance), off),
+        ];
+        let reasons = reasons.into_iter().filter(|(count, _)| *count > 0);
+        let reasons = reasons.map(|(count, reason)| {
+            let [are, have] = if count == 1 {
+                ["is", "has"]
+            } else {
+                ["are", "have"]
+            };
+            format!(
+                "{count} {}",
+                reason.replace("ARE", are).replace("HAVE", have)
+            )
+        });
+        let reasons: Vec<_> = reasons.collect();
+        match self.findings(tolerance).first() {
+            Some(first) if reasons.is_empty() => first.to_string(),
+            _ => reasons.join("; "),
+        }
+    }
+
     /// Returns whether no contact is missing, no pair is extra or contradictory, and every relative error is at most
     /// `tolerance`, also that of the floor.
     ///
-    /// On a rough floor, the tangential force of every measured contact must be known, and the whole force of every row of the
-    /// floor. If there is a table of the floor, it must have a row for every bottom sphere, and no sphere above may touch the
-    /// floor. The net moment is not part of the verdict: it follows from the forces.
+    /// If one bottom sphere has a force of the floor, every other one that presses on the floor needs one too. On a rough floor all
+    /// need one; the tangential force of every measured contact must be known, and the whole force of the floor. No sphere above
+    /// may touch it. The net moment is not part of the verdict: it follows from the forces.
     ///
     /// # Examples
     /// ```
@@ -690,17 +789,23 @@ impl fmt::Display for Comparison {
             f,
             "{matched} of {contacts} contacts measured, {missing} missing, {extra} pairs besides them"
         )?;
-        if let (Some(largest), Some(rms)) = (self.largest_error(), self.rms_error()) {
-            write!(f, "; largest error {largest:e}, rms {rms:e}")?;
-        }
-        if let Some(error) = self.floor_error().filter(|error| *error > 0.0) {
-            write!(f, "; of the floor {error:e}")?;
-        }
-        if let Some(error) = self.tangential_error() {
-            write!(f, "; of tangential forces {error:e}")?;
-        }
-        if let Some(error) = self.floor_friction_error() {
-            write!(f, "; of the friction of the floor {error:e}")?;
+        for (name, error) in [
+            ("largest error", self.largest_error()),
+            ("rms", self.rms_error()),
+            (
+                "of the floor",
+                self.floor_error().filter(|error| *error > 0.0),
+            ),
+            ("of tangential forces", self.tangential_error()),
+            ("of the friction of the floor", self.floor_friction_error()),
+        ] {
+            if let Some(error) = error {
+                write!(
+                    f,
+                    "{} {name} {error:e}",
+                    if name == "rms" { "," } else { ";" }
+                )?;
+            }
         }
         if let Some(worst) = self.worst() {
             write!(f, "; worst: {worst}")?;

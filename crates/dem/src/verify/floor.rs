@@ -13,14 +13,15 @@ use crate::{Each, NumberedPile};
 pub(super) struct Floor {
     /// The contacts by sphere and wall. A wall has a number, unless it was found by position.
     contacts: BTreeMap<(u64, Option<i128>), Contact>,
-    /// True if every bottom sphere with a force on the floor needs a row.
-    is_whole: bool,
 }
 
 /// The contact of a sphere with the floor or with a wall.
 struct Contact {
-    /// The sum of the forces of the rows that name the sphere first, and of those that name it second.
+    /// The sum of the forces of the rows that name the sphere first, and of those that name it second. Equal rows in a row
+    /// count once.
     sums: [Option<[f64; 3]>; 2],
+    /// The sum of the forces of all rows.
+    total: [f64; 3],
     /// The last force of either order.
     last: [Option<[f64; 3]>; 2],
     /// The number of rows that are part of a sum, and of these with a force.
@@ -51,6 +52,8 @@ pub(super) struct OnFloor {
     pub(super) forces: Vec<(u64, Option<[[f64; 3]; 2]>)>,
     /// The number of bottom spheres that lack a row, and the first of them.
     pub(super) missing: Option<(u64, u64)>,
+    /// True if several rows of one contact are shares of its force, and not repetitions.
+    pub(super) are_shares: bool,
 }
 
 impl Upward {
@@ -72,11 +75,6 @@ impl Upward {
 }
 
 impl Floor {
-    /// Expects a row for every bottom sphere with a force on the floor.
-    pub(super) fn expect_all(&mut self) {
-        self.is_whole = true;
-    }
-
     pub(super) fn is_empty(&self) -> bool {
         self.contacts.is_empty()
     }
@@ -151,21 +149,41 @@ impl Floor {
         walls.min_by_key(|(_, line)| *line).filter(|_| is_pile)
     }
 
-    /// Compares the forces with the exact ones of the floor.
+    /// Compares the forces with the exact ones of the floor. Every bottom sphere with a force needs a row if one of them has
+    /// one, or if all are `needed`. Equal rows of a contact are repetitions or shares, whichever leaves the smaller error.
     pub(super) fn judge(
         &self,
         numbered: &NumberedPile<'_>,
         largest_force: f64,
+        are_needed: bool,
     ) -> Result<OnFloor, Refusal> {
-        let mut on_floor = OnFloor::default();
-        if self.is_empty() {
-            return Ok(on_floor);
+        if self.is_empty() && !are_needed {
+            return Ok(OnFloor::default());
         }
+        let once = self.judged(numbered, largest_force, false)?;
+        let shares = self.judged(numbered, largest_force, true)?;
+        Ok(if shares.errors.first() < once.errors.first() {
+            shares
+        } else {
+            once
+        })
+    }
+
+    fn judged(
+        &self,
+        numbered: &NumberedPile<'_>,
+        largest_force: f64,
+        are_shares: bool,
+    ) -> Result<OnFloor, Refusal> {
+        let mut on_floor = OnFloor {
+            are_shares,
+            ..OnFloor::default()
+        };
         let mut measured = self.by_sphere().peekable();
         for exact in numbered.on_floor().map_err(Refusal::of_forces)? {
             let (id, exact) = exact.map_err(Refusal::of_forces)?;
             let Some((_, contacts)) = measured.next_if(|(sphere, _)| *sphere == id) else {
-                if self.is_whole && exact.normal != 0.0 {
+                if exact.normal != 0.0 {
                     let (count, first) = on_floor.missing.unwrap_or((0, id));
                     on_floor.missing = Some((count + 1, first));
                 }
@@ -178,7 +196,8 @@ impl Floor {
             let sum = |[one, other]: [usize; 2]| {
                 let sums = contacts.iter().map(|contact| {
                     let of = |order: usize| contact.sums.get(order).copied().flatten();
-                    of(one).or(of(other))
+                    let total = Some(contact.total).filter(|_| are_shares);
+                    total.or(of(one)).or(of(other))
                 });
                 sums.flatten().fold([0.0; 3], plus)
             };
@@ -224,6 +243,7 @@ impl Contact {
     fn new(line: u64) -> Self {
         Self {
             sums: [None; 2],
+            total: [0.0; 3],
             last: [None; 2],
             rows: 0,
             loaded: 0,
@@ -250,6 +270,7 @@ impl Contact {
 
     fn count(&mut self, upward: Upward, is_repeated: bool) {
         self.has_vector &= upward.has_vector;
+        self.total = plus(self.total, upward.force);
         if !is_repeated {
             self.rows += 1;
             self.loaded += u64::from(upward.normal() != 0.0);

@@ -1,28 +1,20 @@
 //! Tangential forces, the friction of the floor, and moments, for a pile on a rough floor.
 
-use super::finding::{Finding, FrictionFault, FrictionOf};
+use super::finding::{Finding, FindingKind, counted};
 use super::floor::OnFloor;
-use super::measured::{Measured, distance, norm, opposite, over, relative, sort_decreasing};
+use super::measured::{Measured, distance, norm, over, relative, sort_decreasing};
 use super::refusal::Refusal;
-use super::unbalanced::between;
-use crate::error::bug;
-use crate::vector::{cross, dot, minus, plus};
-use crate::{Each, Error, NumberedContact, NumberedPile};
+use super::unbalanced::{Balance, NetMoment};
+use crate::vector::dot;
+use crate::{Each, NumberedPile};
 
 /// The largest distance of a factor from 0 or −1 that counts as this value.
 const NEAR: f64 = 1e-3;
 
-/// The unit vectors from the lower to the upper sphere of the contacts of two layers, in the order of the directions.
-pub(super) struct Directions(Vec<[f64; 3]>);
-
 /// The comparison of tangential forces, contact by contact.
-pub(super) struct FrictionTally<'n, 'p> {
-    numbered: &'n NumberedPile<'p>,
-    directions: &'n Directions,
+#[derive(Default)]
+pub(super) struct FrictionTally {
     contacts: Tangential,
-    /// The net force on each sphere without its weight, and the net moment about its centre over R. NaN if a force on the
-    /// sphere is unknown.
-    nets: Vec<[[f64; 3]; 2]>,
     largest: f64,
 }
 
@@ -54,153 +46,56 @@ pub(super) struct WithFriction {
     pub(super) moments: Vec<NetMoment>,
 }
 
-/// The net moment on a sphere, with the horizontal net force on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct NetMoment {
-    pub(super) sphere: u64,
-    /// The moment, over R times the largest exact tangential force.
-    pub(super) moment: f64,
-    /// The force, over the largest exact tangential force.
-    pub(super) force: f64,
-}
-
-impl Directions {
-    pub(super) fn of(numbered: &NumberedPile<'_>) -> Result<Self, Error> {
-        let (packing, pile) = (numbered.packing(), numbered.pile());
-        let top = numbered.sites()?.next();
-        let top = top.ok_or_else(|| bug("a pile has a sphere"))?;
-        let directions = pile.dimension().directions().iter().map(|direction| {
-            let below = pile.shape().below(top, *direction);
-            between(packing, top, below.ok_or_else(|| Error::on_floor(top))?)
-        });
-        Ok(Self(directions.collect::<Result<_, Error>>()?))
-    }
-
-    /// Returns the direction of the n-th contact. The contacts are in the order of their upper spheres.
-    fn of_contact(&self, n: usize) -> Result<[f64; 3], Error> {
-        let direction = n.checked_rem(self.0.len()).and_then(|n| self.0.get(n));
-        direction
-            .copied()
-            .ok_or_else(|| bug("a pile has directions"))
-    }
-
-    /// Returns the measurement of the n-th contact with its normal and its tangential force. If the latter is not listed, the
-    /// vector is the whole force. The upper sphere is the first.
-    pub(super) fn split(&self, n: usize, measured: Measured) -> Result<Measured, Error> {
-        let (Some(vector), None) = (measured.vector, measured.tangential) else {
-            return Ok(measured);
-        };
-        let up = self.of_contact(n)?;
-        let along = dot(vector, up);
-        let normal = up.each(|component| component * along);
-        Ok(Measured {
-            force: if measured.is_length {
-                along
-            } else {
-                measured.force
-            },
-            vector: Some(normal),
-            tangential: Some(minus(vector, normal)),
-            ..measured
-        })
-    }
-}
-
-impl<'n, 'p> FrictionTally<'n, 'p> {
-    pub(super) fn new(
-        numbered: &'n NumberedPile<'p>,
-        directions: &'n Directions,
-    ) -> Result<Self, Error> {
-        let spheres = usize::try_from(numbered.numbering().sphere_count());
-        let spheres = spheres.map_err(|_| bug("contacts that are compared fit in memory"))?;
-        Ok(Self {
-            numbered,
-            directions,
-            contacts: Tangential::default(),
-            nets: vec![[[0.0; 3]; 2]; spheres],
-            largest: 0.0,
-        })
-    }
-
-    /// Adds the n-th contact with the exact tangential force on the upper sphere, and the split rows with measured forces.
-    pub(super) fn add(
-        &mut self,
-        (n, exact): (usize, &NumberedContact),
-        tangential: [f64; 3],
-        rows: [Option<Measured>; 2],
-    ) -> Result<(), Error> {
-        self.largest = self.largest.max(norm(tangential));
-        let is_measured = rows.iter().any(Option::is_some);
-        let rows = rows.iter().flatten();
-        let measured = rows.filter_map(|row| row.tangential.map(|force| (row, force)));
-        let apart = |(_, force): &(&Measured, [f64; 3])| distance(*force, tangential);
-        let worse = measured.max_by(|one, other| apart(one).total_cmp(&apart(other)));
-        let mut acting = [[f64::NAN; 3]; 2];
-        if let Some((row, force)) = worse {
-            self.contacts.add(exact.ids, force, tangential);
-            let up = self.directions.of_contact(n)?;
-            let normal = row.vector.unwrap_or_else(|| up.each(|x| x * row.force));
-            // The contact is below the upper sphere and above the lower one. Force and place change their signs together,
-            // so both moments are equal.
-            acting = [plus(normal, force), cross(force, up)];
-        } else if is_measured && norm(tangential) > 0.0 {
-            self.contacts.unknown += 1;
+impl FrictionTally {
+    /// Adds a contact with the exact tangential force on the upper sphere, and the split rows with measured forces.
+    pub(super) fn add(&mut self, ids: [u64; 2], exact: [f64; 3], rows: [Option<Measured>; 2]) {
+        self.largest = self.largest.max(norm(exact));
+        let measured = rows.iter().flatten().filter_map(|row| row.tangential);
+        let apart = |force: &[f64; 3]| distance(*force, exact);
+        match measured.max_by(|one, other| apart(one).total_cmp(&apart(other))) {
+            Some(worse) => self.contacts.add(ids, worse, exact),
+            None if rows.iter().any(Option::is_some) && norm(exact) > 0.0 => {
+                self.contacts.unknown += 1;
+            }
+            None => {}
         }
-        let [force, moment] = acting;
-        let [upper, lower] = exact.ids;
-        self.act(upper, [force, moment])?;
-        self.act(lower, [opposite(force), moment])
     }
 
-    /// Finishes the comparison with the forces of the floor.
-    pub(super) fn close(mut self, on_floor: &OnFloor) -> Result<WithFriction, Refusal> {
+    /// Finishes the comparison with the forces of the floor, which act on the spheres.
+    pub(super) fn close(
+        self,
+        numbered: &NumberedPile<'_>,
+        on_floor: &OnFloor,
+        balance: &mut Balance<'_>,
+    ) -> Result<WithFriction, Refusal> {
         let mut floor = Tangential::default();
         let mut on_floor = on_floor.forces.iter().peekable();
-        for exact in self.numbered.of_rough_floor().map_err(Refusal::of_forces)? {
+        for exact in numbered.of_rough_floor().map_err(Refusal::of_forces)? {
             let (id, [x, y, _]) = exact.map_err(Refusal::of_forces)?;
             let exact = [x, y, 0.0];
             let measured = on_floor.next_if(|(sphere, _)| *sphere == id);
             let friction = |[x, y, _]: [f64; 3]| [x, y, 0.0];
             let apart = |sum: &[f64; 3]| distance(friction(*sum), exact);
-            let mut acting = [[f64::NAN; 3]; 2];
-            match measured {
-                None => {}
-                Some((_, None)) => floor.unknown += u64::from(norm(exact) > 0.0),
-                Some((_, Some([one, other]))) => {
-                    let force = if apart(other) > apart(one) {
-                        other
-                    } else {
-                        one
-                    };
-                    let friction = friction(*force);
-                    floor.add([id, id], friction, exact);
-                    acting = [*force, cross(friction, [0.0, 0.0, 1.0])];
+            let sums = measured.and_then(|(_, sums)| *sums);
+            let force = sums.map(|[one, other]| {
+                if apart(&other) > apart(&one) {
+                    other
+                } else {
+                    one
                 }
+            });
+            match force {
+                Some(force) => floor.add([id, id], friction(force), exact),
+                None => floor.unknown += u64::from(measured.is_some() && norm(exact) > 0.0),
             }
-            self.act(id, acting)?;
+            balance.add_floor(id, force);
         }
         let largest = self.largest;
-        let nets = (1_u64..).zip(&self.nets);
-        let known = nets.filter(|(_, nets)| nets.as_flattened().iter().all(|x| !x.is_nan()));
-        let moments = known.map(|(sphere, [[x, y, _], moment])| NetMoment {
-            sphere,
-            moment: relative(norm(*moment), largest),
-            force: relative(norm([*x, *y, 0.0]), largest),
-        });
         Ok(WithFriction {
-            moments: moments.collect(),
+            moments: balance.moments(largest),
             contacts: self.contacts.closed(largest),
             floor: floor.closed(largest),
         })
-    }
-
-    /// Adds a force and a moment on a sphere.
-    fn act(&mut self, id: u64, [force, moment]: [[f64; 3]; 2]) -> Result<(), Error> {
-        let place = id.checked_sub(1).and_then(|id| usize::try_from(id).ok());
-        let place = place.and_then(|place| self.nets.get_mut(place));
-        let [net, turning] = place.ok_or_else(|| bug("a contact has spheres of the pile"))?;
-        (*net, *turning) = (plus(*net, force), plus(*turning, moment));
-        Ok(())
     }
 }
 
@@ -225,32 +120,85 @@ impl WithFriction {
 
     /// Returns the explanations at an accepted error.
     pub(super) fn findings(&self, tolerance: f64, normals_are_right: bool) -> Vec<Finding> {
-        let finding = |forces: &Tangential, of: fn([u64; 2]) -> FrictionOf| {
-            let (ids, error) = forces.worst?;
-            (error > tolerance).then(|| Finding::Friction {
-                of: of(ids),
-                fault: forces.fault(tolerance),
-                count: over(&forces.errors, tolerance),
-                error,
-                normals_are_right,
-            })
-        };
         let balanced = self.moments.iter().filter(|net| net.force <= tolerance);
-        let moment = greatest(balanced).filter(|net| net.moment > tolerance);
-        let unknown =
-            (self.contacts.unknown + self.floor.unknown > 0).then_some(Finding::Unknown {
-                contacts: self.contacts.unknown,
-                spheres: self.floor.unknown,
-            });
-        [
-            finding(&self.contacts, FrictionOf::Spheres),
-            finding(&self.floor, |[sphere, _]| FrictionOf::Floor(sphere)),
-            moment.map(|NetMoment { sphere, moment, .. }| Finding::Moment { sphere, moment }),
-            unknown,
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+        let moment = greatest(balanced.clone()).filter(|net| net.moment > tolerance);
+        let moment = moment.map(|NetMoment { sphere, moment, .. }| {
+            let text = format!(
+                "the horizontal forces on sphere {sphere} balance, but the moments do not: their sum is {moment:.1e} R times the \
+                 largest tangential force; do spheres turn?"
+            );
+            Finding::new(FindingKind::Moment, text)
+        });
+        // Spheres that do not turn change all forces.
+        if moment.is_some() && balanced.count() == self.moments.len() {
+            return moment.into_iter().collect();
+        }
+        let finding = |forces: &Tangential, kind, of: &str, noun: &str, words: [&str; 3]| {
+            let (ids, error) = forces.worst.filter(|(_, error)| *error > tolerance)?;
+            let at = format!("{of} {}", counted(over(&forces.errors, tolerance), noun));
+            let near = tolerance.min(NEAR);
+            let [name, absent, reversed] = words;
+            let text = match forces.factor(tolerance) {
+                Some(factor) if factor.abs() <= near => absent.replace('#', &at),
+                Some(factor) if (factor + 1.0).abs() <= near => reversed.replace('#', &at),
+                Some(factor) if (factor - 1.0).abs() > tolerance => {
+                    format!("{name} {factor:?} times the exact values, {at}")
+                }
+                _ => {
+                    let [one, other] = ids;
+                    let spheres = if one == other {
+                        format!("below sphere {one}")
+                    } else {
+                        format!("between spheres {one} and {other}")
+                    };
+                    format!("{name} wrong {at}, most {spheres}, with an error of {error:.1e}")
+                }
+            };
+            Some((kind, text))
+        };
+        let contacts = finding(
+            &self.contacts,
+            FindingKind::Friction,
+            "at",
+            "contact",
+            [
+                "tangential forces are",
+                "all tangential forces are 0, #: does the table hold normal forces only?",
+                "all tangential forces have the wrong sign, #: are they the forces on the second sphere?",
+            ],
+        );
+        let contacts = contacts.map(|(kind, text)| {
+            let normal = if normals_are_right {
+                "right, but"
+            } else {
+                "wrong, and"
+            };
+            Finding::new(kind, format!("normal forces are {normal} {text}"))
+        });
+        let floor = finding(
+            &self.floor,
+            FindingKind::FloorFriction,
+            "below",
+            "sphere",
+            [
+                "the friction of the floor is",
+                "the floor has no friction, #: does the plane have a coefficient of friction?",
+                "the friction of the floor has the wrong sign, #: is it the force of the spheres on the floor?",
+            ],
+        );
+        let floor = floor.map(|(kind, text)| Finding::new(kind, text));
+        let (lacking, spheres) = (self.contacts.unknown, self.floor.unknown);
+        let unknown = (lacking + spheres > 0).then(|| {
+            let text = format!(
+                "the tangential force is not known at {lacking} contacts between spheres and {spheres} with the floor: add \
+                 columns tx, ty, tz, or the whole force as fx, fy, fz"
+            );
+            Finding::new(FindingKind::Unknown, text)
+        });
+        [contacts, floor, moment, unknown]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 }
 
@@ -260,17 +208,6 @@ fn greatest<'m>(moments: impl Iterator<Item = &'m NetMoment>) -> Option<NetMomen
 }
 
 impl Tangential {
-    /// Returns the kind of fault of forces that are not accepted.
-    fn fault(&self, tolerance: f64) -> FrictionFault {
-        let near = tolerance.min(NEAR);
-        match self.factor(tolerance) {
-            Some(factor) if factor.abs() <= near => FrictionFault::Absent,
-            Some(factor) if (factor + 1.0).abs() <= near => FrictionFault::Reversed,
-            Some(factor) if (factor - 1.0).abs() > tolerance => FrictionFault::Factor(factor),
-            _ => FrictionFault::Other,
-        }
-    }
-
     /// Returns the ratio of measured to exact forces, if it is the same for all within an error.
     fn factor(&self, tolerance: f64) -> Option<f64> {
         let [least, most] = self.ratios?;

@@ -4,13 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::entry::{Entry, Force, Sink};
 use super::floor::{Floor, Upward};
-use super::friction::{Directions, FrictionTally};
+use super::friction::FrictionTally;
 use super::listed::{Forces, Listed, Order};
 use super::measured::{MAX_ENTRIES, Measured, opposite, relative};
 use super::refusal::{Fault, Refusal};
 use super::slots::Slots;
+use super::soft;
 use super::tally::{Judged, Tally};
-use super::unbalanced::{Balance, Unbalanced};
+use super::unbalanced::{Balance, Directions, Unbalanced};
 use crate::{Each, NumberedContact, NumberedPile};
 use cannonpile::Packing;
 use cannonpile::engine::refuse_beyond_memory;
@@ -21,6 +22,9 @@ const PAIRS_A_SPHERE: u64 = 20;
 
 /// The memory of a force, a vector, and the count of its rows.
 const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>() + size_of::<Listed>();
+
+/// The largest number of contacts whose errors are compared with those of springs.
+const MAX_FITTED: usize = 1_000_000;
 
 /// The largest number of runs of lines. Beyond it, messages about repeated pairs omit the line.
 const MAX_RUNS: usize = 1 << 16;
@@ -39,8 +43,8 @@ pub(super) struct Ledger<'p> {
     /// Pairs without a contact.
     strays: BTreeMap<[u64; 2], Stray>,
     floor: Floor,
-    /// The number of rows that list a pair a second time.
-    repeated: u64,
+    /// The number of rows that list a pair of spheres a second time, and a contact with the floor.
+    repeated: [u64; 2],
     lines: Lines,
     walls: u64,
     /// On a rough floor, the directions of the contacts.
@@ -48,9 +52,6 @@ pub(super) struct Ledger<'p> {
     /// The spheres above the bottom layer that touch the floor, with their forces.
     fallen: Vec<(u64, f64)>,
 }
-
-/// The comparison of tangential forces, and the exact one on the upper sphere of a contact.
-type Rubbing<'t, 'n, 'p> = (&'t mut FrictionTally<'n, 'p>, [f64; 3]);
 
 /// A pair without a contact. Of two rows with different forces, the greater force counts.
 struct Stray {
@@ -79,7 +80,7 @@ impl<'p> Ledger<'p> {
             seconds: Forces::default(),
             strays: BTreeMap::new(),
             floor: Floor::default(),
-            repeated: 0,
+            repeated: [0; 2],
             lines: Lines::default(),
             walls: 0,
             rough: None,
@@ -144,7 +145,7 @@ impl<'p> Ledger<'p> {
         let is_repeated =
             self.floor
                 .add_below(sphere, Upward::of(on_sphere, self.rough.is_some()), line);
-        self.repeated += u64::from(is_repeated);
+        self.repeated[1] += u64::from(is_repeated);
         Ok(())
     }
 
@@ -209,7 +210,7 @@ impl<'p> Ledger<'p> {
         };
         let upward = Upward::of(on_sphere, self.rough.is_some());
         let is_repeated = self.floor.add((sphere, wall), is_second, upward, line);
-        self.repeated += u64::from(is_repeated);
+        self.repeated[1] += u64::from(is_repeated);
         Ok(())
     }
 
@@ -242,7 +243,7 @@ impl<'p> Ledger<'p> {
             self.lines.note(slot, line);
             return self.forces.set(slot, contacts, measured);
         }
-        self.repeated += 1;
+        self.repeated[0] += 1;
         if agrees {
             return Ok(());
         }
@@ -259,7 +260,7 @@ impl<'p> Ledger<'p> {
             if measured.magnitude() > stray.measured.magnitude() {
                 stray.measured = measured;
             }
-            self.repeated += 1;
+            self.repeated[0] += 1;
             return Ok(());
         }
         if self.strays.len() as u64 >= limit {
@@ -290,13 +291,31 @@ impl<'p> Ledger<'p> {
         !self.floor.is_empty()
     }
 
-    /// Compares all measured forces with the exact ones.
-    ///
-    /// With `with_balance`, also adds up the forces on each sphere.
-    pub(super) fn judge(
-        mut self,
-        with_balance: bool,
-    ) -> Result<(Judged, Option<Unbalanced>), Refusal> {
+    /// Returns whether two rows of a pair are shares of its force: their sums are nearer to the exact forces.
+    fn are_shares(&self) -> Result<bool, Refusal> {
+        let mut votes = [0_u64; 2];
+        let is_twice = |listed: &Listed| matches!(listed, Listed::Twice | Listed::Differently);
+        if !self.listed.iter().any(is_twice) {
+            return Ok(false);
+        }
+        let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
+        for (slot, contact) in contacts.enumerate() {
+            let exact = contact.map_err(Refusal::of_forces)?;
+            let rows = rows(&self.listed, [&self.forces, &self.seconds], slot, exact.ids);
+            if let [Some(first), Some(second)] = rows
+                && exact.force != 0.0
+            {
+                let [first, second] = [first, second].each(|row| row.force);
+                let off = |force: f64| (force - exact.force).abs();
+                let are_shares = off(first + second) < off(first).max(off(second));
+                votes[usize::from(are_shares)] += 1;
+            }
+        }
+        Ok(votes[1] > votes[0])
+    }
+
+    /// Compares all measured forces with the exact ones, and adds up the forces on each sphere.
+    pub(super) fn judge(mut self) -> Result<(Judged, Unbalanced), Refusal> {
         let directions = self.numbered.pile().dimension().directions().len();
         if let Some((id, line)) = self.floor.sphere_below(directions) {
             let (first, spheres) = (1, self.spheres);
@@ -306,23 +325,22 @@ impl<'p> Ledger<'p> {
         let with_vectors =
             !self.forces.vectors.is_empty() || strays.any(|stray| stray.vector.is_some());
         let is_rough = self.rough.is_some();
+        let are_shares = self.are_shares()?;
         let mut tally = Tally::new(&self.numbered, with_vectors, is_rough);
-        let balance = with_balance.then(|| Balance::new(&self.numbered));
-        let mut balance = balance.transpose()?;
+        let mut balance = Balance::new(&self.numbered, is_rough)?;
+        let mut friction = FrictionTally::default();
         // Each error overwrites a force that has already been read.
         let mut errors = 0;
-        let mut see = |slot, exact: NumberedContact, friction: Option<Rubbing<'_, '_, '_>>| {
-            let listed = self.listed.get(slot).copied();
-            let listed = listed.filter(|listed| *listed != Listed::Never);
-            let measured = listed.and_then(|_| self.forces.get(slot, exact.ids));
-            let second = listed.filter(|listed| *listed == Listed::Differently);
-            let second = second.and_then(|_| self.seconds.get(slot, exact.ids));
-            if let Some((rubbing, tangential)) = friction {
-                rubbing.add((slot, &exact), tangential, [measured, second])?;
-            }
-            if let (Some(balance), Some(measured)) = (&mut balance, &measured) {
-                balance.add(&exact, measured)?;
-            }
+        let mut see = |slot, exact: NumberedContact, tangential: [f64; 3]| {
+            let rows = rows(&self.listed, [&self.forces, &self.seconds], slot, exact.ids);
+            let [measured, second] = match rows {
+                [Some(first), Some(second)] if are_shares => [Some(first.plus(&second)), None],
+                // An equal row says nothing new.
+                [first, second] if first == second => [first, None],
+                rows => rows,
+            };
+            friction.add(exact.ids, tangential, [measured, second]);
+            balance.add(&exact, measured.as_ref())?;
             if let Some(error) = tally.add(&exact, measured, second)
                 && let Some(place) = self.forces.along.get_mut(errors)
             {
@@ -331,46 +349,60 @@ impl<'p> Ledger<'p> {
             }
             Ok::<(), Refusal>(())
         };
-        let mut friction = None;
-        if let Some(rough) = &self.rough {
-            let mut rubbing = FrictionTally::new(&self.numbered, rough)?;
+        if is_rough {
             let contacts = self.numbered.rough_contacts().map_err(Refusal::of_forces)?;
             for (slot, contact) in contacts.enumerate() {
                 let (exact, tangential) = contact.map_err(Refusal::of_forces)?;
-                see(slot, exact, Some((&mut rubbing, tangential)))?;
+                see(slot, exact, tangential)?;
             }
-            friction = Some(rubbing);
         } else {
             let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
             for (slot, contact) in contacts.enumerate() {
                 let exact = contact.map_err(Refusal::of_forces)?.in_order();
-                see(slot, exact, None)?;
+                see(slot, exact, [0.0; 3])?;
             }
         }
         let mut relative_errors = self.forces.along;
         relative_errors.truncate(errors);
-        if let Some(balance) = &mut balance {
-            for stray in self.strays.values() {
-                balance.add_stray(&stray.measured)?;
-            }
+        for stray in self.strays.values() {
+            balance.add_stray(&stray.measured)?;
         }
-        let floor = self.floor.judge(&self.numbered, tally.largest_force())?;
-        let friction = friction.map(|friction| friction.close(&floor));
+        // Without one of the contacts no stiffness is known, and for many it would take long.
+        let contacts = relative_errors.len();
+        let is_whole = contacts == self.slots.len() && contacts <= MAX_FITTED && !is_rough;
+        let stiffness = is_whole
+            .then(|| soft::stiffness(self.numbered.packing(), &relative_errors, with_vectors));
+        let floor = self
+            .floor
+            .judge(&self.numbered, tally.largest_force(), is_rough)?;
+        let friction = is_rough.then(|| friction.close(&self.numbered, &floor, &mut balance));
         let friction = friction.transpose()?;
+        let (unbalanced, loads) = balance.close()?;
         let strays = self.strays.values();
         let strays = strays.map(|stray| (&stray.measured, stray.contradiction));
         let strays: Vec<_> = strays.collect();
         let mut judged = tally.close(relative_errors, &strays, self.numbered.numbering());
         judged.friction = friction;
         judged.off_floor = floor.missing;
+        (judged.loads, judged.stiffness) = (loads, stiffness.flatten());
+        for (repeated, are_shares) in self
+            .repeated
+            .into_iter()
+            .zip([are_shares, floor.are_shares])
+        {
+            *(if are_shares {
+                &mut judged.shares
+            } else {
+                &mut judged.repeated
+            }) += repeated;
+        }
         judged.add_floor(floor);
-        judged.repeated = self.repeated;
         let largest = judged.largest_force;
         let fallen = self.fallen.into_iter();
         judged.fallen = fallen
             .map(|(id, force)| (id, relative(force, largest)))
             .collect();
-        Ok((judged, balance.map(Balance::close)))
+        Ok((judged, unbalanced))
     }
 }
 
@@ -381,7 +413,7 @@ impl Sink for Ledger<'_> {
         self.seconds = Forces::default();
         self.strays.clear();
         self.forget_floor();
-        self.repeated = 0;
+        self.repeated = [0; 2];
         self.lines = Lines::default();
         self.walls = 0;
     }
@@ -402,6 +434,22 @@ impl Sink for Ledger<'_> {
     }
 }
 
+/// Returns the rows of a contact. Equal ones are stored once.
+fn rows(
+    listed: &[Listed],
+    [first, second]: [&Forces; 2],
+    slot: usize,
+    ids: [u64; 2],
+) -> [Option<Measured>; 2] {
+    let first = first.get(slot, ids);
+    match listed.get(slot) {
+        None | Some(Listed::Never) => [None; 2],
+        Some(Listed::Once(_)) => [first, None],
+        Some(Listed::Twice) => [first; 2],
+        Some(Listed::Differently) => [first, second.get(slot, ids)],
+    }
+}
+
 /// The rows of a table with the force of the floor on each sphere.
 pub(super) struct FloorRows<'l, 'p> {
     ledger: &'l mut Ledger<'p>,
@@ -410,7 +458,6 @@ pub(super) struct FloorRows<'l, 'p> {
 
 impl<'l, 'p> FloorRows<'l, 'p> {
     pub(super) fn new(ledger: &'l mut Ledger<'p>) -> Self {
-        ledger.floor.expect_all();
         Self {
             ledger,
             seen: BTreeSet::new(),
@@ -421,7 +468,6 @@ impl<'l, 'p> FloorRows<'l, 'p> {
 impl Sink for FloorRows<'_, '_> {
     fn begin_step(&mut self) {
         self.ledger.forget_floor();
-        self.ledger.floor.expect_all();
         self.seen.clear();
     }
 
@@ -498,7 +544,7 @@ mod tests {
             for (sphere, force) in rows {
                 ledger.admit_floor(*sphere, *force, 1).unwrap();
             }
-            ledger.judge(false).unwrap().0
+            ledger.judge().unwrap().0
         };
         let normal = 4.0 / 3.0;
         let right = [2, 3, 4].map(|sphere| (sphere, Force::Along(normal)));

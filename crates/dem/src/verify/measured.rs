@@ -1,6 +1,7 @@
 //! The measured force between two spheres.
 
 use crate::Each;
+use crate::vector::plus;
 
 /// The maximum number of entries that are read, and of contacts in a pile that are compared.
 pub const MAX_ENTRIES: u64 = 100_000_000;
@@ -139,6 +140,19 @@ impl Measured {
         let apart = vectors.into_iter().flatten();
         let apart = apart.map(|(one, other)| distance(one, other));
         apart.fold((self.force - other.force).abs(), f64::max)
+    }
+
+    /// Returns the sum of two shares of one force.
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        let sum = |one: Option<[f64; 3]>, other: Option<[f64; 3]>| {
+            one.zip(other).map(|(one, other)| plus(one, other))
+        };
+        Self {
+            force: self.force + other.force,
+            vector: sum(self.vector, other.vector),
+            tangential: sum(self.tangential, other.tangential),
+            ..*self
+        }
     }
 
     /// Returns whether the force and the vector are 0.

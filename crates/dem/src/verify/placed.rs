@@ -119,7 +119,7 @@ impl Comparison {
                 .map_err(of_entry)?;
         }
         let (ledger, frame) = gathering.settle().map_err(of_entry)?;
-        let (judged, _) = ledger.judge(false).map_err(of_entry)?;
+        let (judged, _) = ledger.judge().map_err(of_entry)?;
         let frame = Some(frame).filter(|frame| *frame != Frame::OWN);
         Ok((Self::of(judged), frame))
     }

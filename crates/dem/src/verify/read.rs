@@ -69,7 +69,6 @@ pub struct Reader {
     folder: Option<PathBuf>,
     /// The largest distance of a sphere from its exact position, in radii, if contacts are matched by position.
     within: Option<f64>,
-    with_balance: bool,
     floor: Floor,
 }
 
@@ -79,8 +78,8 @@ pub struct Reader {
 pub struct Compared {
     /// The comparison with the exact forces.
     pub comparison: Comparison,
-    /// The residual force on each sphere, if the reader was asked for it.
-    pub unbalanced: Option<Unbalanced>,
+    /// The residual force on each sphere above the floor.
+    pub unbalanced: Unbalanced,
     /// The kind of the file.
     pub kind: FileKind,
     /// The dialect, if the file is a text table.
@@ -152,7 +151,6 @@ impl Reader {
             step: None,
             folder: None,
             within: None,
-            with_balance: false,
             floor: Floor::Glued,
         };
         if preset.is_by_place() {
@@ -272,30 +270,6 @@ impl Reader {
         self
     }
 
-    /// Returns this reader with a sum of the forces on each sphere, for 24 bytes per sphere.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile_dem::verify::Reader;
-    /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(2)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let table = "id1,id2,fx,fy,fz\n1,2,0,0,0.25\n1,3,0,0,0.25\n1,4,0,0,0.5\n";
-    /// let read = Reader::new().with_balance().compare(&packing, table.as_bytes())?;
-    /// assert_eq!(read.unbalanced.unwrap().to_string(), "0.0 N at sphere 1");
-    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
-    /// ```
-    #[must_use]
-    pub fn with_balance(self) -> Self {
-        Self {
-            with_balance: true,
-            ..self
-        }
-    }
-
     /// Returns this reader for piles on a floor. A rough floor adds tangential forces, friction and moments to the comparison.
     ///
     /// # Examples
@@ -307,7 +281,8 @@ impl Reader {
     /// let pile = Pile::discs(2)?;
     /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
     /// // N = 1/2 mg, and T = N·tan(θ/2) with tanθ = 3/4. The vectors are the forces on the upper disc.
-    /// let table = "id1,id2,fx,fy,fz,tx,ty,tz\n1,2,0.3,0,0.4,-0.13333333333,0,0.1\n1,3,-0.3,0,0.4,0.13333333333,0,0.1\n";
+    /// let table = "id1,id2,fx,fy,fz,tx,ty,tz\n1,2,0.3,0,0.4,-0.13333333333,0,0.1\n1,3,-0.3,0,0.4,0.13333333333,0,0.1\n\
+    ///              2,0,0,0,1.5,0.16666666667,0,0\n3,0,0,0,1.5,-0.16666666667,0,0\n";
     /// let read = Reader::new().on_floor(Floor::Rough).compare(&packing, table.as_bytes())?;
     /// assert_eq!(read.comparison.tangential(), 2);
     /// assert!(read.comparison.accepted(1e-9));
@@ -350,7 +325,7 @@ impl Reader {
     /// above and below it, a row of units, and decimal commas: its [`Dialect`]. Columns that are not needed may hold
     /// anything.
     ///
-    /// Memory is nine bytes for each contact of the pile, and 24 more if there are vectors. On a rough floor, it is 24 more for
+    /// Memory is nine bytes for each contact of the pile, and 24 more if there are vectors. It is 64 bytes for each sphere. On a rough floor, it is 24 more for
     /// tangential forces, and 48 for each sphere. It is twice as much if pairs
     /// are in two rows with different forces. Matching by position takes about 60 more bytes for each sphere. If the
     /// frame differs from that of the scene, it also takes eight bytes for each contact and for each number of a row. A
@@ -444,7 +419,7 @@ impl Reader {
             read.map_err(|refusal| Refusal::FloorTable(Box::new(refusal)))?;
         }
         let walls = ledger.walls();
-        let (judged, unbalanced) = ledger.judge(self.with_balance)?;
+        let (judged, unbalanced) = ledger.judge()?;
         let comparison = Comparison::of(judged);
         let judged = comparison.matched() + comparison.floor();
         if comparison.contacts() > 0 && judged == 0 {

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::comparison::Comparison;
 use super::difference::{Difference, Extra};
+use super::finding::{counted, short};
 use super::read::Compared;
 use super::unbalanced::float;
 use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
@@ -15,15 +16,29 @@ use cannonpile::lattice::{Dimension, Site};
 /// The number of missing contacts, and of extra pairs, that the text shows.
 const SHOWN: usize = 5;
 
+const INFINITE: &str = "inf";
+
+/// The entries of the csv, around those of a rough floor.
+const FIRST: &str = "accepted accept contacts matched repeated missing extra noise fixed largest_error rms_error worst \
+    beyond factor walls floor floor_error";
+const FRICTION: &str = "tangential tangential_error floor_friction_error net_moment";
+const LAST: &str = "frame unbalanced findings rows left_out table step";
+
+/// The entries of the text that are not 0.
+const LINES: &str = "rms_error floor_error tangential_error floor_friction_error net_moment repeated shares noise \
+    not_judged frame left_out table step scene_file";
+
 /// The report of a comparison at an accepted error.
 ///
-/// Text and csv have one row: `accepted, accept, contacts, matched, repeated, missing, extra, noise, fixed,
+/// The first line of the text is the verdict with its reason. Each other line says something else: a finding, the first missing
+/// contacts, the extra pairs with the greatest forces, the worst contact, what was not judged, and so on.
+///
+/// Csv has one row: `accepted, accept, contacts, matched, repeated, missing, extra, noise, fixed,
 /// largest_error, rms_error, worst, beyond, factor, walls, floor, floor_error, frame, unbalanced, findings,
 /// rows, left_out, table, step`. On a rough floor, `tangential, tangential_error, floor_friction_error, net_moment` come after
-/// `floor_error`. An error of nothing is missing, in json `null`. The text adds the meaning of each
-/// count. It also lists the first missing contacts, and the extra pairs with the greatest forces.
+/// `floor_error`. An error of nothing is missing, in json `null`.
 ///
-/// The json is an array of one object with the same keys and `largest_force`. Its entry `worst` is an object, and the
+/// The json is an array of one object with the same keys, `reason`, `shares`, `scene_file` and `largest_force`. Its entry `worst` is an object, and the
 /// arrays `missing_contacts` and `extra_pairs` have at most a thousand entries. An infinite error is `inf`, in json
 /// `null`. On a rough floor, an object `friction` has those of tangential forces, and `net_moment_sphere`.
 ///
@@ -51,6 +66,7 @@ pub struct Report<'c> {
     accept: f64,
     file: Option<&'c Compared>,
     source: Option<&'c Source>,
+    scene_file: Option<&'c str>,
 }
 
 /// The origin of the compared data, for a record that is kept.
@@ -96,6 +112,7 @@ impl<'c> Report<'c> {
             accept,
             file: None,
             source: None,
+            scene_file: None,
         }
     }
 
@@ -161,6 +178,27 @@ impl<'c> Report<'c> {
         }
     }
 
+    /// Returns the report with the name of the file with the scene, if the user did not give it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::FileFormat;
+    /// use cannonpile_dem::verify::{Comparison, Measured, Report};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// let comparison = Comparison::new(&packing, [Measured::new([1, 3], 0.46)])?;
+    /// let mut text = Vec::new();
+    /// Report::new(&comparison, 0.01).with_scene_file(Some("pile/scene.toml")).write(FileFormat::Text, &mut text)?;
+    /// assert!(String::from_utf8(text)?.ends_with("\nscene_file: pile/scene.toml, beside the table\n"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn with_scene_file(self, scene_file: Option<&'c str>) -> Self {
+        Self { scene_file, ..self }
+    }
+
     /// Writes the report.
     ///
     /// # Errors
@@ -180,203 +218,184 @@ impl<'c> Report<'c> {
     /// let mut text = Vec::new();
     /// Report::new(&comparison, 0.01).write(FileFormat::Text, &mut text)?;
     /// let text = String::from_utf8(text)?;
-    /// assert!(text.starts_with("accepted "));
+    /// assert!(text.starts_with("no: 2 of 3 contacts are missing\n"));
     /// // The text lists each missing contact: those with spheres 2 and 4.
     /// assert_eq!(text.matches("\nmissing: contact of sphere 1 (k=0, i=0, j=0) with sphere ").count(), 2);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn write(self, format: FileFormat, out: &mut dyn Write) -> Result<(), WriteError> {
+        let record = self.record();
         match format {
             FileFormat::Json => {
-                serde_json::to_writer_pretty(&mut *out, &self.json())?;
+                serde_json::to_writer_pretty(&mut *out, &self.json(record))?;
                 Ok(writeln!(out)?)
             }
-            FileFormat::Csv => self.table().write(format, NumberFormat::F64, out),
-            FileFormat::Text => {
-                self.table().write(format, NumberFormat::F64, out)?;
-                let (comparison, pairs) = (self.comparison, self.extra_pairs());
-                let missing = comparison.missing_contacts();
-                list("missing", missing, comparison.missing(), out)?;
-                list("extra", pairs, comparison.extra(self.accept), out)
+            FileFormat::Csv => self.table(&record).write(format, NumberFormat::F64, out),
+            FileFormat::Text => self.write_text(&record, out),
+        }
+    }
+
+    fn write_text(self, record: &Value, out: &mut dyn Write) -> Result<(), WriteError> {
+        let comparison = self.comparison;
+        let verdict = if record["accepted"] == true {
+            "yes"
+        } else {
+            "no"
+        };
+        let reason = record["reason"].as_str().unwrap_or_default();
+        writeln!(out, "{verdict}: {reason}")?;
+        let findings = comparison
+            .findings(self.accept)
+            .into_iter()
+            .map(|finding| finding.to_string());
+        for finding in findings.filter(|finding| finding != reason) {
+            writeln!(out, "finding: {finding}")?;
+        }
+        let (missing, extra) = (comparison.missing(), comparison.extra(self.accept));
+        list("missing", comparison.missing_contacts(), missing, out)?;
+        list("extra", self.extra_pairs(), extra, out)?;
+        if let Some(worst) = comparison.worst().filter(|worst| worst.error > 0.0) {
+            writeln!(out, "worst: {worst}")?;
+        }
+        for key in LINES.split_whitespace() {
+            let meaning = match key {
+                "repeated" => " rows list a contact again",
+                "shares" => " rows are shares of a force, and were added up",
+                "noise" => " other pairs with a force below the accepted error",
+                "scene_file" => ", beside the table",
+                _ => "",
+            };
+            let words = match value(record, key) {
+                Value::String(words) => words.clone(),
+                Value::Number(number) => match number.as_u64() {
+                    Some(count) => count.to_string(),
+                    None => format!("{:?}", short(number.as_f64().unwrap_or_default())),
+                },
+                _ => continue,
+            };
+            if words != "0" && words != "0.0" {
+                writeln!(out, "{key}: {words}{meaning}")?;
             }
         }
+        Ok(())
     }
 
-    fn table(self) -> Table<'static> {
-        let Self {
-            comparison, accept, ..
-        } = self;
-        let accepted = comparison.accepted(accept);
-        let count = |name, count: u64, meaning| (said(name, meaning), Cell::Integer(count.into()));
-        let error = |name, error: Option<f64>, meaning| {
-            let error = error.map_or(Cell::Missing, float);
-            (Column::measured(name, meaning), error)
-        };
-        let measured = "contacts that were measured";
-        let not_measured = "contacts with a force that were not";
-        let repeated = "rows that list a pair a second time";
-        let other = "other pairs with a force over accept times the largest";
-        let lesser = "other pairs with a lesser force";
-        let fixed = "pairs of the bottom layer, which are not judged";
-        let relative = "of the exact force, of the largest one where that is 0";
-        let beyond = "contacts with an error over accept";
-        let times = "times the exact force is every one that was measured";
-        let floor = "contacts with the floor whose normal forces are judged";
-        let of_floor = "of the exact normal force of the floor";
-        let factor = comparison.common_factor(accept);
-        let factor = factor.map_or(Cell::Missing, float);
-        let words =
-            |words: Option<String>| words.map_or(Cell::Missing, |words| Cell::Word(words.into()));
-        let findings: Vec<_> = comparison.findings(accept);
-        let findings = findings.iter().map(ToString::to_string).collect::<Vec<_>>();
-        let findings = Some(findings.join("; ")).filter(|findings| !findings.is_empty());
-        let walls = self.file.map_or(0, |file| file.walls);
-        let mut entries = vec![
+    /// Returns what the verdict says nothing about.
+    fn not_judged(self) -> Option<String> {
+        let (walls, fixed) = (self.walls(), self.comparison.fixed());
+        let no_floor = u64::from(self.comparison.floor() == 0);
+        let parts = [
+            (walls, counted(walls, "contact") + " with walls"),
+            (fixed, counted(fixed, "pair") + " of the bottom layer"),
             (
-                Column::plain("accepted"),
-                if accepted { "yes" } else { "no" }.into(),
+                no_floor,
+                "the forces of the floor, of which none is listed".into(),
             ),
-            error("accept", Some(accept), ""),
-            count("contacts", comparison.contacts(), ""),
-            count("matched", comparison.matched(), measured),
-            count("repeated", comparison.repeated(), repeated),
-            count("missing", comparison.missing(), not_measured),
-            count("extra", comparison.extra(accept), other),
-            count("noise", comparison.noise(accept), lesser),
-            count("fixed", comparison.fixed(), fixed),
-            error("largest_error", comparison.largest_error(), relative),
-            error("rms_error", comparison.rms_error(), relative),
-            (
-                Column::plain("worst"),
-                words(comparison.worst().map(ToString::to_string)),
-            ),
-            count("beyond", comparison.beyond(accept), beyond),
-            (Column::measured("factor", times), factor),
-            count("walls", walls, "contacts with walls, which are not judged"),
-            count("floor", comparison.floor(), floor),
-            error("floor_error", comparison.floor_error(), of_floor),
         ];
-        if comparison.has_friction() {
-            let tangential = "contacts whose tangential forces are judged";
-            let of_tangential = "of the exact tangential force, of the largest one where that is 0";
-            let moment = comparison.net_moment().map(|(_, moment)| moment);
-            entries.extend([
-                count("tangential", comparison.tangential(), tangential),
-                error(
-                    "tangential_error",
-                    comparison.tangential_error(),
-                    of_tangential,
+        let parts = parts.into_iter().filter(|(count, _)| *count > 0);
+        let parts: Vec<_> = parts.map(|(_, part)| part).collect();
+        Some(parts.join(", ")).filter(|parts| !parts.is_empty())
+    }
+
+    fn walls(self) -> u64 {
+        self.file.map_or(0, |file| file.walls)
+    }
+
+    fn table(self, record: &Value) -> Table<'static> {
+        let friction = if self.comparison.has_friction() {
+            FRICTION
+        } else {
+            ""
+        };
+        let keys = [FIRST, friction, LAST]
+            .into_iter()
+            .flat_map(str::split_whitespace);
+        let entries = keys.map(|key| {
+            let word = |text: String| Cell::Word(text.into());
+            let cell = match value(record, key) {
+                Value::Null => Cell::Missing,
+                Value::Bool(is) => if *is { "yes" } else { "no" }.into(),
+                Value::Number(number) => match number.as_u64() {
+                    Some(count) => Cell::Integer(count.into()),
+                    None => float(number.as_f64().unwrap_or_default()),
+                },
+                Value::String(text) => word(text.clone()),
+                Value::Array(findings) if findings.is_empty() => Cell::Missing,
+                Value::Array(findings) => {
+                    let findings = findings.iter().filter_map(Value::as_str);
+                    word(findings.collect::<Vec<_>>().join("; "))
+                }
+                Value::Object(_) => word(
+                    self.comparison
+                        .worst()
+                        .map_or(String::new(), ToString::to_string),
                 ),
-                error(
-                    "floor_friction_error",
-                    comparison.floor_friction_error(),
-                    of_tangential,
-                ),
-                error(
-                    "net_moment",
-                    moment,
-                    "R times the largest tangential force, on one sphere",
-                ),
-            ]);
-        }
-        entries.extend([
-            (Column::plain("frame"), words(self.frame())),
-            (Column::plain("unbalanced"), words(self.unbalanced())),
-            (Column::plain("findings"), words(findings)),
-            (said("rows", "rows that were compared"), self.rows()),
-            (Column::plain("left_out"), words(self.left_out())),
-            (Column::plain("table"), words(self.kind())),
-            (Column::plain("step"), words(self.step())),
-        ]);
-        Table::record(entries)
+            };
+            (Column::plain(key), cell)
+        });
+        Table::record(entries.collect())
     }
 
-    /// Returns the number of rows that were compared.
-    fn rows(self) -> Cell {
-        let rows = self.file.map(|file| Cell::Integer(file.rows.used.into()));
-        rows.unwrap_or(Cell::Missing)
-    }
-
-    /// Returns the rows that were left out, and why.
-    fn left_out(self) -> Option<String> {
-        let words = self.file?.rows.to_string();
-        Some(words).filter(|words| !words.is_empty())
-    }
-
-    /// Returns the kind of the file and the dialect of a text table.
-    fn kind(self) -> Option<String> {
-        let file = self.file?;
-        Some(match &file.dialect {
-            Some(dialect) => dialect.to_string(),
-            None => file.kind.to_string(),
-        })
-    }
-
-    /// Returns the step that was read.
-    fn step(self) -> Option<String> {
-        self.file?.step.clone()
-    }
-
-    /// Returns the frame of the table, if it differs from that of the scene.
-    fn frame(self) -> Option<String> {
-        self.file?.frame.map(|frame| frame.to_string())
-    }
-
-    /// Returns the greatest residual force.
-    fn unbalanced(self) -> Option<String> {
-        let unbalanced = self.file?.unbalanced.as_ref()?;
-        Some(unbalanced.to_string())
-    }
-
-    fn json(self) -> Value {
+    /// Returns the whole record. An infinite error is `inf`.
+    fn record(self) -> Value {
         let Self {
             comparison, accept, ..
         } = self;
-        let missing = comparison.missing_contacts();
+        let error = |error: Option<f64>| match error {
+            Some(error) if error.is_infinite() => INFINITE.into(),
+            error => json!(error),
+        };
+        let file = self.file;
         let findings: Vec<_> = comparison.findings(accept);
-        let mut record = json!({
+        let moment = comparison.net_moment();
+        let friction = json!({
+            "tangential": comparison.tangential(),
+            "tangential_error": error(comparison.tangential_error()),
+            "floor_friction_error": error(comparison.floor_friction_error()),
+            "net_moment": error(moment.map(|(_, moment)| moment)),
+            "net_moment_sphere": moment.map(|(sphere, _)| sphere),
+        });
+        json!({
             "accepted": comparison.accepted(accept),
+            "reason": comparison.reason(accept),
             "accept": accept,
             "contacts": comparison.contacts(),
             "matched": comparison.matched(),
             "repeated": comparison.repeated(),
+            "shares": comparison.shares(),
             "missing": comparison.missing(),
             "extra": comparison.extra(accept),
             "noise": comparison.noise(accept),
             "fixed": comparison.fixed(),
             "largest_force": comparison.largest_force(),
-            "largest_error": comparison.largest_error(),
-            "rms_error": comparison.rms_error(),
+            "largest_error": error(comparison.largest_error()),
+            "rms_error": error(comparison.rms_error()),
             "worst": comparison.worst().map(contact),
             "beyond": comparison.beyond(accept),
             "factor": comparison.common_factor(accept),
-            "walls": self.file.map_or(0, |file| file.walls),
+            "walls": self.walls(),
             "floor": comparison.floor(),
-            "floor_error": comparison.floor_error(),
-            "frame": self.frame(),
-            "unbalanced": self.unbalanced(),
+            "floor_error": error(comparison.floor_error()),
+            "friction": Some(friction).filter(|_| comparison.has_friction()),
+            "frame": file.and_then(|file| file.frame).map(|frame| frame.to_string()),
+            "unbalanced": file.map(|file| file.unbalanced.to_string()),
             "findings": findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
-            "rows": self.file.map(|file| file.rows.used),
-            "left_out": self.left_out(),
-            "table": self.kind(),
-            "step": self.step(),
-            "missing_contacts": missing.iter().map(contact).collect::<Vec<_>>(),
-            "extra_pairs": self.extra_pairs().iter().map(pair).collect::<Vec<_>>(),
-        });
-        let Value::Object(entries) = &mut record else {
-            return Value::Array(vec![record]);
-        };
-        if comparison.has_friction() {
-            let moment = comparison.net_moment();
-            let friction = json!({
-                "tangential": comparison.tangential(),
-                "tangential_error": comparison.tangential_error(),
-                "floor_friction_error": comparison.floor_friction_error(),
-                "net_moment": moment.map(|(_, moment)| moment),
-                "net_moment_sphere": moment.map(|(sphere, _)| sphere),
-            });
-            entries.insert("friction".into(), friction);
-        }
+            "not_judged": self.not_judged(),
+            "rows": file.map(|file| file.rows.used),
+            "left_out": file.map(|file| file.rows.to_string()).filter(|rows| !rows.is_empty()),
+            "table": file.map(|file| match &file.dialect {
+                Some(dialect) => dialect.to_string(),
+                None => file.kind.to_string(),
+            }),
+            "step": file.and_then(|file| file.step.clone()),
+            "scene_file": self.scene_file,
+        })
+    }
+
+    fn json(self, mut record: Value) -> Value {
+        let missing = self.comparison.missing_contacts();
+        record["missing_contacts"] = missing.iter().map(contact).collect();
+        record["extra_pairs"] = self.extra_pairs().iter().map(pair).collect();
         if let Some(source) = self.source {
             let of = |source: &Source| {
                 json!({
@@ -391,8 +410,9 @@ impl<'c> Report<'c> {
             if let Some(floor) = &source.floor {
                 origin["floor"] = of(floor);
             }
-            entries.insert("source".into(), origin);
+            record["source"] = origin;
         }
+        without_infinite(&mut record);
         Value::Array(vec![record])
     }
 
@@ -402,6 +422,21 @@ impl<'c> Report<'c> {
         let extra = pairs.partition_point(|pair| pair.error > self.accept);
         // A partition point is at most the length.
         &pairs[..extra]
+    }
+}
+
+/// Returns an entry of a record, or one of its entries for a rough floor.
+fn value<'r>(record: &'r Value, key: &str) -> &'r Value {
+    record["friction"].get(key).unwrap_or(&record[key])
+}
+
+/// Replaces infinite errors by null.
+fn without_infinite(record: &mut Value) {
+    for (_, value) in record.as_object_mut().into_iter().flatten() {
+        without_infinite(value);
+        if value == INFINITE {
+            *value = Value::Null;
+        }
     }
 }
 
@@ -421,14 +456,6 @@ fn list<T: ToString>(
         writeln!(out, "{what}: {left} more")?;
     }
     Ok(())
-}
-
-/// Returns a column with its meaning.
-fn said(name: &'static str, meaning: &'static str) -> Column {
-    Column {
-        quantity: false,
-        ..Column::measured(name, meaning)
-    }
 }
 
 fn contact(difference: &Difference) -> Value {

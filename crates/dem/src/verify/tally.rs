@@ -3,6 +3,7 @@
 use super::difference::{Difference, Extra};
 use super::floor::OnFloor;
 use super::friction::WithFriction;
+use super::loads::Loads;
 use super::measured::{Measured, distance, relative, sort_decreasing};
 use super::symptoms::Symptoms;
 use crate::{Each, NumberedContact, NumberedPile};
@@ -33,8 +34,9 @@ pub(super) struct Judged {
     pub(super) first_missing: Vec<Difference>,
     pub(super) fixed: u64,
     pub(super) largest_force: f64,
-    /// The number of rows that list a pair a second time.
+    /// The number of rows that list a contact again, and of rows that are shares of another row.
     pub(super) repeated: u64,
+    pub(super) shares: u64,
     /// The relative errors of the measured contacts, in decreasing order.
     pub(super) errors: Vec<f64>,
     /// The forces of pairs without a contact, relative to the largest force, in decreasing order.
@@ -50,8 +52,14 @@ pub(super) struct Judged {
     pub(super) fallen: Vec<(u64, f64)>,
     /// The bottom spheres without a row in a table of the floor, and the first of them.
     pub(super) off_floor: Option<(u64, u64)>,
+    /// The largest difference of a contact with a force, in N.
+    pub(super) difference: f64,
     /// The patterns in the contacts with a force.
     pub(super) symptoms: Symptoms,
+    /// The patterns in the loads of the spheres.
+    pub(super) loads: Loads,
+    /// The stiffness of springs that explains the errors, in N/m.
+    pub(super) stiffness: Option<f64>,
     /// The result for tangential forces, if the floor is rough.
     pub(super) friction: Option<WithFriction>,
 }
@@ -112,7 +120,9 @@ impl Tally {
                 (measured, apart) = (second, other);
             }
         }
+        judged.symptoms.digits.see(&measured);
         let (error, worst) = if loaded {
+            judged.difference = judged.difference.max(apart);
             judged.symptoms.see(exact, &measured);
             (relative(apart, exact.force.abs()), &mut judged.worst)
         } else {

@@ -9,6 +9,7 @@ mod friction;
 mod lammps;
 mod places;
 mod refinement;
+mod runs;
 mod tables;
 mod vtk;
 mod written;

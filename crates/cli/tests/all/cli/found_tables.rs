@@ -306,25 +306,80 @@ fn pieces_that_are_not_there_are_named() {
 }
 
 #[test]
-fn compressed_files() {
-    answers("gzip-with-zeros-at-the-end", "in.csv.gz", &EXACT);
-}
-
-#[test]
-fn parts_of_forces() {
-    let rough =
-        "verify in.csv --layers 2 --top triangle:3 --spacing 1.2 --floor rough --floor-table";
-    for (folder, columns) in [
-        ("tangential-columns-dropped", "fx=fx,fy=fy,fz=fz"),
-        ("whole-and-tangential-force", "fx=fx-tx,fy=fy-ty,fz=fz-tz"),
+fn floors_and_parts_of_forces() {
+    let rough = "--layers 2 --top triangle:3 --spacing 1.2 --floor rough";
+    let with_floor = format!("{rough} --floor-table floor.csv");
+    let missing =
+        |spheres: &str| format!("no: the force of the floor is missing below {spheres}, ");
+    let whole = "whole-and-tangential-force";
+    for (folder, arguments, said) in [
+        (
+            "floor-row-of-one-sphere-missing",
+            "in.csv --layers 3",
+            missing("1 bottom sphere"),
+        ),
+        (
+            "floor-row-of-one-sphere-missing-by-place",
+            "in.csv --layers 3 --match place",
+            missing("1 bottom sphere"),
+        ),
+        (
+            "floor-row-of-one-sphere-only",
+            "in.csv --layers 3",
+            missing("5 bottom spheres"),
+        ),
+        (
+            "rough-floor-row-of-one-sphere-missing",
+            &format!("in.csv {rough}"),
+            missing("1 bottom sphere"),
+        ),
+        (
+            "rough-floor-without-its-forces",
+            &format!("in.csv {rough}"),
+            missing("10 bottom spheres"),
+        ),
+        (
+            whole,
+            &format!("in.csv {with_floor}"),
+            "no: 18 of 18 contacts are off".into(),
+        ),
+        (
+            whole,
+            &format!("in.csv {with_floor} --columns fx=fx-tx,fy=fy-ty,fz=fz-tz"),
+            "yes: 18 contacts and 10 with the floor agree".into(),
+        ),
+        (
+            "tangential-columns-dropped",
+            &format!("in.csv {with_floor} --columns fx=fx,fy=fy,fz=fz"),
+            "yes: 18 contacts and 10 with the floor agree".into(),
+        ),
+        (
+            "gzip-with-zeros-at-the-end",
+            "in.csv.gz --layers 3",
+            "yes: 12 contacts agree".into(),
+        ),
     ] {
         let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/all/cli/tables");
         let mut command = command();
-        command.current_dir(tables.join(folder));
         command
-            .args(rough.split(' '))
-            .args(["floor.csv", "--columns", columns]);
+            .current_dir(tables.join(folder))
+            .arg("verify")
+            .args(arguments.split(' '));
         let output = output(&mut command);
-        assert_eq!(output.status.code(), Some(0), "{folder}: {output:?}");
+        let out = String::from_utf8(output.stdout).expect("text");
+        assert!(out.starts_with(&said), "{folder}: {out}");
+        let is_yes = said.starts_with("yes");
+        assert_eq!(output.status.code(), Some(i32::from(!is_yes)), "{folder}");
+        // One finding names the whole forces, and none a factor.
+        let findings = out.lines().filter(|line| line.starts_with("finding: "));
+        let findings: Vec<_> = findings.collect();
+        let is_whole = !is_yes && folder == whole;
+        assert_eq!(findings.len(), usize::from(is_whole), "{out}");
+        assert!(
+            findings
+                .iter()
+                .all(|said| said.contains("are the whole forces")),
+            "{out}"
+        );
     }
 }

@@ -38,13 +38,13 @@ fn accepts_tables_of_other_codes() {
     });
     let columns = "--columns id1=A,id2=B,force=-Fn --first-id 0";
     let table = exported.stdout(&format!("verify a.txt {columns} {SCENE} --accept 0"));
-    assert!(table.starts_with("accepted       yes"), "{table}");
+    assert!(table.starts_with("yes: "), "{table}");
     let lines = "pile/contacts.vtp";
     for matching in ["numbers", "place", "place --within 0.01"] {
         let table = exported.stdout(&format!(
             "verify {lines} --match {matching} {SCENE} --accept 0"
         ));
-        assert!(table.contains("\nframe          -\n"), "{table}");
+        assert!(!table.contains("\nframe"), "{table}");
     }
     let table = exported.stdout(&format!("verify {lines} --preset lethe {SCENE} --accept 0"));
     assert!(table.contains("yes"), "{table}");
@@ -56,7 +56,7 @@ fn residual_forces_are_written_to_a_file() {
     for ending in ["csv", "json"] {
         let rest = format!("rest.{ending}");
         let table = exported.stdout(&format!("verify {CONTACTS} {SCENE} --unbalanced {rest}"));
-        assert!(table.contains("\nunbalanced     "), "{table}");
+        assert!(table.starts_with("yes: "), "{table}");
         let text = exported.read(&rest);
         let rows = match ending {
             "csv" => text.lines().count() - 1,

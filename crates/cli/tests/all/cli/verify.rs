@@ -50,14 +50,10 @@ fn no(folder: &Folder, arguments: &str) -> String {
     String::from_utf8(stdout).expect("text")
 }
 
-/// Returns the value on a line of the report, without its explanation.
-fn value<'t>(table: &'t str, name: &str) -> &'t str {
-    let line = table.lines().find(|line| line.starts_with(name));
-    let value = line.map(|line| line[name.len()..].trim()).expect("a line");
-    match name {
-        "worst" => value,
-        _ => value.split(' ').next().expect("a word"),
-    }
+/// Returns the record of a report in json.
+fn record(json: &str) -> serde_json::Value {
+    let rows: serde_json::Value = serde_json::from_str(json).expect("json");
+    rows[0].clone()
 }
 
 #[test]
@@ -67,16 +63,15 @@ fn exact_forces_have_zero_error() {
         "--layers 4 --mass 0.3 --gravity 9.81 --radius 0.01 --spacing 5/4",
     ] {
         let folder = Folder::with("exact.csv", exact(scene));
-        let table = folder.stdout(&format!("verify exact.csv {scene} --accept 0"));
-        for (name, want) in [
-            ("accepted", "yes"),
-            ("missing", "0"),
-            ("extra", "0"),
-            ("largest_error", "0.0"),
-        ] {
-            assert_eq!(value(&table, name), want);
+        let json = folder.stdout(&format!(
+            "verify exact.csv {scene} --accept 0 --format json"
+        ));
+        let record = record(&json);
+        assert_eq!(record["accepted"], true);
+        for name in ["missing", "extra", "largest_error"] {
+            assert_eq!(record[name].as_f64(), Some(0.0), "{name}");
         }
-        assert_eq!(value(&table, "matched"), value(&table, "contacts"));
+        assert_eq!(record["matched"], record["contacts"]);
     }
 }
 
@@ -114,9 +109,10 @@ fn wrong_missing_and_extra_contacts_are_named() {
     let csv = exact("--layers 3").replace("\n1,4,0.46225016352102427,", "\n1,4,0.5,");
     let folder = Folder::with("wrong.csv", csv);
     let table = no(&folder, "verify wrong.csv --layers 3");
-    assert_eq!(value(&table, "accepted"), "no");
-    let worst = "contact of sphere 1 (k=0, i=0, j=0) with sphere 4 along gamma: measured 0.5 N, exact 0.46225016352102427 N";
-    assert_eq!(value(&table, "worst"), worst);
+    let reason = "no: 1 of 12 contacts is off by more than 1e-6, by up to 0.08167\n";
+    assert!(table.starts_with(reason), "{table}");
+    let worst = "worst: contact of sphere 1 (k=0, i=0, j=0) with sphere 4 along gamma: measured 0.5 N, exact 0.46225016352102427 N";
+    assert!(table.contains(worst), "{table}");
 
     let gone = exact("--layers 3")
         .lines()
@@ -124,19 +120,16 @@ fn wrong_missing_and_extra_contacts_are_named() {
         .fold(String::new(), |text, line| text + line + "\n");
     folder.write("gone.csv", gone + "2,3,0.25,0,0,0\n");
     let table = no(&folder, "verify gone.csv --layers 3");
-    assert_eq!(
-        (value(&table, "missing "), value(&table, "extra ")),
-        ("3", "1")
-    );
+    let reason = "no: 3 of 12 contacts are missing; 1 of the other pairs has a force\n";
+    assert!(table.starts_with(reason), "{table}");
     let missing = "missing: contact of sphere 3 (k=1, i=1, j=0) with sphere 6 along alpha: not measured, exact 0.46225016352102427 N";
     assert!(table.contains(missing), "{table}");
     let extra =
         "extra: spheres 2 (k=1, i=0, j=0) and 3 (k=1, i=1, j=0) have no contact: measured 0.25 N";
-    assert!(table.ends_with(&format!("{extra}\n")), "{table}");
+    assert!(table.contains(extra), "{table}");
 
     let json = no(&folder, "verify gone.csv --layers 3 --format json");
-    let rows: serde_json::Value = serde_json::from_str(&json).expect("json");
-    let row = &rows[0];
+    let row = record(&json);
     assert_eq!(row["accepted"], false);
     assert_eq!(
         (&row["matched"], &row["missing"], &row["extra"]),
@@ -151,15 +144,13 @@ fn wrong_missing_and_extra_contacts_are_named() {
 #[test]
 fn wrong_gravity_is_reported_as_a_factor() {
     let folder = Folder::with("g.csv", exact("--layers 3 --gravity 9.81"));
-    let table = no(&folder, "verify g.csv --layers 3");
-    assert_eq!(value(&table, "beyond"), value(&table, "contacts"));
-    let factor: f64 = value(&table, "factor").parse().expect("a number");
+    let wrong = record(&no(&folder, "verify g.csv --layers 3 --format json"));
+    assert_eq!(wrong["beyond"], wrong["contacts"]);
+    let factor = wrong["factor"].as_f64().expect("a number");
     assert!((factor - 9.81).abs() < 1e-12);
-    let right = folder.stdout("verify g.csv --layers 3 --gravity 9.81");
-    assert_eq!(
-        (value(&right, "beyond"), value(&right, "factor")),
-        ("0", "-")
-    );
+    let right = record(&folder.stdout("verify g.csv --layers 3 --gravity 9.81 --format json"));
+    assert_eq!(right["beyond"], 0);
+    assert!(right["factor"].is_null());
 }
 
 #[test]
@@ -188,8 +179,29 @@ fn infinite_table_is_rejected_at_the_third_row_of_a_pair() {
 fn missing_contacts_are_counted_and_the_first_are_named() {
     let folder = Folder::with("one.csv", "id1,id2,force\n1,2,0.46225016352102427\n");
     let table = no(&folder, "verify one.csv --layers 5");
-    assert_eq!(value(&table, "missing "), "59");
-    assert!(table.ends_with("missing: 54 more\n"));
+    assert!(
+        table.starts_with("no: 59 of 60 contacts are missing\n"),
+        "{table}"
+    );
+    assert!(table.contains("\nmissing: 54 more\n"));
+}
+
+#[test]
+fn the_scene_beside_a_table_is_read_if_none_is_given() {
+    let folder = Folder::with("g.csv", exact("--layers 3 --gravity 9.81"));
+    folder.write("scene.toml", "layers = 3\ngravity = 9.81\n");
+    let said = "\nscene_file: scene.toml, beside the table\n";
+    let table = folder.stdout("verify g.csv");
+    assert!(
+        table.starts_with("yes: 12 contacts agree") && table.ends_with(said),
+        "{table}"
+    );
+    // Any option of the scene replaces the file.
+    let other = no(&folder, "verify g.csv --layers 3");
+    assert!(!other.contains("scene.toml"), "{other}");
+    folder.write("scene.toml", "layers = 3\ngravity = fast\n");
+    let line = folder.refusal("verify g.csv");
+    assert!(line.starts_with("error: scene.toml: line 2"), "{line}");
 }
 
 #[test]

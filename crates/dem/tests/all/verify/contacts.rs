@@ -7,7 +7,8 @@ use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
 use cannonpile_dem::table::FileFormat;
 use cannonpile_dem::verify::{
-    Columns, Comparison, Fault, Finding, Force, Level, Measured, Placed, Reader, Refusal, Report,
+    Columns, Comparison, Fault, FindingKind, Force, Level, Measured, Placed, Reader, Refusal,
+    Report,
 };
 
 use super::{compare, magnitudes, packing, perfect, piles, ratio};
@@ -59,11 +60,11 @@ fn a_force_of_0_is_a_measurement_with_an_error_of_1() {
             assert_eq!(comparison.beyond(1.0_f64.next_down()), 1);
             assert_eq!(comparison.worst().unwrap().ids, ids);
             assert!(comparison.worst().unwrap().measured.is_some());
-            let finding = Finding::Zero {
-                contacts: 1,
-                are_all: false,
+            let [finding] = &comparison.findings(1e-6)[..] else {
+                panic!();
             };
-            assert_eq!(comparison.findings(1e-6), [finding]);
+            let said = "a force of 0 was measured at 1 of the contacts with a force";
+            assert_eq!(finding.to_string(), said);
         }
     }
     let zeros: Vec<_> = exact
@@ -73,7 +74,7 @@ fn a_force_of_0_is_a_measurement_with_an_error_of_1() {
     let comparison = compare(&packing, &zeros);
     assert_eq!(comparison.beyond(0.5), 30);
     assert_eq!(comparison.largest_error(), Some(1.0));
-    let [finding] = comparison.findings(1e-6)[..] else {
+    let [finding] = &comparison.findings(1e-6)[..] else {
         panic!();
     };
     assert!(finding.to_string().starts_with("all measured forces are 0"));
@@ -82,11 +83,10 @@ fn a_force_of_0_is_a_measurement_with_an_error_of_1() {
         .iter()
         .map(|one| Measured::new(one.ids, 2.0 * one.force));
     let doubled: Vec<_> = zeros[..1].iter().copied().chain(doubled).collect();
-    let [Finding::Zero { contacts: 1, .. }, Finding::Factor(2.0)] =
-        compare(&packing, &doubled).findings(1e-6)[..]
-    else {
-        panic!();
-    };
+    let findings = compare(&packing, &doubled).findings(1e-6);
+    let kinds: Vec<_> = findings.iter().map(|finding| finding.kind).collect();
+    assert_eq!(kinds, [FindingKind::Zero, FindingKind::Factor]);
+    assert!(findings[1].text.starts_with("all forces are 2.0 times"));
 }
 
 #[test]
@@ -156,6 +156,36 @@ fn a_pair_may_be_listed_once_in_each_order() {
 }
 
 #[test]
+fn rows_of_a_contact_are_repetitions_or_shares() {
+    for pile in piles() {
+        let packing = packing(&pile, ratio(6, 5));
+        let exact = perfect(&packing);
+        let floor = on_floor(&packing);
+        let floor = floor
+            .iter()
+            .map(|(id, normal)| Measured::new([*id, 0], *normal));
+        let all: Vec<_> = exact.iter().copied().chain(floor).collect();
+        let half = |one: &Measured| Measured {
+            force: one.force / 2.0,
+            vector: one.vector.map(|vector| vector.map(|x| x / 2.0)),
+            ..*one
+        };
+        let halves: Vec<_> = all.iter().map(half).collect();
+        let rows = all.len() as u64;
+        for (rows, counts) in [
+            ([&all[..], &all].concat(), (rows, 0)),
+            ([&halves[..], &halves].concat(), (0, rows)),
+        ] {
+            let comparison = compare(&packing, &rows);
+            assert!(comparison.accepted(1e-15), "{comparison}");
+            assert_eq!((comparison.repeated(), comparison.shares()), counts);
+        }
+        // Half of each force alone is wrong.
+        assert!(!compare(&packing, &halves).accepted(0.4));
+    }
+}
+
+#[test]
 fn two_different_forces_of_a_pair_contradict_each_other() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(6, 5));
@@ -181,10 +211,9 @@ fn two_different_forces_of_a_pair_contradict_each_other() {
             );
             assert_eq!((comparison.matched(), comparison.repeated()), (30, 1));
             let found = comparison.findings(0.2);
-            assert!(
-                found.contains(&Finding::Contradiction { pairs: 1 }),
-                "{found:?}"
-            );
+            let said = "two rows disagree on the force of 1 of the pairs";
+            let is_said = found.iter().any(|finding| finding.text.starts_with(said));
+            assert!(is_said, "{found:?}");
         }
     }
     // Each of two forces is within the accepted error, but not their difference.
@@ -325,10 +354,9 @@ fn the_floor_is_judged() {
             let comparison = compare(&packing, &wrong);
             assert!(!comparison.accepted(1e-3), "{comparison}");
             let found = comparison.findings(1e-3);
-            assert!(
-                matches!(found[..], [Finding::Floor { spheres: 1, .. }]),
-                "{found:?}"
-            );
+            let said = "the normal force of the floor is wrong at 1 of the bottom spheres";
+            assert!(found[0].text.starts_with(said), "{found:?}");
+            assert_eq!(found.len(), 1, "{found:?}");
         }
     }
 }
@@ -446,14 +474,19 @@ fn a_force_and_its_vector_that_disagree_are_reported() {
     let planted = |change: fn(&mut Measured)| {
         let mut rows = exact.clone();
         rows.iter_mut().skip(2).for_each(change);
-        compare(&packing, &rows).findings(1e-6)
+        let [finding] = &compare(&packing, &rows).findings(1e-6)[..] else {
+            panic!();
+        };
+        assert_eq!(finding.kind, FindingKind::Disagreement);
+        finding.to_string()
     };
     let found = |forces_are_exact, vectors_are_exact| {
-        vec![Finding::Disagreement {
-            contacts: 28,
-            forces_are_exact,
-            vectors_are_exact,
-        }]
+        let which = match (forces_are_exact, vectors_are_exact) {
+            (true, _) => "all forces are the exact ones",
+            (_, true) => "all vectors are the exact ones",
+            _ => "neither are the exact ones at all contacts",
+        };
+        format!("force and vector disagree at 28 of the contacts: {which}")
     };
     assert_eq!(planted(|one| one.force = 0.0), found(false, true));
     assert_eq!(planted(|one| one.force *= 2.0), found(false, true));
@@ -471,7 +504,7 @@ fn a_force_and_its_vector_that_disagree_are_reported() {
     for one in &mut rows {
         one.force *= 1e3;
     }
-    let [finding] = compare(&packing, &rows).findings(1e-6)[..] else {
+    let [finding] = &compare(&packing, &rows).findings(1e-6)[..] else {
         panic!();
     };
     assert_eq!(

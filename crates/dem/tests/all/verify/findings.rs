@@ -5,7 +5,7 @@ use std::fmt::Write;
 use cannonpile::lattice::Region;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Packing, Pile};
-use cannonpile_dem::verify::{Finding, Measured, Reader};
+use cannonpile_dem::verify::{FindingKind, Measured, Reader};
 
 use super::{compare, packing, perfect, ratio};
 
@@ -56,8 +56,8 @@ fn a_common_factor_is_reported_with_its_likely_cause() {
             (1e3, "units"),
             (1e-5, "units"),
             (-1.0, "tensile forces positive"),
-            (2.0, "radius and diameter"),
-            (1.37, "mass, gravity or stiffness"),
+            (2.0, "mass differ by a factor of 2"),
+            (1.37, "mass, gravity or spacing differ"),
         ] {
             let scaled = right
                 .iter()
@@ -79,10 +79,10 @@ fn swapped_axes_and_mirror_images_are_reported() {
         let packing = packing(&pile, ratio(11, 10));
         let right = perfect(&packing);
         let minus = with_vectors(&right, |vector| vector.map(|x| -x));
-        assert_eq!(
-            compare(&packing, &minus).findings(1e-6),
-            [Finding::SecondSphere]
-        );
+        let [second] = &compare(&packing, &minus).findings(1e-6)[..] else {
+            panic!();
+        };
+        assert_eq!(second.kind, FindingKind::SecondSphere);
         for (turn, said) in [
             (
                 (|[x, y, z]: [f64; 3]| [x, -y, z]) as fn([f64; 3]) -> [f64; 3],
@@ -157,14 +157,14 @@ fn tangential_forces_are_reported() {
 fn residual_forces_are_summed_on_each_sphere() {
     for pile in piles().into_iter().chain([Pile::discs(5).unwrap()]) {
         let packing = packing(&pile, ratio(11, 10));
-        let reader = Reader::new().with_balance();
+        let reader = Reader::new();
         let mut table = String::from("id1,id2,force\n");
         for one in perfect(&packing) {
             let [a, b] = one.ids;
             writeln!(table, "{a},{b},{:?}", one.force).unwrap();
         }
         let read = reader.compare(&packing, table.as_bytes()).unwrap();
-        let unbalanced = read.unbalanced.unwrap();
+        let unbalanced = read.unbalanced;
         let (_, least) = unbalanced.greatest().unwrap();
         assert!(least < 1e-12 * read.comparison.largest_force(), "{least}");
         // The force between sphere 2 and one sphere below is half a newton greater.
@@ -178,7 +178,7 @@ fn residual_forces_are_summed_on_each_sphere() {
         let read = reader
             .compare(&packing, lines.join("\n").as_bytes())
             .unwrap();
-        let forces = read.unbalanced.unwrap();
+        let forces = read.unbalanced;
         let norms = forces
             .forces()
             .iter()
