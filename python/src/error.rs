@@ -123,7 +123,6 @@ fn of_horizontal(error: &cannonpile_horizontal::Error) -> Option<&'static str> {
     use cannonpile_horizontal::Error;
 
     match error {
-        Error::NotSolved { .. } => Some("layers"),
         Error::Weightless => Some("weightless"),
         _ => None,
     }

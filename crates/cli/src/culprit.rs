@@ -138,7 +138,6 @@ const fn of_horizontal(error: &cannonpile_horizontal::Error) -> Option<Culprit> 
     use cannonpile_horizontal::Error;
 
     match error {
-        Error::NotSolved { .. } => Some(Culprit::Key(Key::Layers)),
         Error::Weightless => Some(Culprit::Key(Key::Weightless)),
         _ => None,
     }

@@ -8,7 +8,7 @@ use cannonpile::lattice::Site;
 use cannonpile::shape::{Rows, Selection};
 
 use crate::Error;
-use crate::bounds::{NormalBound, NormalBounds, bounds};
+use crate::bounds::{NormalBounds, bounds};
 use crate::symmetry::AxisSymmetry;
 
 /// The number of following sites that are searched for work for other threads.
@@ -143,14 +143,9 @@ impl NormalBounds {
     /// Returns the bounds for an image of the sphere: the certificates are about the sphere itself, so they are
     /// dropped.
     fn without_certificates(&self) -> Self {
-        let bare = |bound: &NormalBound| NormalBound {
-            normal: bound.normal.clone(),
-            attained: bound.attained,
-            certificate: None,
-        };
-        Self {
-            least: bare(&self.least),
-            greatest: bare(&self.greatest),
-        }
+        let mut bare = self.clone();
+        bare.least.certificate = None;
+        bare.greatest.certificate = None;
+        bare
     }
 }

@@ -9,10 +9,10 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use crate::Error;
-use crate::certificate::{Certificate, Claim, Extreme, Refusal};
+use crate::certificate::{Certificate, Claim, Extreme, Refusal, work};
+use crate::exact_simplex::Solution;
 use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
-use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
-use crate::stand::unsolved;
+use crate::program::{Program, accepted, of_formulas};
 use crate::straight::{End, Straight};
 use crate::symmetry::Orbits;
 use crate::upper::Upper;
@@ -129,12 +129,16 @@ pub fn bounds(pile: &Pile, site: Site) -> Result<NormalBounds, Error> {
     );
     let network = match (&least, &greatest) {
         (Some(_), Some(_)) => None,
-        _ => solver.network()?,
+        _ => Some(Network::above(&pile, floor, MAX_EQUATIONS)?),
     };
-    let network = network.as_ref();
+    let bound = |end, by_formula| match (by_formula, &network) {
+        (Some(bound), _) => Ok(bound),
+        (None, Some(network)) => solver.by_program(end, network),
+        (None, None) => Err(bug("a formula or a program gives each bound").into()),
+    };
     Ok(NormalBounds {
-        least: solver.bound(End::Least, least, network)?,
-        greatest: solver.bound(End::Greatest, greatest, network)?,
+        least: bound(End::Least, least)?,
+        greatest: bound(End::Greatest, greatest)?,
     })
 }
 
@@ -144,7 +148,7 @@ struct Solver<'p> {
     straight: Option<Straight>,
 }
 
-impl<'p> Solver<'p> {
+impl Solver<'_> {
     /// Returns a bound that needs no linear program, if there is one.
     fn by_formula(&self, end: End) -> Result<Option<NormalBound>, Error> {
         let Some(straight) = self.straight else {
@@ -168,11 +172,14 @@ impl<'p> Solver<'p> {
 
     /// Returns the upper bound of a sphere that is not at a corner.
     ///
-    /// `None` if the pile is too large for a certificate, if the checker rejects it, or if a linear program may give a
-    /// smaller bound.
+    /// `None` if the checker rejects its certificate, or if a linear program may give a smaller bound.
     fn by_field(&self, straight: Straight) -> Result<Option<NormalBound>, Error> {
         if self.pile.sphere_count() > MAX_CERTIFIED.into() {
-            return Ok(None);
+            return Ok(Some(NormalBound {
+                normal: straight.outer_bound(),
+                attained: false,
+                certificate: None,
+            }));
         }
         check_interrupt()?;
         let upper = Upper::of(straight);
@@ -196,33 +203,6 @@ impl<'p> Solver<'p> {
         }
     }
 
-    /// Returns the balance equations, or `None` if there are too many of them and a formula gives an outer bound
-    /// instead.
-    fn network(&self) -> Result<Option<Network<'p>>, Error> {
-        match Network::above(self.pile, self.pile.layers() - 1, MAX_EQUATIONS) {
-            Err(cannonpile::Error::TooLarge { .. }) if self.straight.is_some() => Ok(None),
-            network => Ok(Some(network?)),
-        }
-    }
-
-    fn bound(
-        &self,
-        end: End,
-        by_formula: Option<NormalBound>,
-        network: Option<&Network<'_>>,
-    ) -> Result<NormalBound, Error> {
-        match (by_formula, network, self.straight) {
-            (Some(bound), _, _) => Ok(bound),
-            (None, Some(network), _) => self.by_program(end, network),
-            (None, None, Some(straight)) => Ok(NormalBound {
-                normal: straight.outer_bound(),
-                attained: false,
-                certificate: None,
-            }),
-            (None, None, None) => Err(bug("a formula or a program gives each bound").into()),
-        }
-    }
-
     /// Computes the bound by the linear program over all forces.
     fn by_program(&self, end: End, network: &Network<'_>) -> Result<NormalBound, Error> {
         let sign = BigRational::from_integer(match end {
@@ -239,78 +219,45 @@ impl<'p> Solver<'p> {
             None => Program {
                 columns: network.columns.as_slice().into(),
                 sums: network.weights.clone(),
-                objective: Objective::LinearCost(cost),
+                cost,
             },
         };
-        let (program, scale) = program.scaled();
-        let equations = network.weights.len();
-        let not_solved = || Error::NotSolved { equations };
-        let mut outer = None;
-        // The loose tolerance usually suffices and is faster.
-        for tolerance in [Tolerance::Loose, Tolerance::Tight] {
-            let Some(guess) = program.guess(tolerance) else {
-                // The program is bounded, so a failure means that it is infeasible or was not solved.
-                return Err(unsolved(self.pile, equations));
-            };
-            let mut unknowns = program.exact_unknowns(&guess);
-            let mut multipliers = program.exact_multipliers(&guess);
-            if let Some(orbits) = &orbits {
-                unknowns = unknowns.map(|unknowns| orbits.unknowns(&unknowns));
-                multipliers = multipliers.map(|multipliers| orbits.multipliers(&multipliers));
-            }
-            let horizontal = unknowns.map(|unknowns| network.horizontal(&unknowns, &scale));
-            let field = multipliers.map(|multipliers| {
-                let multipliers: Vec<_> = multipliers.into_iter().map(|y| y * &sign).collect();
-                network.field(&multipliers)
-            });
-            match (horizontal, field) {
-                (Some(horizontal), Some(field)) => {
-                    let normal = self.normal_of(&field);
-                    let both =
-                        self.certificate(end, normal.clone(), Some(horizontal), field.clone());
-                    match accepted(both, not_solved) {
-                        // The checker can need too much memory for forces and field together. The field alone needs
-                        // less.
-                        Err(
-                            Error::NotSolved { .. }
-                            | Error::Core(cannonpile::Error::TooLarge { .. }),
-                        ) => {
-                            outer = Some(field);
-                        }
-                        accepted => {
-                            return Ok(NormalBound {
-                                normal,
-                                attained: true,
-                                certificate: Some(accepted?),
-                            });
-                        }
-                    }
-                }
-                (None, field) => outer = field.or(outer),
-                (Some(_), None) => {}
-            }
+        let (mut unknowns, mut multipliers) = match program.solve()? {
+            Solution::Optimal {
+                unknowns,
+                multipliers,
+            } => (unknowns, multipliers),
+            Solution::Infeasible => return Err(Error::CannotStand),
+        };
+        if let Some(orbits) = &orbits {
+            unknowns = orbits.unknowns(&unknowns);
+            multipliers = orbits.multipliers(&multipliers);
         }
-        // An interrupted solver proves nothing, so the interrupt is reported first.
-        check_interrupt()?;
-        // The trivial field is also a valid proof. Its bound is marked as not attained.
-        let field = outer.unwrap_or_else(|| trivial_field(network, end));
+        for multiplier in &mut multipliers {
+            *multiplier *= &sign;
+        }
+        let field = network.field(&multipliers);
         let normal = self.normal_of(&field);
-        let certificate = self.certificate(end, normal.clone(), None, field);
-        Ok(NormalBound {
-            normal,
-            attained: false,
-            certificate: Some(accepted(certificate, not_solved)?),
-        })
+        let certified = |horizontal: Option<_>| {
+            let attained = horizontal.is_some();
+            let certificate = self.certificate(end, normal.clone(), horizontal, field.clone());
+            accepted(certificate).map(|certificate| NormalBound {
+                normal: normal.clone(),
+                attained,
+                certificate: Some(certificate),
+            })
+        };
+        match certified(Some(network.horizontal(&unknowns))) {
+            // The checker can need too much memory for forces and field together. The field alone needs less.
+            Err(Error::Core(cannonpile::Error::TooLarge { .. })) => certified(None),
+            bound => bound,
+        }
     }
 
     /// Returns the normal force that a field proves as a bound, in mg.
     fn normal_of(&self, field: &BTreeMap<Site, [BigRational; 3]>) -> BigRational {
         let directions = self.pile.dimension().number();
-        let work = field.iter().flat_map(|(site, field)| {
-            let own = self.pile.own_increments(*site);
-            own.into_iter().zip(field).map(|(own, field)| own * field)
-        });
-        let work: BigRational = work.sum();
+        let work = work(self.pile, field);
         self.pile.total_load(self.site).down + work / BigRational::from_integer(directions.into())
     }
 
@@ -337,54 +284,6 @@ impl<'p> Solver<'p> {
             // Without forces the claim does not state that the bound is attained, so the list can be empty.
             horizontal: horizontal.unwrap_or_default(),
             field,
-        }
-    }
-}
-
-/// Returns a field that is dual feasible for every pile. It proves that a sphere carries at least its own weight,
-/// and at most the weight of the whole pile.
-fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational; 3]> {
-    let directions = network.pile.dimension().directions().len();
-    let one = |l: usize| BigRational::from_integer(i32::from(l < directions).into());
-    let mut field = BTreeMap::new();
-    if let End::Greatest = end {
-        field.extend(
-            network
-                .spheres
-                .iter()
-                .map(|site| (*site, [one(0), one(1), one(2)])),
-        );
-    }
-    field
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The upper bound is the weight of all spheres above the floor and of the sphere itself, in two and three
-    /// dimensions.
-    #[test]
-    fn trivial_field_proves_its_bound() {
-        for (pile, i, most) in [
-            (Pile::triangular(4), 1, 1 + 10),
-            (Pile::triangular(1), 0, 1),
-            (Pile::discs(4), 1, 1 + 6),
-        ] {
-            let pile = pile.unwrap();
-            let k = pile.layers() - 1;
-            let solver = Solver {
-                pile: &pile,
-                site: Site { i, j: 0, k },
-                straight: None,
-            };
-            let network = Network::above(&pile, k, MAX_EQUATIONS).unwrap();
-            for (end, normal) in [(End::Least, 1), (End::Greatest, most)] {
-                let field = trivial_field(&network, end);
-                let bound = solver.normal_of(&field);
-                assert_eq!(bound, BigRational::from_integer(normal.into()));
-                assert_eq!(solver.certificate(end, bound, None, field).check(), Ok(()));
-            }
         }
     }
 }

@@ -62,6 +62,7 @@ mod record;
 mod refusal;
 mod text;
 
+pub(crate) use check::work;
 pub use file::{
     MAX_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,
 };

@@ -6,11 +6,11 @@ use cannonpile::Pile;
 use cannonpile::engine::{bug, check_interrupt};
 use cannonpile::lattice::{Dimension, Site, count};
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 
 use crate::certificate::{Certificate, Claim};
 use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
-use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
+use crate::program::{accepted, in_floats, of_formulas};
 use crate::springs::{Springs, State};
 use crate::stand::cannot_stand;
 use crate::straight::factor_of;
@@ -89,7 +89,7 @@ pub fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<ElasticStat
             None
         }
         // It is cheap to detect that the first layers are unstable, for piles of any size.
-        Err(Error::Core(cannonpile::Error::TooLarge { .. })) if cannot_stand(&pile) => {
+        Err(Error::Core(cannonpile::Error::TooLarge { .. })) if cannot_stand(&pile)? => {
             return Err(Error::CannotStand);
         }
         certificate => Some(certificate?),
@@ -165,9 +165,7 @@ fn certified(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, 
         springs.network.check_size()?;
         springs.least_energy(guess(&springs)?)?
     };
-    accepted(certificate(&springs, &state), || {
-        bug("the checker accepts the elastic state").into()
-    })
+    accepted(certificate(&springs, &state))
 }
 
 /// Returns the certificate of the paper's pile: all horizontal contacts open.
@@ -214,29 +212,19 @@ fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
     for (_, coefficient) in columns.iter_mut().skip(sloping).flatten() {
         *coefficient *= &unit;
     }
-    let by_program = |sums: Vec<BigRational>| {
-        let program = Program {
-            columns: columns.as_slice().into(),
-            sums,
-            objective: Objective::SumOfSquares,
-        };
-        let (program, _) = program.scaled();
-        program.guess(Tolerance::Tight)
-    };
-    let guess = with_light_spheres(&network.weights).and_then(by_program);
-    let guess = guess.or_else(|| by_program(network.weights.clone()));
-    let Some(guess) = guess else {
-        check_interrupt()?;
-        if cannot_stand(network.pile) {
-            return Err(Error::CannotStand);
-        }
-        let gap = |contact| f64::from(u8::from(contact >= sloping));
-        return Ok((0..network.columns.len()).map(gap).collect());
-    };
-    let contacts = guess.positive.iter().zip(&guess.slacks);
-    Ok(contacts
-        .map(|(positive, slack)| if *positive { 0.0 } else { *slack })
-        .collect())
+    let cost = vec![BigRational::zero(); columns.len()];
+    let by_program = |sums: &[BigRational]| in_floats(&columns, sums, &cost, true);
+    let found = with_light_spheres(&network.weights).and_then(|sums| by_program(&sums));
+    if let Some(found) = found.or_else(|| by_program(&network.weights)) {
+        let gap = |[x, slack]: [f64; 2]| if x > slack { 0.0 } else { slack };
+        return Ok(found.into_iter().map(gap).collect());
+    }
+    check_interrupt()?;
+    if cannot_stand(network.pile)? {
+        return Err(Error::CannotStand);
+    }
+    let gap = |contact| f64::from(u8::from(contact >= sloping));
+    Ok((0..columns.len()).map(gap).collect())
 }
 
 /// Returns the weights with a small weight for each weightless sphere: a thousandth of the smallest weight. With it
@@ -264,7 +252,7 @@ fn certificate(springs: &Springs<'_>, state: &State) -> Certificate {
         claim: Claim::Elastic {
             stiffness_ratio: springs.stiffness_ratio.clone(),
         },
-        horizontal: network.horizontal(&state.forces, &BigRational::one()),
+        horizontal: network.horizontal(&state.forces),
         field: network.field(&state.field),
     }
 }

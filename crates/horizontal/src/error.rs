@@ -30,12 +30,6 @@ pub enum Error {
     Weightless,
     /// The pile is unstable: no compressive forces balance it, even with horizontal contacts.
     CannotStand,
-    /// The floating-point solution of the optimisation problem for the contact forces did not yield an exact solution.
-    #[non_exhaustive]
-    NotSolved {
-        /// The number of balance equations.
-        equations: usize,
-    },
 }
 
 impl From<cannonpile::Error> for Error {
@@ -54,10 +48,6 @@ impl fmt::Display for Error {
             Self::CannotStand => f.write_str(
                 "this pile is unstable: no compressive forces balance it, even with horizontal contacts; change the \
                  stacking, or the loads",
-            ),
-            Self::NotSolved { equations } => write!(
-                f,
-                "no exact solution of the {equations} balance equations was found; use a smaller pile"
             ),
         }
     }

@@ -53,15 +53,17 @@
 //! | [`Error`] | the errors of this crate |
 //!
 //! Private modules: `stand` decides stability, `bounds` and `base` compute the bounds, `elastic` and `springs` the
-//! elastic state. They share `network` (the balance equations), `program` (the interior-point solver) and `exact`
-//! (rational elimination). The modules `straight`, `edge`, `upper`, `run` and `symmetry` cover special piles. `simplex`
+//! elastic state. They share `network` (the balance equations), `program` (the interior-point solver), `exact` (rational
+//! elimination) and `exact_simplex`. The modules `straight`, `edge`, `upper`, `run` and `symmetry` cover special piles. `simplex`
 //! looks for the forces that attain an upper bound.
 //!
 //! # Method
-//! An interior-point method (clarabel) solves a linear or quadratic program over the forces in floats. Its result
-//! only suggests the active set: the forces that are zero, and the inequalities that are equalities. Rational
-//! elimination then solves these equations exactly. Unknowns that they leave free are rounded from the float
-//! solution to fractions with small denominators.
+//! A simplex method in rationals solves the linear programs of stability and of the bounds. An interior-point method
+//! (clarabel) first solves the program in floats. Its result only suggests the basis: the forces that are positive. Exact
+//! elimination factors this basis, and exact steps follow until it is optimal ([`exact_pivots`] counts them). For
+//! stability the program minimises the sum of tensile forces. If it is not zero, the dual solution is a Farkas
+//! certificate. The elastic state is a quadratic program: clarabel suggests which contacts are open, and an active-set
+//! method in rationals finds the exact ones.
 //!
 //! For straight piles of equal spheres a formula gives the upper bound first. A simplex method in floats looks for forces
 //! that attain it. If it finds none, the linear program is solved (up to 31 layers).
@@ -70,8 +72,8 @@
 //! * Every number is exact. A solution that a float solver suggested, or a bound that no theorem covers, is returned only
 //!   if [`Certificate::check`](certificate::Certificate::check) accepts it. The other results are exact forces without
 //!   horizontal contacts, or formulas that [`theorem`] proves.
-//! * If an optimum cannot be certified, the result is a certified outer bound, marked as such
-//!   ([`attained`](NormalBound::attained)), or an error.
+//! * A program that is too large is an error, which names its size. For a straight pile the result is an outer bound,
+//!   marked as such ([`attained`](NormalBound::attained)).
 //! * No function panics on any input. The crate contains no `unsafe`.
 //!
 //! The feature `rayon` computes the bounds of several bottom spheres in parallel.
@@ -85,6 +87,7 @@ mod edge;
 mod elastic;
 mod error;
 mod exact;
+mod exact_simplex;
 pub mod formula;
 mod network;
 mod program;
@@ -106,10 +109,10 @@ pub use base::{BaseBounds, base_bounds};
 pub use bounds::{NormalBound, NormalBounds, bounds};
 pub use elastic::{ElasticState, elastic};
 pub use error::Error;
+pub use exact_simplex::exact_pivots;
 pub use stability::{margin, stability};
 pub use stand::equilibrium;
 
-const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
 const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 

@@ -192,16 +192,15 @@ impl<'p> Network<'p> {
         drops
     }
 
-    /// Returns the horizontal forces that are not zero, times `scale`.
+    /// Returns the horizontal forces that are not zero.
     pub(crate) fn horizontal(
         &self,
         unknowns: &[BigRational],
-        scale: &BigRational,
     ) -> BTreeMap<HorizontalContact, BigRational> {
         let mut bearing = BTreeMap::new();
         for (contact, force) in self.contacts.iter().zip(&unknowns[self.weights.len()..]) {
             if !force.is_zero() {
-                bearing.insert(*contact, force * scale);
+                bearing.insert(*contact, force.clone());
             }
         }
         bearing

@@ -7,7 +7,7 @@ use cannonpile::shape::Anchor;
 use cannonpile::stability::{Affine, Margin, Stability, bearable};
 use num_rational::BigRational;
 
-use crate::certificate::{Certificate, Claim};
+use crate::certificate::{Certificate, Claim, work};
 use crate::{Each, Error, equilibrium};
 
 /// Returns the tilts of gravity that a pile bears at a = R, where horizontal contacts may help, in the units of
@@ -41,16 +41,12 @@ pub fn stability(pile: &Pile) -> Result<Stability<Certificate>, Error> {
             return Ok(None);
         }
         let along_y = i128::from(pile.dimension() == Dimension::Three);
-        let work = |tilt: [i128; 2]| {
+        let tension = |tilt: [i128; 2]| {
             let tilt = tilt.each(BigRational::from_i128);
             let leaning = pile.clone().with_tilt(tilt)?;
-            let work = certificate.field.iter().flat_map(|(site, field)| {
-                let own = leaning.own_increments(*site);
-                own.into_iter().zip(field).map(|(own, field)| own * field)
-            });
-            Ok::<_, Error>(-work.sum::<BigRational>())
+            Ok::<_, Error>(-work(&leaning, &certificate.field))
         };
-        let force = Affine::through([work([0, 0])?, work([1, 0])?, work([0, along_y])?]);
+        let force = Affine::through([tension([0, 0])?, tension([1, 0])?, tension([0, along_y])?]);
         Ok(Some((force, certificate)))
     })
 }

@@ -3,24 +3,20 @@
 use cannonpile::Pile;
 use cannonpile::engine::bug;
 use core::fmt;
-use core::iter::repeat_n;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::Error;
 use crate::beginning::{beginning, certified, certified_down_to};
 use crate::certificate::{Certificate, Claim};
-use crate::exact::Sparse;
+use crate::exact_simplex::{Solution, solve};
 use crate::network::{MAX_EQUATIONS, Network};
-use crate::program::{Objective, Program, Tolerance, accepted};
+use crate::program::{Program, accepted};
 use crate::run::{run_starts, too_long_run};
 
 /// The first truncated pile that is tested has this many layers above its fixed floor, unless the first failure is
 /// lower.
 const FIRST: i128 = 6;
-
-/// The largest sum of tensile forces that counts as zero in floats, for weights of order 1.
-const MAX_TENSION: f64 = 1e-5;
 
 /// The kind of proof that decides whether a pile is stable at a = R.
 ///
@@ -94,7 +90,6 @@ impl fmt::Display for DecidedBy {
 /// # Errors
 /// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if neighbours in a layer do not touch.
 /// * [`TooLarge`](cannonpile::Error::TooLarge) if the program has more than 15,000 equations.
-/// * [`Error::NotSolved`] if the float solution does not lead to an exact proof.
 /// * The errors of [`standing`](Pile::standing).
 ///
 /// # Examples
@@ -152,88 +147,59 @@ fn decided_bare(pile: &Pile) -> Result<(Certificate, DecidedBy), Error> {
     }
 }
 
-/// Returns `true` if a certificate proves that the pile is unstable.
-pub(crate) fn cannot_stand(pile: &Pile) -> bool {
-    let certificate = equilibrium(pile);
-    certificate.is_ok_and(|certificate| certificate.claim == Claim::CannotStand)
-}
-
-/// Returns the error for a program of so many equations without a solution: the pile is unstable, or the solver
-/// failed.
-pub(crate) fn unsolved(pile: &Pile, equations: usize) -> Error {
-    if cannot_stand(pile) {
-        Error::CannotStand
-    } else {
-        Error::NotSolved { equations }
-    }
+/// Returns `true` if a certificate proves that the pile is unstable, and `false` if one proves that it is stable.
+pub(crate) fn cannot_stand(pile: &Pile) -> Result<bool, Error> {
+    Ok(equilibrium(pile)?.claim == Claim::CannotStand)
 }
 
 /// Decides the stability of the layers above `floor`, whose spheres are taken as fixed.
 ///
-/// A linear program minimises the sum of tensile forces. If it is zero, the layers are stable. Otherwise the dual
-/// solution is a Farkas certificate. `is_whole` says that the pile below has no further sign change, so the result
-/// holds for all of it.
+/// An exact linear program minimises the sum of tensile forces. If it is zero, the layers are stable. Otherwise the dual
+/// solution is a Farkas certificate. `is_whole` says that the pile below has no further sign change, so the result holds for
+/// all of it.
 fn equilibrium_above(pile: &Pile, floor: i128, is_whole: bool) -> Result<Certificate, Error> {
     let network = Network::above(pile, floor, MAX_EQUATIONS)?;
-    let (equations, unknowns) = (network.weights.len(), network.columns.len());
-    let not_solved = || Error::NotSolved { equations };
-    let tension = network.columns[..equations].iter();
-    let tension = tension.map(|column| {
-        column
-            .iter()
-            .map(|(equation, c)| (*equation, -c.clone()))
-            .collect()
-    });
-    let cost =
-        repeat_n(BigRational::zero(), unknowns).chain(repeat_n(BigRational::one(), equations));
-    let with_tension: Vec<Sparse> = network.columns.iter().cloned().chain(tension).collect();
-    let program = Program {
-        columns: with_tension.as_slice().into(),
-        sums: network.weights.clone(),
-        objective: Objective::LinearCost(cost.collect()),
-    };
-    let (program, scale) = program.scaled();
-    let mut guess = program.guess(Tolerance::Tight).ok_or_else(not_solved)?;
-    // The float result only selects the claim. The checker verifies the certificate.
-    let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < MAX_TENSION;
-    // An unstable beginning makes the whole pile unstable. A stable one proves nothing about the layers below it.
-    let pile = if is_whole || !stands {
-        certified_down_to(pile, floor)?
-    } else {
-        beginning(pile, floor)?
-    };
-    let certificate = if stands {
-        // The variables of tensile forces are dropped.
-        guess.unknowns.truncate(unknowns);
-        guess.positive.truncate(unknowns);
-        program.exact_unknowns(&guess).map(|forces| Certificate {
-            horizontal: network.horizontal(&forces, &scale),
-            ..certified(pile, Claim::Stands)
-        })
-    } else {
-        program
-            .exact_multipliers(&guess)
-            .map(|multipliers| Certificate {
-                field: network.field(&multipliers),
-                ..certified(pile, Claim::CannotStand)
-            })
-    };
-    accepted(certificate.ok_or_else(not_solved)?, not_solved)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use cannonpile::lattice::Region;
-
-    #[test]
-    fn unsolved_program_is_unstable_or_not_solved() {
-        let unsolved = |stacking: &str| {
-            let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
-            unsolved(&pile, 7)
-        };
-        assert_eq!(unsolved("+++"), Error::NotSolved { equations: 7 });
-        // A run of five steps before a sign change.
-        assert_eq!(unsolved("+++++-"), Error::CannotStand);
+    let (mut columns, all) = (network.columns.clone(), network.columns.len());
+    let mut tension = network.columns[..network.weights.len()].to_vec();
+    for (_, coefficient) in tension.iter_mut().flatten() {
+        *coefficient = -coefficient.clone();
     }
+    columns.append(&mut tension);
+    // In floats compressive forces have slight costs. So the optimum is a vertex, and its positive forces are a basis.
+    let slight = |unknown: usize| BigRational::new((64 + 37 * unknown % 64).into(), 1280.into());
+    let mut cost: Vec<BigRational> = (0..all).map(slight).collect();
+    cost.resize(columns.len(), BigRational::one());
+    let mut program = Program {
+        columns: columns.into(),
+        sums: network.weights.clone(),
+        cost,
+    };
+    let suggested = program.suggested();
+    program.cost[..all].fill(BigRational::zero());
+    let Solution::Optimal {
+        unknowns,
+        multipliers,
+    } = solve(&program, suggested)?
+    else {
+        return Err(bug("tensile forces balance every pile").into());
+    };
+    // An unstable beginning makes the whole pile unstable. A stable one proves nothing about the layers below it.
+    accepted(
+        if unknowns[all..].iter().any(|tension| !tension.is_zero()) {
+            Certificate {
+                field: network.field(&multipliers),
+                ..certified(certified_down_to(pile, floor)?, Claim::CannotStand)
+            }
+        } else {
+            let pile = if is_whole {
+                certified_down_to(pile, floor)?
+            } else {
+                beginning(pile, floor)?
+            };
+            Certificate {
+                horizontal: network.horizontal(&unknowns),
+                ..certified(pile, Claim::Stands)
+            }
+        },
+    )
 }

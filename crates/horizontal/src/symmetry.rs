@@ -13,8 +13,8 @@ use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::exact::{Sparse, merge};
-use crate::program::{Objective, Program};
+use crate::exact::{Sparse, place};
+use crate::program::Program;
 use crate::{Each, network::Network};
 
 /// A symmetric shape. Its sites have coordinates n = (o − i − j, i, j), with o the net number of + steps above. A
@@ -133,14 +133,16 @@ impl Orbits {
             for (equation, coefficient) in column {
                 let row = self.equations.orbits[*equation];
                 if self.equations.first[row] == *equation {
-                    let added = vec![(row, coefficient.clone())];
-                    merge(&mut columns[*orbit], &added, |_, sum, added| {
-                        // A coefficient that is not listed is 0.
-                        let sum = sum.unwrap_or_else(BigRational::zero) + added;
-                        Some(sum).filter(|sum| !sum.is_zero())
-                    });
+                    let column = &mut columns[*orbit];
+                    match place(column, row) {
+                        Ok(entry) => column[entry].1 += coefficient,
+                        Err(entry) => column.insert(entry, (row, coefficient.clone())),
+                    }
                 }
             }
+        }
+        for column in &mut columns {
+            column.retain(|(_, coefficient)| !coefficient.is_zero());
         }
         let mut costs = vec![BigRational::zero(); self.unknowns.first.len()];
         for (cost, orbit) in cost.iter().zip(&self.unknowns.orbits) {
@@ -150,7 +152,7 @@ impl Orbits {
         Program {
             columns: columns.into(),
             sums: sums.map(|first| network.weights[*first].clone()).collect(),
-            objective: Objective::LinearCost(costs),
+            cost: costs,
         }
     }
 

@@ -7,7 +7,6 @@ use cannonpile::lattice::{HorizontalContact, Site};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::exact::simple_fraction;
 use crate::network::MAX_EQUATIONS;
 use crate::simplex::{Sloping, least_horizontal};
 use crate::straight::{Straight, by_direction, normal_below};
@@ -40,7 +39,7 @@ pub(crate) struct Upper {
 }
 
 /// The greatest denominator of the forces. A larger one would fit the errors of the floats.
-const MAX_DENOMINATOR: i64 = 60;
+const MAX_DENOMINATOR: i32 = 60;
 
 impl Upper {
     /// Returns the field with the smallest sum.
@@ -165,8 +164,7 @@ impl Upper {
         let found = least_horizontal(contacts.len(), &sloping)?;
         let mut forces = BTreeMap::new();
         for ((sphere, other), force) in contacts.into_iter().zip(found) {
-            let (numerator, denominator) = simple_fraction(force, MAX_DENOMINATOR)?;
-            let force = BigRational::new(numerator.into(), denominator.get().into());
+            let force = (1..=MAX_DENOMINATOR).find_map(|denominator| with(denominator, force))?;
             if !force.is_zero() {
                 let [sphere, other] =
                     [sphere, other].each(|sphere| by_direction(self.directions, sphere));
@@ -200,6 +198,16 @@ fn best_cut(c: i128, most: i128, length: i128) -> i128 {
         }
     }
     best
+}
+
+/// Returns a float as a fraction with the given denominator, if it is close to one.
+fn with(denominator: i32, number: f64) -> Option<BigRational> {
+    const CLOSE: f64 = 1e-4;
+    let product = number * f64::from(denominator);
+    let numerator = product.round();
+    let is_close = (product - numerator).abs() < CLOSE;
+    let numerator = BigRational::from_float(numerator).filter(|_| is_close)?;
+    Some(numerator / BigRational::from_integer(denominator.into()))
 }
 
 #[cfg(test)]
@@ -323,5 +331,16 @@ mod tests {
             assert_eq!(upper.is_large(), is_large);
             assert!(!is_large || upper.forces().is_none());
         }
+    }
+
+    #[test]
+    fn floats_near_fractions_are_rounded() {
+        let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+        assert_eq!(with(3, 0.333_333_3), Some(ratio(1, 3)));
+        assert_eq!(with(2, 0.333_333_3), None);
+        assert_eq!(with(4, -0.25), Some(ratio(-1, 4)));
+        assert_eq!(with(1, 1e-20), Some(ratio(0, 1)));
+        assert_eq!(with(1, f64::NAN), None);
+        assert_eq!(with(60, f64::INFINITY), None);
     }
 }

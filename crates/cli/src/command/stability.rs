@@ -1,9 +1,9 @@
 //! `stability`: the tilts of gravity that a pile bears.
 
-use cannonpile::Pile;
 use cannonpile::geometry::LayerGap;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::stability::Tilt;
+use cannonpile::{Pile, Verdict};
 use cannonpile_dem::angle;
 use cannonpile_dem::scene::Scene;
 use clap::Args;
@@ -24,14 +24,15 @@ Columns:
   margin_squared      t_c², exact
   angle               angle of the least tilt at --spacing, in degrees: atan(t_c·tanθ)
   k, i, j, direction  a contact that opens at this tilt
+  stands              yes; no: the pile is unstable; undetermined: further contacts may support it, or it is too large
 Columns of --polygon, a row for each corner, counterclockwise:
   x, y                tilt, in tanθ and √3·tanθ (2cosφ·tanθ with --sin-phi)
 
 At a = R horizontal contacts may support the pile. Then forces are not unique, and no contact is named: beyond the margin no
 compressive forces balance the pile. The command summary writes a proof for a given tilt: --tilt X,Y --certificate FILE.
 
-The margin is 0 if a contact of the pile has no force and opens at the slightest tilt. An unstable pile has no margin, and
-the exit status is 1. A straight pile has the margin 1/2 for every number of layers.
+The margin is 0 if a contact of the pile has no force and opens at the slightest tilt. If stands is no or undetermined, there
+is no margin, and the exit status is 1. A straight pile has the margin 1/2 for every number of layers.
 
 Examples:
   cannonpile stability --stacking=+-+++ --spacing 1.2
@@ -67,31 +68,32 @@ impl Stability {
             corners,
             contacts,
         } = answer.map_err(|error| of_weight(&pile, error))?;
-        let stands = squared.is_some();
-        let table = if self.polygon {
-            Some(tables::polygon(&pile, corners))
-        } else if let Some(squared) = squared {
-            let angle = angle_of(&scene, &pile, &squared)?;
-            Some(tables::margin(&pile, squared, angle, opens))
-        } else {
-            None
+        let verdict = match (&squared, &contacts) {
+            (Some(_), _) => Verdict::Yes,
+            (None, Contacts::Sloping | Contacts::Horizontal) => Verdict::No,
+            (None, Contacts::SlopingOnly | Contacts::TooMany(_)) => Verdict::Undetermined,
         };
-        if let Some(table) = table {
-            self.output.write_table(table, self.number, &progress)?;
-        }
+        let table = if self.polygon {
+            tables::polygon(&pile, corners)
+        } else {
+            let angle = squared
+                .as_ref()
+                .map(|squared| angle_of(&scene, &pile, squared));
+            tables::margin(&pile, squared, angle.transpose()?.flatten(), opens, verdict)
+        };
+        self.output.write_table(table, self.number, &progress)?;
         drop(progress);
-        if !stands {
+        if verdict != Verdict::Yes {
             print_message(&format!("no margin: {}", contacts.instability(&pile)));
             return Ok(false);
         }
         if let (Err(error), false) = (touching, self.polygon) {
             print_message(&format!("note: no angle: {error}"));
         }
-        if let Contacts::SlopingOnly { reason } = contacts {
-            print_message(&format!(
-                "note: further spheres touch at this spacing: this answer is without their contacts, and the pile may bear \
-                 more{reason}"
-            ));
+        if let Contacts::SlopingOnly = contacts {
+            print_message(
+                "note: further spheres touch at this spacing: this answer is without their contacts, and the pile may bear more",
+            );
         }
         Ok(true)
     }
@@ -100,17 +102,22 @@ impl Stability {
         if touching.is_empty() {
             return self.of_sloping_contacts(pile, Contacts::Sloping);
         }
-        let mut reason = String::new();
         if *touching == [LayerGap { layers: 0 }] && pile.is_regular() {
-            match self.with_horizontal_contacts(pile) {
-                Err(
-                    error @ (Error::Horizontal(cannonpile_horizontal::Error::NotSolved { .. })
-                    | Error::Core(cannonpile::Error::TooLarge { .. })),
-                ) => reason = format!(" ({error})"),
-                answer => return answer,
-            }
+            let (squared, corners, contacts) = match self.with_horizontal_contacts(pile) {
+                Ok((squared, corners)) => (squared, corners, Contacts::Horizontal),
+                Err(Error::Core(error @ cannonpile::Error::TooLarge { .. })) => {
+                    (None, Vec::new(), Contacts::TooMany(error))
+                }
+                Err(error) => return Err(error),
+            };
+            return Ok(Answer {
+                squared,
+                opens: None,
+                corners,
+                contacts,
+            });
         }
-        self.of_sloping_contacts(pile, Contacts::SlopingOnly { reason })
+        self.of_sloping_contacts(pile, Contacts::SlopingOnly)
     }
 
     fn of_sloping_contacts(&self, pile: &Pile, contacts: Contacts) -> Result<Answer, Error> {
@@ -120,29 +127,25 @@ impl Stability {
         } else {
             (pile.margin()?, Vec::new())
         };
-        let opens = margin.as_ref().map(|margin| margin.opens);
-        let squared = margin.map(|margin| margin.squared);
         Ok(Answer {
-            squared,
-            opens,
+            opens: margin.as_ref().map(|margin| margin.opens),
+            squared: margin.map(|margin| margin.squared),
             corners,
             contacts,
         })
     }
 
-    fn with_horizontal_contacts(&self, pile: &Pile) -> Result<Answer, Error> {
+    fn with_horizontal_contacts(
+        &self,
+        pile: &Pile,
+    ) -> Result<(Option<BigRational>, Vec<Tilt>), Error> {
         let (margin, corners) = if self.polygon {
             let stability = cannonpile_horizontal::stability(pile)?;
             (stability.margin, stability.corners)
         } else {
             (cannonpile_horizontal::margin(pile)?, Vec::new())
         };
-        Ok(Answer {
-            squared: margin.map(|margin| margin.squared),
-            opens: None,
-            corners,
-            contacts: Contacts::Horizontal,
-        })
+        Ok((margin.map(|margin| margin.squared), corners))
     }
 }
 
@@ -159,19 +162,23 @@ enum Contacts {
     /// Sloping contacts, the only ones.
     Sloping,
     /// Sloping contacts, although further spheres touch. The forces of these may be zero, so they never reduce the margin.
-    SlopingOnly { reason: String },
+    SlopingOnly,
     /// Sloping and horizontal contacts.
     Horizontal,
+    /// Sloping and horizontal contacts, too many for a program.
+    TooMany(cannonpile::Error),
 }
 
 impl Contacts {
-    /// Returns the message that a pile is unstable.
+    /// Returns the reason why there is no margin.
     fn instability(&self, pile: &Pile) -> String {
         match self {
             Self::Sloping => instability(pile, ""),
-            Self::SlopingOnly { .. } => {
+            Self::SlopingOnly => format!(
+                "undetermined: {}, which may support it",
                 instability(pile, " without the further contacts at this spacing")
-            }
+            ),
+            Self::TooMany(error) => format!("undetermined: {error}"),
             Self::Horizontal => "this pile is unstable, with horizontal contacts too".to_owned(),
         }
     }

@@ -1,26 +1,31 @@
 //! The tables of the stability under a tilt of gravity.
 
-use cannonpile::Pile;
 use cannonpile::lattice::{Dimension, Direction, Site};
 use cannonpile::stability::Tilt;
+use cannonpile::{Pile, Verdict};
 use cannonpile_dem::table::{Cell, Column, Table, indices, places};
 use num_rational::BigRational;
 
 /// Returns one row: the squared margin, its angle in degrees, and the contact that opens there.
 ///
-/// The columns are `margin_squared, angle, k, i, j, direction`; discs have no `j`. Without a spacing the angle is empty.
+/// The columns are `margin_squared, angle, k, i, j, direction, stands`; discs have no `j`. Without a spacing the angle is
+/// empty.
 pub(crate) fn margin(
     pile: &Pile,
-    squared: BigRational,
+    squared: Option<BigRational>,
     angle: Option<f64>,
     opens: Option<(Site, Direction)>,
+    verdict: Verdict,
 ) -> Table<'static> {
     let angle_column = Column {
         unit: "°",
         ..Column::plain("angle")
     };
     let mut entries = vec![
-        (Column::measured("margin_squared", ""), squared.into()),
+        (
+            Column::measured("margin_squared", ""),
+            squared.map_or(Cell::Missing, Cell::from),
+        ),
         (angle_column, angle.map_or(Cell::Missing, Cell::from)),
     ];
     let columns = indices(pile, &["k"]);
@@ -33,6 +38,7 @@ pub(crate) fn margin(
     entries.extend(columns.into_iter().zip(cells));
     let direction = opens.map_or(Cell::Missing, |(_, direction)| direction.name().into());
     entries.push((Column::plain("direction"), direction));
+    entries.push((Column::plain("stands"), verdict.name().into()));
     Table::record(entries)
 }
 
@@ -63,9 +69,18 @@ mod tests {
     fn the_margin_of_a_straight_pile() {
         let pile = Pile::triangular(4).unwrap();
         let least = pile.margin().unwrap().unwrap();
-        let head = "margin_squared,angle,k,i,j,direction\n1/4,19.5,";
-        for (opens, contact) in [(Some(least.opens), "0,0,0,alpha\n"), (None, ",,,\n")] {
-            let csv = csv(margin(&pile, least.squared.clone(), Some(19.5), opens));
+        let head = "margin_squared,angle,k,i,j,direction,stands\n1/4,19.5,";
+        for (opens, contact) in [
+            (Some(least.opens), "0,0,0,alpha,yes\n"),
+            (None, ",,,,yes\n"),
+        ] {
+            let csv = csv(margin(
+                &pile,
+                Some(least.squared.clone()),
+                Some(19.5),
+                opens,
+                Verdict::Yes,
+            ));
             assert_eq!(csv, format!("{head}{contact}"));
         }
     }

@@ -73,7 +73,7 @@ impl Certificate {
             Claim::Stands => self.forces().map(drop),
             Claim::CannotStand => {
                 self.one_sided(Relation::AtMost, None)?;
-                let work = self.work();
+                let work = work(&self.pile, &self.field);
                 if work.is_positive() {
                     Ok(())
                 } else {
@@ -235,7 +235,11 @@ impl Certificate {
     fn transmitted(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Result<Triple, Error> {
         let pile = &self.pile;
         let mut balance = turned(pile, site.k, &received(pile, forces, site));
-        let (own, horizontal, sign) = (own(pile, site), self.pushed(site), sigma(pile, site.k)?);
+        let (own, horizontal, sign) = (
+            pile.own_increments(site),
+            self.pushed(site),
+            sigma(pile, site.k)?,
+        );
         for direction in pile.dimension().directions() {
             let l = direction.index();
             balance[l] = beside(balance[l].clone(), &own[l], &horizontal[l], sign);
@@ -289,20 +293,6 @@ impl Certificate {
             contact.axis.ends(),
             sign,
         ))
-    }
-
-    /// Returns the virtual work Σ w φ of the weights.
-    fn work(&self) -> BigRational {
-        let directions = self.pile.dimension().directions();
-        let mut work = BigRational::zero();
-        for (site, field) in &self.field {
-            let own = own(&self.pile, *site);
-            work += directions
-                .iter()
-                .map(|l| &own[l.index()] * &field[l.index()])
-                .sum::<BigRational>();
-        }
-        work
     }
 
     /// Checks D at the contacts of the spheres, and c times the stiffness ratio, against the required relation and
@@ -389,7 +379,10 @@ impl Certificate {
         self.one_sided(relation, Some(site))?;
         let directions = BigRational::from_integer(pile.dimension().number().into());
         let normal = |sum: BigRational| pile.total_load(site).down + sum / &directions;
-        let (claimed, proved) = (extreme.normal.clone(), normal(self.work()));
+        let (claimed, proved) = (
+            extreme.normal.clone(),
+            normal(work(&self.pile, &self.field)),
+        );
         if proved != claimed {
             return Err(Box::new(Refusal::Bound { claimed, proved }));
         }
@@ -423,6 +416,20 @@ impl Certificate {
             of_spring(self.horizontal.get(&contact))
         })
     }
+}
+
+/// Returns the virtual work Σ w φ of the weights.
+pub(crate) fn work(pile: &Pile, field: &BTreeMap<Site, Triple>) -> BigRational {
+    let directions = pile.dimension().directions();
+    let mut work = BigRational::zero();
+    for (site, field) in field {
+        let own = pile.own_increments(*site);
+        work += directions
+            .iter()
+            .map(|l| &own[l.index()] * &field[l.index()])
+            .sum::<BigRational>();
+    }
+    work
 }
 
 fn zeros() -> Triple {
@@ -463,11 +470,6 @@ fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
 fn sigma(pile: &Pile, k: i128) -> Result<Sign, Error> {
     let sign = pile.shape().sign_below(k);
     sign.ok_or_else(|| bug("every layer above the floor has a step below it"))
-}
-
-/// Returns what gravity and the load on a sphere add to its contact lines, in f₀.
-fn own(pile: &Pile, site: Site) -> Triple {
-    pile.own_increments(site)
 }
 
 /// Returns the six possible horizontal contacts of a sphere, and whether each one leads away from it.
@@ -553,7 +555,7 @@ mod tests {
             let neighbour = contact.neighbour().unwrap();
             done += force * certificate.compression(*contact, neighbour).unwrap();
         }
-        [done, certificate.work()]
+        [done, work(&certificate.pile, &certificate.field)]
     }
 
     #[test]

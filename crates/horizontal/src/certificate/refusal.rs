@@ -191,45 +191,36 @@ impl From<Error> for Box<Refusal> {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoTouchingNeighbours { sin_phi } => f.write_str(&shortened(&format!(
+        let text = match self {
+            Self::NoTouchingNeighbours { sin_phi } => shortened(&format!(
                 "the neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
-            ))),
-            Self::ForcesInPile { contact } => write!(
-                f,
+            )),
+            Self::ForcesInPile { contact } => format!(
                 "the pile itself has a force in the horizontal contact {contact}; move it to the certificate"
             ),
             Self::Stiffness { given } => {
-                write!(f, "the stiffness ratio must be positive, not {given}")
+                format!("the stiffness ratio must be positive, not {given}")
             }
             Self::NoContact { contact } => {
-                write!(
-                    f,
-                    "there is no horizontal contact {contact} above the floor"
-                )
+                format!("there is no horizontal contact {contact} above the floor")
             }
-            Self::NoSphere { site } => write!(f, "there is no sphere {site} above the floor"),
-            Self::NotOnFloor { site } => write!(f, "there is no sphere {site} on the floor"),
-            Self::HorizontalTension { contact, force } => write!(
-                f,
-                "the horizontal contact {contact} is tensile: its force is {force}"
-            ),
+            Self::NoSphere { site } => format!("there is no sphere {site} above the floor"),
+            Self::NotOnFloor { site } => format!("there is no sphere {site} on the floor"),
+            Self::HorizontalTension { contact, force } => {
+                format!("the horizontal contact {contact} is tensile: its force is {force}")
+            }
             Self::Tension {
                 site,
                 direction,
                 force,
-            } => write!(
-                f,
-                "the contact {site} {direction} is tensile: its force is {force}"
-            ),
+            } => format!("the contact {site} {direction} is tensile: its force is {force}"),
             Self::Drop {
                 site,
                 direction,
                 drop,
                 relation,
                 needed,
-            } => write!(
-                f,
+            } => format!(
                 "the drop along the contact {site} {direction} is {drop}, but must be {relation} {needed}"
             ),
             Self::Compression {
@@ -237,38 +228,33 @@ impl fmt::Display for Refusal {
                 compression,
                 relation,
                 needed,
-            } => write!(
-                f,
+            } => format!(
                 "the compression of the horizontal contact {contact} is {compression}, but must be {relation} {needed}"
             ),
             Self::Work { work } => {
-                write!(
-                    f,
-                    "the virtual work of the weights must be positive, not {work}"
-                )
+                format!("the virtual work of the weights must be positive, not {work}")
             }
             Self::Bound { claimed, proved } => {
-                write!(f, "the field proves the bound {proved}, not {claimed}")
+                format!("the field proves the bound {proved}, not {claimed}")
             }
-            Self::Attained { claimed, attained } => write!(
-                f,
-                "the forces attain the normal force {attained}, not {claimed}"
-            ),
-            Self::NotGiven { site } => write!(f, "the forces of the sphere {site} are missing"),
+            Self::Attained { claimed, attained } => {
+                format!("the forces attain the normal force {attained}, not {claimed}")
+            }
+            Self::NotGiven { site } => format!("the forces of the sphere {site} are missing"),
             Self::Force {
                 site,
                 what,
                 given,
                 exact,
                 within,
-            } => write!(
-                f,
+            } => format!(
                 "the force {what} of the sphere {site} is {exact}, not {given} within {within}"
             ),
-            Self::Sign { compressive: true } => f.write_str("no contact is tensile"),
-            Self::Sign { compressive: false } => f.write_str("a contact is tensile"),
-            Self::Pile(error) => error.fmt(f),
-        }
+            Self::Sign { compressive: true } => "no contact is tensile".to_owned(),
+            Self::Sign { compressive: false } => "a contact is tensile".to_owned(),
+            Self::Pile(error) => error.to_string(),
+        };
+        f.write_str(&text)
     }
 }
 

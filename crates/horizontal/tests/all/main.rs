@@ -7,6 +7,7 @@ mod census;
 mod certificate;
 mod error;
 mod json;
+mod near_ties;
 mod rounded;
 mod stability;
 mod states;
