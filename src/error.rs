@@ -27,7 +27,7 @@ use crate::lattice::{Dimension, Direction, Region, Site};
 /// let error = cannonpile::Pile::triangular(0).unwrap_err();
 /// assert_eq!(error.to_string(), "layers must be at least 1 and at most 10^36, not 0");
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Error {
     /// The number of layers is not between 1 and [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
@@ -283,6 +283,8 @@ pub enum Error {
         invariant: &'static str,
     },
 }
+
+exact_surd::equality!(Error);
 
 /// Returns the error for a broken `invariant`. If debug assertions are on, it panics instead.
 ///

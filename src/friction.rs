@@ -236,7 +236,7 @@ pub struct RoughPacking<'p> {
 }
 
 /// A contact with friction: forces in N, positions in m. The vectors are forces on the upper sphere, with z up.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct RoughContact {
     /// The upper sphere.
@@ -254,6 +254,8 @@ pub struct RoughContact {
     /// The point of contact.
     pub point: [Surd; 3],
 }
+
+exact_surd::equality!(RoughContact);
 
 impl<'p> RoughPacking<'p> {
     /// Returns the contacts of a part of the pile: N and T = N·tan(θ/2), in N.

@@ -161,10 +161,12 @@ pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
 /// assert_eq!(angle.tan2().to_string(), "12/13");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 pub struct Inclination {
     sin2: BigRational,
 }
+
+exact_surd::equality!(Hash for Inclination);
 
 impl Inclination {
     /// Returns the angle for this spacing: sin²θ = q(d−1)/(2d), with q = (a/R)² and the dimension d.

@@ -16,7 +16,7 @@ use num_traits::{One, Signed};
 use crate::engine::{Counters, Method};
 use crate::geometry::{Inclination, LayerGap, Spacing, Vector, square_across};
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Ring, Surd, product};
+use crate::scalar::{Ring, Surd, product, reduced};
 use crate::{Error, FloorForce, Forces, Pile};
 
 /// A pile whose spheres have a spacing, a radius and a mass, under a given gravity.
@@ -671,6 +671,7 @@ impl Roots {
 
 /// Returns `value`, if it is positive.
 fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
+    let value = reduced(value);
     if value.is_positive() {
         Ok(value)
     } else {

@@ -19,7 +19,7 @@ use crate::each::Each;
 use crate::formula;
 use crate::geometry::{Clearance, Load, Vector, directions, disc_directions, square_across};
 use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};
-use crate::scalar::{Algebra, Ring, sum_of};
+use crate::scalar::{Algebra, Ring, reduced, sum_of};
 use crate::shape::{Numbering, Rows, Selection, Shape, Sites};
 use crate::stacking::Stacking;
 
@@ -41,13 +41,15 @@ use crate::stacking::Stacking;
 /// assert_eq!(force.normal.to_string(), "333333333333333333333333333334");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 pub struct Pile {
     shape: Shape,
     /// sin φ. It is 0 for discs: the limit s → 0 of the isosceles pile, whose γ lines carry no force.
     sin_phi: BigRational,
     loading: Loading,
 }
+
+exact_surd::equality!(Hash for Pile);
 
 impl Pile {
     /// Returns the paper's pile: an equilateral base, φ = π/6.
@@ -90,7 +92,7 @@ impl Pile {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn isosceles(layers: i128, sin_phi: BigRational) -> Result<Self, Error> {
-        let shape = Shape::pyramid(layers, Dimension::Three)?;
+        let (shape, sin_phi) = (Shape::pyramid(layers, Dimension::Three)?, reduced(sin_phi));
         if BigRational::zero() < sin_phi && sin_phi < BigRational::one() {
             Ok(Self::new(shape, sin_phi))
         } else {
@@ -208,7 +210,7 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_load(mut self, site: Site, load: impl Into<Load>) -> Result<Self, Error> {
-        let (site, load) = (self.shape.check(site)?, load.into());
+        let (site, load) = (self.shape.check(site)?, load.into().map(reduced));
         not_negative("load", site, load.down.clone())?;
         self.check_in_plane("load", &load.y)?;
         self.loading.add_load(site, &load);
@@ -236,7 +238,7 @@ impl Pile {
     /// ```
     pub fn with_tilt(mut self, tilt: [BigRational; 2]) -> Result<Self, Error> {
         self.check_in_plane("tilt", &tilt[1])?;
-        self.loading.add_tilt(tilt);
+        self.loading.add_tilt(tilt.map(reduced));
         Ok(self)
     }
 

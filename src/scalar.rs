@@ -63,6 +63,7 @@ mod polynomial;
 mod ratio;
 mod rational;
 
+pub use exact_surd::rational::{ByValue, reduced};
 pub use exact_surd::{CorrectlyRounded, DoubleDouble, Surd, SurdSum, parse};
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
@@ -180,6 +181,7 @@ pub trait Ring:
     + for<'a> Mul<&'a Self, Output = Self>
     + Send
     + Sync
+    + 'static
 {
     /// Returns the integer `n` as a value of this type: exact, or correctly rounded.
     fn from_i128(n: i128) -> Self;
@@ -362,7 +364,7 @@ pub enum RealSign {
 }
 
 /// Rational bounds of a value x: `lower ≤ x ≤ upper`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
     derive(::serde::Serialize, ::serde::Deserialize),
@@ -376,6 +378,8 @@ pub struct Enclosure {
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub upper: BigRational,
 }
+
+exact_surd::equality!(Hash for Enclosure);
 
 impl Enclosure {
     /// Returns the enclosure of a value that is known exactly.
@@ -409,7 +413,7 @@ impl Enclosure {
     /// ```
     #[must_use]
     pub fn contains(&self, value: &BigRational) -> bool {
-        &self.lower <= value && value <= &self.upper
+        ByValue(&self.lower) <= ByValue(value) && ByValue(value) <= ByValue(&self.upper)
     }
 }
 

@@ -33,7 +33,7 @@ const MOST_SPHERES: u64 = 1_000_000;
 const MOST_VARIED: u64 = 10_000;
 
 /// A contact force, and its change if one sphere is larger.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ForceChange<T = BigRational> {
     /// The upper sphere of the contact.
@@ -46,8 +46,10 @@ pub struct ForceChange<T = BigRational> {
     pub change: T,
 }
 
+exact_surd::equality!(ForceChange<T>, T; site, direction, force, change);
+
 /// The contact that independent deviations of the radii open first.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Spread<T = BigRational> {
     /// The upper sphere of the contact.
@@ -59,6 +61,8 @@ pub struct Spread<T = BigRational> {
     /// The variance of the force for radii of relative standard deviation 1: the sum of the squares of its changes.
     pub variance: T,
 }
+
+exact_surd::equality!(Spread<T>, T; site, direction, force, variance);
 
 impl<T: Field> Spread<T> {
     /// Returns the square of the relative standard deviation r of the radii at which the force is three standard
@@ -151,7 +155,7 @@ impl Packing<'_> {
             .into_iter()
             .filter(|contact| !contact.variance.is_zero());
         Ok(varied.reduce(|first, next| {
-            if ratio(&next, &first) < ratio(&first, &next) {
+            if ratio(&next, &first) - &ratio(&first, &next) < T::zero() {
                 next
             } else {
                 first

@@ -27,7 +27,7 @@ use crate::each::Each;
 use crate::engine::check_interrupt;
 use crate::error::bug;
 use crate::lattice::{Dimension, Direction, Site};
-use crate::scalar::{Field, Ring};
+use crate::scalar::{ByValue, Field, Ring};
 use crate::shape::{Anchor, Selection};
 use crate::stacking::{Run, Stacking};
 use crate::{Error, Forces, Pile};
@@ -40,7 +40,7 @@ pub type Tilt = [BigRational; 2];
 
 /// A contact force as a function of the tilt, c + a·x + b·y in f₀, or another quantity that is negative for tilts that a
 /// pile does not bear.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Affine<T = BigRational> {
     /// The value under upright gravity.
     pub c: T,
@@ -49,6 +49,8 @@ pub struct Affine<T = BigRational> {
     /// The factor of y.
     pub b: T,
 }
+
+exact_surd::equality!(Affine<T>, T; c, a, b);
 
 impl<T: Ring> Affine<T> {
     /// Returns the function with the values at the tilts (0, 0), (1, 0) and (0, 1).
@@ -103,7 +105,7 @@ impl Affine {
 /// assert!(stability.corners.len() >= 3);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Stability<C = (Site, Direction)> {
     /// The least tilt at which a contact opens, or `None` if the pile does not stand upright.
@@ -113,8 +115,10 @@ pub struct Stability<C = (Site, Direction)> {
     pub corners: Vec<Tilt>,
 }
 
+exact_surd::equality!(Stability<C>, C);
+
 /// The least tilt at which a contact opens.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Margin<C = (Site, Direction)> {
     /// t_c²: the square of tan(tilt)/tanθ.
@@ -123,6 +127,16 @@ pub struct Margin<C = (Site, Direction)> {
     pub tilt: Tilt,
     /// The contact that opens there.
     pub opens: C,
+}
+
+exact_surd::equality!(Margin<C>, C);
+
+fn by_value(tilt: &Tilt) -> [ByValue<'_>; 2] {
+    tilt.each_ref().map(ByValue)
+}
+
+fn contains(tilts: &[Tilt], tilt: &Tilt) -> bool {
+    tilts.iter().any(|known| by_value(known) == by_value(tilt))
 }
 
 impl Pile {
@@ -291,7 +305,7 @@ pub fn bearable<C: Clone, E: From<Error>>(
         for (force, _) in &cuts {
             corners = cut(&corners, force);
         }
-        while let Some(corner) = corners.iter().find(|corner| !borne.contains(corner)) {
+        while let Some(corner) = corners.iter().find(|corner| !contains(&borne, corner)) {
             check_interrupt()?;
             let corner = corner.clone();
             match refute(&corner)? {
@@ -304,7 +318,7 @@ pub fn bearable<C: Clone, E: From<Error>>(
             }
         }
         // A pile with a weight bears no tilt beyond some square.
-        let is_inside = |corner: &Tilt| corner.iter().all(|part| part.abs() < reach);
+        let is_inside = |tilt: &Tilt| tilt.iter().all(|part| (part.abs() - &reach).is_negative());
         if corners.iter().all(is_inside) {
             break corners;
         }
@@ -331,7 +345,8 @@ fn least_margin<C>(
         let Some((squared, tilt)) = force.nearest_zero(&across) else {
             continue;
         };
-        if least.as_ref().is_none_or(|least| squared < least.squared) {
+        let is_less = |least: &Margin<C>| ByValue(&squared) < ByValue(&least.squared);
+        if least.as_ref().is_none_or(is_less) {
             least = Some(Margin {
                 squared,
                 tilt,
@@ -378,8 +393,10 @@ fn cut(corners: &[Tilt], force: &Affine) -> Vec<Tilt> {
             kept.push([x, y]);
         }
     }
-    kept.dedup();
-    if kept.len() > 1 && kept.first() == kept.last() {
+    kept.dedup_by(|here, before| by_value(here) == by_value(before));
+    if let [first, .., last] = &kept[..]
+        && by_value(first) == by_value(last)
+    {
         kept.pop();
     }
     kept

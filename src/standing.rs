@@ -32,6 +32,7 @@ use crate::error::{bug, named, refuse_beyond};
 use crate::formula;
 use crate::geometry::LayerGap;
 use crate::lattice::{Dimension, Direction, Sign, Site};
+use crate::scalar::ByValue;
 use crate::shape::{Selection, Shape};
 use crate::sorted::distinct;
 use crate::{ContactForce, Error, Packing, Pile};
@@ -98,7 +99,7 @@ impl Verdict {
 /// assert_eq!(standing.first_failure, Some(4));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
@@ -113,6 +114,8 @@ pub struct Standing {
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub first_failure: Option<i128>,
 }
+
+exact_surd::equality!(Standing; least, first_failure);
 
 impl Standing {
     /// Returns the verdict for a spacing at which the spheres `touching` touch in addition to the contacts α, β, γ.
@@ -150,10 +153,7 @@ impl Standing {
         }
         let place = |c: &ContactForce<BigRational>| (c.site, c.direction);
         let less = self.least.as_ref().is_none_or(|least| {
-            let order = contact.force.cmp(&least.force);
-            order
-                .then_with(|| place(&contact).cmp(&place(least)))
-                .is_lt()
+            (ByValue(&contact.force), place(&contact)) < (ByValue(&least.force), place(least))
         });
         if less {
             self.least = Some(contact);

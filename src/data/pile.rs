@@ -12,6 +12,7 @@ use num_rational::BigRational;
 use super::listed;
 use crate::data::number;
 use crate::lattice::{Dimension, HorizontalContact, Region, Site};
+use crate::scalar::ByValue;
 use crate::shape::Anchor;
 use crate::stacking::Stacking;
 use crate::{Error, Load, Pile};
@@ -133,7 +134,7 @@ impl Parts {
         };
         // Piles of discs allow only one stacking and top, and most piles of spheres only sin φ = 1/2. Other values are
         // errors.
-        let given = if pile.sin_phi() != &self.sin_phi {
+        let given = if ByValue(pile.sin_phi()) != ByValue(&self.sin_phi) {
             "sin-phi"
         } else if pile.shape().stacking() != &self.stacking {
             "stacking"

@@ -25,7 +25,7 @@ use crate::lattice::Site;
 /// assert_eq!(force, FloorForce { site, normal: 4.0, shear_x: 0.0, shear_y: 0.0 });
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
@@ -44,6 +44,8 @@ pub struct FloorForce<T> {
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub shear_y: T,
 }
+
+exact_surd::equality!(FloorForce<T>, T; site, normal, shear_x, shear_y);
 
 impl<T> FloorForce<T> {
     /// Returns the force with `f` applied to each component.

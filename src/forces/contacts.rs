@@ -21,7 +21,7 @@ use crate::lattice::{Direction, Site};
 /// assert_eq!(first, Some(Ok(ContactForce { site, direction, force: 1.0 })));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
@@ -36,6 +36,8 @@ pub struct ContactForce<T> {
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub force: T,
 }
+
+exact_surd::equality!(ContactForce<T>, T; site, direction, force);
 
 impl<T: fmt::Display> fmt::Display for ContactForce<T> {
     /// Prints the site, the direction and the force, as `(0,0,0) alpha: 1`. The flag `+` and a precision apply to the

@@ -25,7 +25,7 @@ use super::{Inclination, Spacing, square_per_sin2, squared_distance};
 use crate::Error;
 use crate::each::Each;
 use crate::lattice::Dimension;
-use crate::scalar::Ring;
+use crate::scalar::{ByValue, Ring};
 use crate::shape::Shape;
 use crate::sorted::distinct;
 
@@ -167,7 +167,7 @@ impl Clearance {
     /// ```
     #[must_use]
     pub fn least(&self) -> Option<Spacing> {
-        let (bound, _) = self.lower.iter().max_by(|a, b| a.0.cmp(&b.0))?;
+        let (bound, _) = self.lower.iter().max_by_key(|(bound, _)| ByValue(bound))?;
         Spacing::from_square(bound.clone()).ok()
     }
 
@@ -185,7 +185,7 @@ impl Clearance {
     /// ```
     #[must_use]
     pub fn most(&self) -> Option<Spacing> {
-        let (bound, _) = self.upper.iter().min_by(|a, b| a.0.cmp(&b.0))?;
+        let (bound, _) = self.upper.iter().min_by_key(|(bound, _)| ByValue(bound))?;
         Spacing::from_square(bound.clone()).ok()
     }
 
@@ -211,7 +211,7 @@ impl Clearance {
         let (least, most) = (self.least(), self.most());
         if let Some(least) = &least {
             let room = match &most {
-                Some(most) => least.square() <= most.square(),
+                Some(most) => ByValue(least.square()) <= ByValue(most.square()),
                 None => *least.square() < square_per_sin2(self.dimension),
             };
             if !room {
@@ -227,7 +227,7 @@ impl Clearance {
             (&self.upper, Ordering::Greater),
         ] {
             for (bound, apart) in bounds {
-                let order = spacing.square().cmp(bound);
+                let order = ByValue(spacing.square()).cmp(&ByValue(bound));
                 if order == wrong {
                     let bounds = (least, most);
                     return Err(Error::overlap(spacing, *apart, bounds));

@@ -1,6 +1,7 @@
 //! External forces on a sphere, of any direction.
 
 use core::fmt;
+use core::hash::{Hash, Hasher};
 use core::ops::Add;
 
 use num_rational::BigRational;
@@ -8,7 +9,7 @@ use num_rational::BigRational;
 use exact_surd::layout::{padded, part};
 
 use crate::each::Each;
-use crate::scalar::Ring;
+use crate::scalar::{ByValue, Ring};
 
 /// An external force on a sphere, in the units of the forces on the floor.
 ///
@@ -27,7 +28,7 @@ use crate::scalar::Ring;
 /// assert_eq!(forces.contact(Site::APEX, Direction::Alpha)?, 0.75);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(
     feature = "serde",
     derive(::serde::Serialize, ::serde::Deserialize),
@@ -43,6 +44,14 @@ pub struct Load<T = BigRational> {
     /// The force along y, in 2cosφ·mg·tanθ, which is √3·mg·tanθ on an equilateral base.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub y: T,
+}
+
+exact_surd::equality!(Load<T>, T; down, x, y);
+
+impl Hash for Load {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        [&self.down, &self.x, &self.y].map(ByValue).hash(state);
+    }
 }
 
 impl<T> Load<T> {

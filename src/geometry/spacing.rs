@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use crate::Error;
-use crate::scalar::Surd;
+use crate::scalar::{Surd, reduced};
 
 /// The spacing a/R: the distance 2a between horizontal neighbours over the diameter 2R. It is positive, and its square
 /// q is rational.
@@ -25,10 +25,12 @@ use crate::scalar::Surd;
 /// assert_eq!(Spacing::from_square(ratio!(8/3))?.to_string(), "2/3*sqrt(6)");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 pub struct Spacing {
     square: BigRational,
 }
+
+exact_surd::equality!(Hash for Spacing);
 
 impl Spacing {
     /// Returns the spacing a/R.
@@ -73,6 +75,7 @@ impl Spacing {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn from_square(square: BigRational) -> Result<Self, Error> {
+        let square = reduced(square);
         if square.is_positive() {
             Ok(Self { square })
         } else {

@@ -12,7 +12,7 @@ use crate::scalar::Ring;
 ///
 /// The components x, y, z represent x·sinθ, y·2cosφ·sinθ (√3·sinθ on an equilateral base) and z·cosθ. The function that
 /// returns a vector documents its unit. [`on`](Self::on) multiplies by numerical values of the basis.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
     derive(::serde::Serialize, ::serde::Deserialize),
@@ -29,6 +29,8 @@ pub struct Vector<T> {
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub z: T,
 }
+
+exact_surd::equality!(Vector<T>, T; x, y, z);
 
 impl<T: Ring> Vector<T> {
     /// Returns the zero vector.

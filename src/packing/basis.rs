@@ -32,7 +32,7 @@ use crate::{Error, Forces};
 /// assert!((force - exact.nearest::<f64>().unwrap()).abs() < 1e-15);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct SiBasis<T> {
     /// sinθ.
     pub sin: T,
@@ -45,6 +45,8 @@ pub struct SiBasis<T> {
     /// The radius R of a sphere, in metres.
     pub radius: T,
 }
+
+exact_surd::equality!(SiBasis<T>, T; sin, cos, twice_cos_phi, weight, radius);
 
 impl<T: Field> SiBasis<T> {
     /// Returns the force of a contact, f·mg/(W cosθ), in newtons.

@@ -11,12 +11,13 @@ use crate::Error;
 use crate::formula;
 use crate::geometry::Load;
 use crate::lattice::{Axis, HorizontalContact, Sign, Site};
+use crate::scalar::reduced;
 
 /// The weights of the spheres, in mg, the loads on them, and the forces of horizontal contacts, in f₀. No weight,
 /// downward load or horizontal contact force is negative.
 ///
 /// In the equations a load acts like additional weight of its sphere, but it does not change the mass of the sphere.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Loading {
     weightless: bool,
     /// The horizontal part of gravity along x and y, per unit of its vertical part and tanθ.
@@ -25,8 +26,11 @@ pub(crate) struct Loading {
     spheres: BTreeMap<Site, Acting>,
 }
 
+exact_surd::equality!(Hash for Loading);
+exact_surd::equality!(Hash for Acting);
+
 /// What acts on a sphere besides ordinary gravity.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, Default)]
 struct Acting {
     /// The weight, if it was set.
     weight: Option<BigRational>,
@@ -233,6 +237,7 @@ pub(super) fn not_negative(
     site: Site,
     given: BigRational,
 ) -> Result<BigRational, Error> {
+    let given = reduced(given);
     if given.is_negative() {
         return Err(Error::NegativeLoad {
             quantity,

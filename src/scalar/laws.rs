@@ -30,7 +30,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::{Algebra, Exactness, Field, RealEmbeddable, RealSign};
+use super::{Algebra, ByValue, Exactness, Field, RealEmbeddable, RealSign};
 
 /// A violated law, with the operands that violate it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -266,7 +266,7 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
 /// Returns the rational that the scalar represents, if its enclosure is a single point.
 fn point<T: RealEmbeddable>(a: &T) -> Option<BigRational> {
     let enclosure = a.enclosure()?;
-    (enclosure.lower == enclosure.upper).then_some(enclosure.lower)
+    (ByValue(&enclosure.lower) == ByValue(&enclosure.upper)).then_some(enclosure.lower)
 }
 
 /// Checks that `got` approximates `want` as well as the scalar promises.
@@ -276,9 +276,9 @@ fn check_value<T: Algebra + RealEmbeddable>(
     want: &BigRational,
 ) -> Result<(), BrokenLaw> {
     let holds = match (T::EXACTNESS, point(got)) {
-        (Exactness::Exact, value) => value.as_ref() == Some(want),
+        (Exactness::Exact, value) => value.is_some_and(|value| ByValue(&value) == ByValue(want)),
         (Exactness::ExactOrFault, None) => !got.is_defined(),
-        (Exactness::ExactOrFault, Some(value)) => value == *want,
+        (Exactness::ExactOrFault, Some(value)) => ByValue(&value) == ByValue(want),
         (Exactness::Enclosure, _) => {
             // An enclosure without finite bounds contains everything.
             got.is_defined() && got.enclosure().is_none_or(|bounds| bounds.contains(want))

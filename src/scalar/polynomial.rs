@@ -398,8 +398,8 @@ impl Polynomial {
     }
 
     fn term(monomial: Monomial, coefficient: &BigRational) -> Self {
-        let terms = Vec::from([(monomial, coefficient.numer().clone())]);
-        Self::canonical(collect_terms(terms), coefficient.denom().clone())
+        let (numer, denom) = coefficient.reduced().into_raw();
+        Self::canonical(collect_terms(Vec::from([(monomial, numer)])), denom)
     }
 
     /// Removes zero coefficients and reduces the fraction. `denominator` must not be negative.

@@ -21,7 +21,7 @@ use crate::{Error, Pile};
 /// assert_eq!(base.max_shear_ratio.to_string(), "3/4");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
@@ -35,11 +35,16 @@ pub struct BaseExtremes {
     /// The largest ratio of shear to normal force, in tanθ. The friction coefficient must be at least this large if the
     /// base must not slide. A base that may roll needs more ([`paper`](crate::paper#errata), 4).
     ///
-    /// Bottom spheres without a normal force have no ratio. For a tensile normal force, the ratio is that of the
-    /// magnitudes. Both cases occur only in unstable piles, in piles without weight, and in piles with given horizontal
-    /// forces.
+    /// For a tensile normal force, the ratio is that of the magnitudes. A bottom sphere without a normal force has no
+    /// ratio. If such a sphere has a shear, no friction holds it, and
+    /// [`shear_without_normal`](Self::shear_without_normal) is true.
     pub max_shear_ratio: Surd,
+    /// Whether a bottom sphere has a shear, but no normal force.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub shear_without_normal: bool,
 }
+
+exact_surd::equality!(BaseExtremes; normal_min, normal_max, max_shear_ratio, shear_without_normal);
 
 impl Pile {
     /// Returns the extremes of the force on the floor.
@@ -78,6 +83,7 @@ struct Extremes {
     normals: Option<(BigInt, BigInt)>,
     /// The largest squared ratio, as numerator and denominator. It is reduced at the end.
     ratio: Option<(BigInt, BigInt)>,
+    shear_without_normal: bool,
 }
 
 impl Extremes {
@@ -93,6 +99,7 @@ impl Extremes {
             most.clone_from(normal);
         }
         if normal.is_zero() {
+            self.shear_without_normal |= !x.is_zero() || !y.is_zero();
             return;
         }
         let n = x * x * across.denom() + y * y * across.numer();
@@ -110,13 +117,14 @@ impl Extremes {
     fn over(self, unit: &BigInt) -> Result<BaseExtremes, Error> {
         let normals = self.normals.ok_or_else(|| bug("a base has a sphere"))?;
         let (least, most) = normals;
-        // No sphere presses on the floor, so the shear is zero as well. The ratio is reported as 0.
+        // Without a normal force the ratio is reported as 0.
         let none = (BigInt::zero(), BigInt::one());
         let (n, d) = self.ratio.unwrap_or(none);
         Ok(BaseExtremes {
             normal_min: BigRational::new(least, unit.clone()),
             normal_max: BigRational::new(most, unit.clone()),
             max_shear_ratio: Surd::sqrt(BigRational::new(n, d))?,
+            shear_without_normal: self.shear_without_normal,
         })
     }
 }

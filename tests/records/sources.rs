@@ -4,6 +4,7 @@
 //! The checks are textual. They recognise enough of Rust to skip comments, strings and unit tests. A test shows that each
 //! check rejects invalid text.
 
+mod comparisons;
 mod module_order;
 mod no_silent_default;
 mod proved_formulas;

@@ -36,7 +36,7 @@ use cannonpile::lattice::Dimension;
 /// assert!(card.starts_with("# Three layers\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct CardTitle {
     /// The name of a benchmark case (`scene::cases`), such as `C2`; empty for any other pile.
     pub case: String,
@@ -49,6 +49,8 @@ pub struct CardTitle {
     /// κ′/κ of the elastic state; 1 if absent.
     pub stiffness_ratio: Option<BigRational>,
 }
+
+cannonpile::engine::equality!(CardTitle);
 
 /// The maximal number of contacts, and of spheres, that `card.md` lists.
 const FOR_PEOPLE: u32 = 130;

@@ -36,12 +36,14 @@ pub struct Friction {
 }
 
 /// A coefficient of friction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 struct Coefficient {
     rounded: f64,
     /// The exact value. `None` for twice the needed one.
     exact: Option<BigRational>,
 }
+
+cannonpile::engine::equality!(Coefficient);
 
 impl Friction {
     /// Returns twice the coefficients that the pile needs.
@@ -147,7 +149,7 @@ impl Coefficient {
         }
         Ok(Self {
             rounded: normal(exact, "friction")?,
-            exact: Some(exact.clone()),
+            exact: Some(exact.reduced()),
         })
     }
 }

@@ -114,7 +114,7 @@ cannonpile::data::as_text!(State);
 /// assert_eq!(scene.pile()?.layers(), 5);
 /// # Ok::<(), cannonpile_dem::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
 pub struct Scene {
     /// The number of layers. The default is the length of a stacking given by its signs, the maximum on a base, or else
@@ -164,6 +164,8 @@ pub struct Scene {
     #[serde(with = "cannonpile::data::number")]
     pub floor_friction: Option<BigRational>,
 }
+
+cannonpile::engine::equality!(Scene);
 
 /// Returns the key of the layer that the pile grows from: the top or the base.
 const fn key_of(anchor: &Anchor) -> Key {

@@ -6,7 +6,7 @@ use num_traits::{One, Signed, Zero};
 use super::numbered::{NumberedPile, nearest, rounded};
 use crate::{Each, Error};
 use cannonpile::lattice::Site;
-use cannonpile::scalar::Surd;
+use cannonpile::scalar::{ByValue, Surd};
 use cannonpile::{FloorForce, Load, Packing, Pile};
 
 /// Returns a rational, correctly rounded.
@@ -61,7 +61,10 @@ pub(super) fn greatest_extra(pile: &Pile) -> Result<BigRational, Error> {
     for site in special_sites(pile) {
         let weight = pile.sphere_weight(site)? - &ordinary;
         let extra = Load::leaning(weight, pile.tilt()) + &pile.load(site)?;
-        greatest = greatest.max(magnitude(&extra));
+        let extra = magnitude(&extra);
+        if ByValue(&extra) > ByValue(&greatest) {
+            greatest = extra;
+        }
     }
     Ok(greatest)
 }

@@ -75,6 +75,7 @@ use crate::{Each, Error};
 use cannonpile::Pile;
 use cannonpile::formula;
 use cannonpile::lattice::{Region, Site};
+use cannonpile::scalar::reduced;
 use cannonpile::shape::Anchor;
 use cannonpile::stacking::Stacking;
 
@@ -93,7 +94,7 @@ use cannonpile::stacking::Stacking;
 /// assert_eq!((least.stacking.to_string(), least.force.to_string()), ("+-+-".into(), "-2/27".into()));
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(try_from = "written::EnsembleParts", into = "written::EnsembleParts")]
 pub struct Ensemble {
     /// The top layer or the base, as a pile of one layer.
@@ -102,6 +103,8 @@ pub struct Ensemble {
     has_horizontal_contacts: bool,
     bins: BigRational,
 }
+
+cannonpile::engine::equality!(Ensemble);
 
 impl Ensemble {
     /// Returns the ensemble of these stackings under a top layer, with bins of width 1/3.
@@ -235,7 +238,7 @@ impl Ensemble {
             let expected = "a positive width of bins";
             return Err(Error::syntax(&width.to_string(), expected));
         }
-        self.bins = width;
+        self.bins = reduced(width);
         Ok(self)
     }
 

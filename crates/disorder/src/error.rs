@@ -19,7 +19,7 @@ use num_rational::BigRational;
 /// let error = RandomStackings::new(0, FirstSign::Plus).unwrap_err();
 /// assert_eq!(error.to_string(), "layers must be at least 1 and at most 10^36, not 0");
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Error {
     /// An error of the crate `cannonpile`. It displays as that error.
@@ -69,6 +69,8 @@ pub enum Error {
     /// The ensemble counts stackings that are stable with horizontal contacts, but the run has no judge.
     NoJudge,
 }
+
+cannonpile::engine::equality!(Error);
 
 /// Returns the error for a case that `invariant` rules out. With debug assertions it panics instead.
 #[cold]

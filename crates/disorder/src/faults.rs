@@ -31,7 +31,7 @@ use crate::error::bug;
 /// assert_eq!((middle.faults, middle.stackings, middle.normal.to_string()), (1, 1_u32.into(), "5/3".into()));
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct FaultForce {
     /// The place.
@@ -48,6 +48,8 @@ pub struct FaultForce {
     /// The sum of the shear forces along y, in √3·mg·tanθ. Its denominator is at most twice that of `normal`.
     pub shear_y: BigRational,
 }
+
+cannonpile::engine::equality!(FaultForce);
 
 /// The forces on the floor, summed over the stackings with each number of faults. They give the exact mean for every
 /// fault probability.
@@ -232,7 +234,7 @@ impl ByFaults {
     /// ```
     pub fn at(&self, q: &BigRational) -> Result<Mean<BigRational>, Error> {
         check_fault_probability(q)?;
-        let (a, b) = (q.numer(), q.denom());
+        let (a, b) = &q.reduced().into_raw();
         let [faults, straight] = [a.clone(), (b - a) * 3];
         let most = self.most_faults();
         // With q = a/b the mean is Σ_d 3^d S_d a^d (3(b−a))^(n−1−d), over (3b)^(n−1).

@@ -37,7 +37,7 @@ use crate::{Each, ONE, TWO};
 /// assert_eq!(mean.rows()[0], MeanForce { place, probability: 1.0, normal, shear_x, shear_y });
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct MeanForce<T> {
     /// The place.
     pub place: Place,
@@ -50,6 +50,8 @@ pub struct MeanForce<T> {
     /// The mean shear along y, in √3·mg·tanθ.
     pub shear_y: T,
 }
+
+cannonpile::engine::equality!(MeanForce<T>, T; place, probability, normal, shear_x, shear_y);
 
 impl<T> MeanForce<T> {
     /// Returns the row for sums of a probability and three forces. `over` divides a sum by a scale, and the scales are
@@ -115,10 +117,12 @@ impl<T> MeanForce<T> {
 /// assert!((corner.normal - 1.0 / 24.0).abs() < 1e-15);
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Mean<T> {
     rows: Vec<MeanForce<T>>,
 }
+
+cannonpile::engine::equality!(Mean<T>, T; rows);
 
 impl<T> Mean<T> {
     /// Sorts the rows.
@@ -312,6 +316,7 @@ impl RandomPiles {
     /// ```
     pub fn exact(&self, q: &BigRational) -> Result<Mean<BigRational>, Error> {
         check_fault_probability(q)?;
+        let q = &q.reduced();
         let denominator = self.denominator();
         let tripled: BigInt = q.denom() * 3;
         // Each step except the first and the last multiplies the denominator by 3b.

@@ -32,7 +32,7 @@ use crate::formula::{
 /// assert_eq!([hcp.second, hcp.third, hcp.fourth].map(|m| m.to_string()), ["9", "1", "57"]);
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Moments {
     /// Σ v r² = n² in every stacking, with n the number of steps. Also Σ v r_i r_j = δ_ij n²/2.
@@ -42,6 +42,8 @@ pub struct Moments {
     /// Σ v r⁴.
     pub fourth: BigRational,
 }
+
+cannonpile::engine::equality!(Moments);
 
 impl Moments {
     /// Returns the moments of the response in one stacking.
@@ -148,7 +150,7 @@ impl RandomStackings {
 /// assert_eq!(Wave::at(&q(0, 1))?, None);
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Wave {
     /// a = (1−q)/(16q).
@@ -156,6 +158,8 @@ pub struct Wave {
     /// b = (13q²−42q+21)/(768q²).
     pub dispersion: BigRational,
 }
+
+cannonpile::engine::equality!(Wave);
 
 impl Wave {
     /// Returns damping and dispersion at the fault probability `q`. The result is `None` for q = 0, where the response

@@ -2,6 +2,7 @@
 
 use cannonpile::engine::common_denominator;
 use cannonpile::lattice::{Dimension, MAX_LAYERS, Region, Site};
+use cannonpile::scalar::reduced;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -30,7 +31,7 @@ use crate::Error;
 /// assert_eq!(total.to_string(), "21/2");
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct RandomPiles {
     pub(super) setting: Setting,
     pub(super) stackings: RandomStackings,
@@ -39,6 +40,8 @@ pub struct RandomPiles {
     /// By site of the top layer, in ascending order.
     loads: Vec<([i128; 2], BigRational)>,
 }
+
+cannonpile::engine::equality!(RandomPiles);
 
 /// The region of the piles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,7 +185,7 @@ impl RandomPiles {
         }
         match self.loads.binary_search_by_key(&at, |(site, _)| *site) {
             Ok(place) => self.loads[place].1 += load,
-            Err(place) => self.loads.insert(place, (at, load)),
+            Err(place) => self.loads.insert(place, (at, reduced(load))),
         }
         Ok(self)
     }

@@ -57,7 +57,7 @@ pub struct NormalBounds {
 /// assert_eq!(least.certificate.unwrap().check(), Ok(()));
 /// # Ok::<(), cannonpile_horizontal::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct NormalBound {
     /// The normal force, in mg.
@@ -71,6 +71,8 @@ pub struct NormalBound {
     /// [`base_bounds`](crate::base_bounds).
     pub certificate: Option<Certificate>,
 }
+
+cannonpile::engine::equality!(NormalBound);
 
 /// Returns the smallest and the largest normal force of a bottom sphere at a = R, in mg, with horizontal contacts.
 ///

@@ -101,7 +101,7 @@ use serde::{Deserialize, Serialize};
 /// assert!(refusal.to_string().contains("is tensile"));
 /// # Ok::<(), cannonpile_horizontal::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Certificate {
     /// The pile.
     pub pile: Pile,
@@ -113,6 +113,8 @@ pub struct Certificate {
     pub field: BTreeMap<Site, [BigRational; 3]>,
 }
 
+cannonpile::engine::equality!(Certificate);
+
 /// A claim about the admissible forces of a pile at a = R: those that balance every sphere and are not tensile.
 ///
 /// # Examples
@@ -121,7 +123,7 @@ pub struct Certificate {
 ///
 /// assert_eq!(Claim::CannotStand.to_string(), "no compressive forces balance the pile: it is unstable");
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum Claim {
@@ -142,6 +144,8 @@ pub enum Claim {
     /// All forces of the pile, exactly or within a bound. The pile may have any sin φ, and may be unstable.
     Forces(Box<AllForces>),
 }
+
+cannonpile::engine::equality!(Claim);
 
 /// A bound of the normal force of a bottom sphere.
 ///
@@ -164,7 +168,7 @@ pub enum Claim {
 /// assert_eq!(certificate.check(), Ok(()));
 /// # Ok::<(), cannonpile_horizontal::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Extreme {
     /// The bottom sphere.
@@ -175,6 +179,8 @@ pub struct Extreme {
     /// `true` if the forces of the certificate attain the bound. Otherwise it may not be sharp.
     pub attained: bool,
 }
+
+cannonpile::engine::equality!(Extreme);
 
 impl fmt::Display for Claim {
     /// Writes the claim as a sentence.

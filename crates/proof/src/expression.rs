@@ -50,7 +50,7 @@ enum Step {
 
 /// An operation of an [`Expression`] on operands of any type, for example numbers for evaluation or texts for
 /// printing.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Operation<V> {
     /// A symbol.
     Symbol(Symbol),

@@ -16,7 +16,7 @@ use crate::short::{numbers, quoted};
 /// let error = "sqrt(-2)".parse::<Surd>().unwrap_err();
 /// assert_eq!(error.to_string(), "the root of -2 is not real: the radicand must not be negative");
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Error {
     /// The radicand of a square root is negative.
@@ -34,6 +34,8 @@ pub enum Error {
         expected: &'static str,
     },
 }
+
+crate::equality!(Error);
 
 impl Error {
     /// Returns the error for a text that does not have the form `expected`.

@@ -1,11 +1,18 @@
-//! Sums, products and quotients of rationals whose denominators are mostly powers of three.
+//! Sums, products and quotients of rationals whose denominators are mostly powers of three, and the order of rationals.
+
+use alloc::format;
+use alloc::string::String;
+use core::any::Any;
+use core::cmp::Ordering;
+use core::fmt::Debug;
+use core::hash::{Hash, Hasher};
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Zero, pow};
+use num_traits::{One, Signed, Zero, pow};
 
-/// Returns the least common multiple of two positive integers.
+/// Returns the least common multiple of two integers that are not zero. `a` must be positive.
 ///
 /// In most calls one of the two divides the other. The function tests this first, because a division is cheaper
 /// than a greatest common divisor.
@@ -14,7 +21,7 @@ pub fn common_multiple(a: BigInt, b: &BigInt) -> BigInt {
     if a.is_multiple_of(b) {
         a
     } else if b.is_multiple_of(&a) {
-        b.clone()
+        b.abs()
     } else {
         a.lcm(b)
     }
@@ -112,12 +119,128 @@ pub fn quotient(n: BigInt, d: &BigInt) -> BigRational {
     BigRational::new_raw(BigInt::from_biguint(sign, n), d.into())
 }
 
+/// Returns the same number in lowest terms, with a positive denominator.
+///
+/// `Ratio::new_raw` can create others.
+///
+/// # Examples
+/// ```
+/// use exact_surd::num_rational::BigRational;
+/// use exact_surd::rational::reduced;
+///
+/// assert_eq!(reduced(BigRational::new_raw(4.into(), (-2).into())).to_string(), "-2");
+/// ```
+#[must_use]
+pub fn reduced(x: BigRational) -> BigRational {
+    let (n, d) = x.into_raw();
+    quotient(n, &d)
+}
+
 /// Returns a·b in lowest terms.
 ///
 /// This is faster than the operator of `Ratio`, whose cost is dominated by general greatest common divisors.
 #[must_use]
 pub fn product(a: &BigRational, b: &BigRational) -> BigRational {
     quotient(a.numer() * b.numer(), &(a.denom() * b.denom()))
+}
+
+/// A rational that is compared by cross-multiplication and hashed by its reduced parts.
+///
+/// The comparisons and the hash of `Ratio` call themselves once for each common term of two continued fractions. Numbers
+/// of a few thousand digits then exhaust the stack. Those of `ByValue` need the same stack for all numbers.
+///
+/// # Examples
+/// ```
+/// use exact_surd::num_rational::BigRational;
+/// use exact_surd::rational::ByValue;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// assert!(ByValue(&ratio(1, 3)) < ByValue(&ratio(2, 5)));
+/// assert!(ByValue(&ratio(-1, 3)) == ByValue(&BigRational::new_raw(2.into(), (-6).into())));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ByValue<'a>(pub &'a BigRational);
+
+impl Ord for ByValue<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let (a, b) = (self.0, other.0);
+        if a.denom() == b.denom() && a.denom().is_positive() {
+            return a.numer().cmp(b.numer());
+        }
+        let order = (a.numer() * b.denom()).cmp(&(b.numer() * a.denom()));
+        if a.denom().is_negative() == b.denom().is_negative() {
+            order
+        } else {
+            order.reverse()
+        }
+    }
+}
+
+impl PartialOrd for ByValue<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for ByValue<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for ByValue<'_> {}
+
+impl Hash for ByValue<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.reduced().into_raw().hash(state);
+    }
+}
+
+/// Returns whether two values are equal: as [`ByValue`] if they are rationals, by `==` otherwise.
+#[doc(hidden)]
+pub fn is_same<T: PartialEq + 'static>(a: &T, b: &T) -> bool {
+    let [x, y] = [a, b].map(|value| (value as &dyn Any).downcast_ref().map(ByValue));
+    x.map_or_else(|| a == b, |x| Some(x) == y)
+}
+
+/// Returns the `Debug` text of a value.
+#[doc(hidden)]
+pub fn debug_text(value: &impl Debug) -> String {
+    format!("{value:?}")
+}
+
+/// Implements `PartialEq` and `Eq`, and `Hash` if it is named, for a type that contains rationals.
+///
+/// The fields that are named are compared by [`is_same`]. If none is named, values are compared by their `Debug` texts.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! equality {
+    ($type:ty $(, $parameter:ident)?; $($field:ident),+) => {
+        impl $(<$parameter: Eq + 'static>)? Eq for $type {}
+        impl $(<$parameter: PartialEq + 'static>)? PartialEq for $type {
+            fn eq(&self, other: &Self) -> bool {
+                let Self { $($field),+ } = self;
+                $($crate::rational::is_same($field, &other.$field))&&+
+            }
+        }
+    };
+    ($type:ty $(, $parameter:ident)?) => {
+        impl $(<$parameter: core::fmt::Debug>)? Eq for $type {}
+        impl $(<$parameter: core::fmt::Debug>)? PartialEq for $type {
+            fn eq(&self, other: &Self) -> bool {
+                let [a, b] = [self, other].map($crate::rational::debug_text);
+                a == b
+            }
+        }
+    };
+    (Hash for $type:ty) => {
+        $crate::equality!($type);
+        impl core::hash::Hash for $type {
+            fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+                $crate::rational::debug_text(self).hash(state);
+            }
+        }
+    };
 }
 
 #[cfg(test)]
@@ -159,6 +282,26 @@ mod tests {
                 });
                 let expected = BigRational::new(a.numer() * b.numer(), a.denom() * b.denom());
                 assert_eq!(parts(&product(&a, &b)), parts(&expected), "{a} {b}");
+            }
+        }
+    }
+
+    /// Also of fractions that are not in lowest terms, and of negative denominators.
+    #[test]
+    fn values_are_ordered_as_numbers() {
+        let sides = [-6, -4, -3, -1, 1, 2, 3, 8];
+        let ratios = sides.map(|d| [-4, -3, 0, 2, 6].map(|n| [n, d]));
+        let hash = |x: &BigRational| {
+            let mut hasher = std::hash::DefaultHasher::new();
+            ByValue(x).hash(&mut hasher);
+            hasher.finish()
+        };
+        for a in ratios.as_flattened() {
+            for b in ratios.as_flattened() {
+                let [x, y] = [a, b].map(|[n, d]| BigRational::new_raw((*n).into(), (*d).into()));
+                let expected = (a[0] * b[1] * a[1] * b[1]).cmp(&(b[0] * a[1] * a[1] * b[1]));
+                assert_eq!(ByValue(&x).cmp(&ByValue(&y)), expected, "{a:?} {b:?}");
+                assert_eq!(hash(&x) == hash(&y), expected.is_eq(), "{a:?} {b:?}");
             }
         }
     }

@@ -9,6 +9,7 @@ use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
+use crate::rational::ByValue;
 use crate::{CorrectlyRounded, Surd};
 
 /// An exact sum a·√m + b·√n of two surds.
@@ -45,7 +46,7 @@ impl SurdSum {
     pub fn new(a: Surd, b: Surd) -> Self {
         let terms = match a.checked_add(&b) {
             Some(sum) => [sum, Surd::zero()],
-            None if a.square() < b.square() => [b, a],
+            None if ByValue(&a.square()) < ByValue(&b.square()) => [b, a],
             None => [a, b],
         };
         Self { terms }
@@ -187,9 +188,9 @@ impl PartialOrd<f64> for SurdSum {
             (Some(surd), _) => surd.partial_cmp(other),
             (None, None) => self.terms[0].partial_cmp(other),
             (None, Some(value)) => Some(self.decide(|[below, above]| {
-                if value <= below {
+                if ByValue(&value) <= ByValue(&below) {
                     Some(Ordering::Greater)
-                } else if value >= above {
+                } else if ByValue(&value) >= ByValue(&above) {
                     Some(Ordering::Less)
                 } else {
                     None

@@ -13,7 +13,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::nearest::{nearest_ratio, nearest_root, screened};
-use crate::rational::product;
+use crate::rational::{ByValue, product, reduced};
 use crate::{CorrectlyRounded, Error};
 
 /// An exact number c·√n, with c rational and n a positive integer.
@@ -418,11 +418,9 @@ fn whole_square(n: BigUint) -> (BigUint, BigUint) {
 }
 
 impl From<BigRational> for Surd {
+    /// The fraction need not be in lowest terms.
     fn from(value: BigRational) -> Self {
-        Self {
-            coefficient: value,
-            radicand: BigUint::one(),
-        }
+        Self::normal(reduced(value), BigUint::one())
     }
 }
 
@@ -463,7 +461,7 @@ impl Mul for Surd {
 impl Hash for Surd {
     /// Equal numbers have equal hashes, also if their stored radicands differ.
     fn hash<H: Hasher>(&self, state: &mut H) {
-        self.signed_square().hash(state);
+        ByValue(&self.signed_square()).hash(state);
     }
 }
 
@@ -484,9 +482,9 @@ impl PartialOrd for Surd {
 impl Ord for Surd {
     fn cmp(&self, other: &Self) -> Ordering {
         if self.radicand == other.radicand {
-            return self.coefficient.cmp(&other.coefficient);
+            return ByValue(&self.coefficient).cmp(&ByValue(&other.coefficient));
         }
-        self.signed_square().cmp(&other.signed_square())
+        ByValue(&self.signed_square()).cmp(&ByValue(&other.signed_square()))
     }
 }
 

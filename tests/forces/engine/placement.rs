@@ -62,7 +62,7 @@ fn loaded(pile: &Pile) -> Pile {
 
 /// The forces of a pile, in the order of [`Forces::contacts`] and [`Forces::base`].
 #[derive(Clone, Debug, PartialEq)]
-struct Known<T> {
+struct Known<T: 'static> {
     contacts: Vec<ContactForce<T>>,
     floor: Vec<FloorForce<T>>,
 }

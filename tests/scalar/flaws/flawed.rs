@@ -69,7 +69,7 @@ fn operations() -> Operations {
 }
 
 /// The exactness that a flawed scalar claims.
-pub(crate) trait Claim: Clone + Debug + PartialEq + Send + Sync {
+pub(crate) trait Claim: Clone + Debug + PartialEq + Send + Sync + 'static {
     const EXACTNESS: Exactness;
 }
 

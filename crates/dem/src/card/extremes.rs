@@ -8,6 +8,7 @@ use crate::error::bug;
 use crate::{Each, Error};
 use cannonpile::Pile;
 use cannonpile::lattice::{ContactKind, Site};
+use cannonpile::scalar::ByValue;
 use cannonpile::shape::Selection;
 
 /// A contact, and its force in f₀.
@@ -111,18 +112,18 @@ impl Extremes {
 
     fn weaken(&mut self, magnitude: BigRational) {
         let known = self.weakest.as_ref();
-        if known.is_none_or(|weakest| magnitude < *weakest) {
+        if known.is_none_or(|weakest| ByValue(&magnitude) < ByValue(weakest)) {
             self.weakest = Some(magnitude);
         }
     }
 
     fn meet(&mut self, met: Extreme) {
         let greatest = self.greatest.as_ref();
-        if greatest.is_none_or(|greatest| met.force > greatest.force) {
+        if greatest.is_none_or(|greatest| ByValue(&met.force) > ByValue(&greatest.force)) {
             self.greatest = Some(met.clone());
         }
         let least = self.least.as_ref();
-        if least.is_none_or(|least| met.force < least.force) {
+        if least.is_none_or(|least| ByValue(&met.force) < ByValue(&least.force)) {
             self.least = Some(met);
         }
     }

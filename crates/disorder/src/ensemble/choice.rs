@@ -4,6 +4,7 @@ use core::fmt;
 use core::ops::Range;
 use core::str::FromStr;
 
+use cannonpile::scalar::reduced;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
@@ -53,7 +54,7 @@ pub enum Choice {
 /// assert_eq!(samples.fault_probability().to_string(), "1/3");
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "SamplesParts")]
 pub struct Samples {
     #[serde(rename = "samples")]
@@ -63,6 +64,8 @@ pub struct Samples {
     #[serde(with = "cannonpile::data::number")]
     fault_probability: BigRational,
 }
+
+cannonpile::engine::equality!(Hash for Samples);
 
 impl Samples {
     /// Returns the parameters of `count` samples with this seed and fault probability.
@@ -85,6 +88,7 @@ impl Samples {
         if count == 0 {
             return Err(Error::syntax("0", "a number of samples, at least 1"));
         }
+        let fault_probability = reduced(fault_probability);
         check_fault_probability(&fault_probability)?;
         if fault_probability.denom().to_u64().is_none() {
             return Err(Error::syntax(

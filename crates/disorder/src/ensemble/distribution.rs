@@ -2,6 +2,7 @@
 
 use core::cmp::Ordering;
 
+use cannonpile::scalar::ByValue;
 use cannonpile::stacking::Stacking;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -27,7 +28,7 @@ use crate::Error;
 /// assert_eq!(hcp.least.as_ref().unwrap().force.to_string(), "2/3");
 /// # Ok::<(), cannonpile_disorder::Error>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Distribution {
@@ -56,6 +57,8 @@ pub struct Distribution {
     /// The greatest normal force.
     pub greatest_normal: Option<Extreme>,
 }
+
+cannonpile::engine::equality!(Distribution);
 
 /// A histogram. The bin of a number x is ⌊x/w⌋, with w the [width](super::Ensemble::bin_width) of the bins.
 ///
@@ -88,7 +91,7 @@ pub struct Histogram {
 ///
 /// # Examples
 /// See [`Distribution`].
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Extreme {
@@ -98,6 +101,8 @@ pub struct Extreme {
     /// The stacking.
     pub stacking: Stacking,
 }
+
+cannonpile::engine::equality!(Extreme);
 
 impl Histogram {
     /// Returns the total count of all bins.
@@ -197,11 +202,12 @@ impl Distribution {
         let orders = [Ordering::Less, Ordering::Greater].into_iter().cycle();
         for ((ours, theirs), better) in pairs.into_iter().zip(orders) {
             let replaces = theirs.as_ref().is_some_and(|theirs| {
-                ours.as_ref()
-                    .is_none_or(|ours| match theirs.force.cmp(&ours.force) {
+                ours.as_ref().is_none_or(|ours| {
+                    match ByValue(&theirs.force).cmp(&ByValue(&ours.force)) {
                         Ordering::Equal => theirs.stacking.signs().lt(ours.stacking.signs()),
                         order => order == better,
-                    })
+                    }
+                })
             });
             if replaces {
                 ours.clone_from(theirs);

@@ -3,6 +3,7 @@
 use std::io::{self, Read, Write};
 
 use cannonpile::data::number;
+use cannonpile::scalar::reduced;
 use hmac_sha256::Hash;
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -48,12 +49,14 @@ struct Count(#[serde(with = "number")] BigUint);
 /// assert!(String::from_utf8(text)?.contains("\n  \"standing_probability\": \"62/81\",\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct TallyRecord {
     version: String,
     fault_probability: BigRational,
     tally: Tally,
 }
+
+cannonpile::engine::equality!(TallyRecord);
 
 /// The entries of a file from which the others follow.
 #[derive(Deserialize)]
@@ -79,7 +82,7 @@ impl TallyRecord {
     pub fn new(tally: Tally, fault_probability: BigRational) -> Result<Self, Error> {
         let fault_probability = match &tally.choice {
             Choice::Drawn(samples) => samples.fault_probability().clone(),
-            Choice::All => fault_probability,
+            Choice::All => reduced(fault_probability),
         };
         tally.weights(&fault_probability)?;
         Ok(Self {

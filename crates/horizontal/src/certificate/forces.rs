@@ -29,7 +29,7 @@ const MAX_FORCES: u64 = 3_000_000;
 /// assert!(forces.compressive && forces.contacts.len() == 10 && forces.floor.len() == 10);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AllForces {
     /// The largest difference of a number from the exact one, in its unit; 0 if all are exact.
@@ -44,6 +44,8 @@ pub struct AllForces {
     #[serde(deserialize_with = "once")]
     pub floor: Vec<FloorForce<BigRational>>,
 }
+
+cannonpile::engine::equality!(AllForces);
 
 /// Reads forces on the floor, at most one for each sphere.
 fn once<'de, D: Deserializer<'de>>(

@@ -64,7 +64,7 @@ impl fmt::Display for Relation {
 /// let refusal = Refusal::Tension { site: Site::APEX, direction: Direction::Beta, force };
 /// assert_eq!(refusal.to_string(), "the contact (0,0,0) beta is tensile: its force is -2");
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Refusal {
     /// The pile has no horizontal contacts: sin φ is neither 1/2 nor that of discs.
@@ -182,6 +182,8 @@ pub enum Refusal {
     /// An operation on the pile failed.
     Pile(Error),
 }
+
+cannonpile::engine::equality!(Refusal);
 
 impl From<Error> for Box<Refusal> {
     fn from(error: Error) -> Self {

@@ -11,6 +11,7 @@ use crate::table::rows::{Column, Row, RowIter, Table, boxed};
 use crate::table::units::Units;
 use crate::{Each, Error};
 use cannonpile::lattice::{Dimension, Site};
+use cannonpile::scalar::ByValue;
 use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
 
@@ -190,9 +191,9 @@ fn sphere_cells(packing: &Packing<'_>, (id, site): (BigInt, Site), centre: [Cell
 
 /// Returns an upper bound of the masses of all spheres.
 fn greatest_mass(packing: &Packing<'_>) -> BigRational {
-    let special = packing.pile().weights().map(|(_, weight)| weight);
-    let greatest = special.fold(BigRational::one(), |most, weight| most.max(weight.clone()));
-    greatest * packing.mass()
+    let special = packing.pile().weights().map(|(_, weight)| ByValue(weight));
+    let one = BigRational::one();
+    special.fold(ByValue(&one), Ord::max).0 * packing.mass()
 }
 
 /// Returns the weight of the spheres of a selection without their loads, in mg.
