@@ -65,12 +65,27 @@ impl Raised {
             Self::Refusal(refusal) => match *refusal {
                 Refusal::OutOfRange => PyOverflowError::new_err(refusal.to_string()),
                 Refusal::Within(_) => PyValueError::new_err(format!("within: {refusal}")),
-                _ => PyValueError::new_err(refusal.to_string()),
+                _ => PyValueError::new_err(of_refusal(&refusal)),
             },
-            Self::Argument(name, refusal) => PyValueError::new_err(format!("{name}: {refusal}")),
+            Self::Argument(name, refusal) => {
+                PyValueError::new_err(format!("{name}: {}", of_refusal(&refusal)))
+            }
             Self::Write(error) => PyOSError::new_err(error.to_string()),
         }
     }
+}
+
+/// Returns the message of a refusal, with arguments of this package in place of options of the command line.
+fn of_refusal(refusal: &Refusal) -> String {
+    let arguments = [
+        ("use --first-id 0", "give ids + 1"),
+        (
+            "--first-id 0 counts from 0, and --match place finds",
+            "if they count from 0, give ids + 1; points and centres find",
+        ),
+    ];
+    let text = refusal.to_string();
+    arguments.iter().fold(text, |text, (option, argument)| text.replace(option, argument))
 }
 
 /// Returns the exception for an invalid argument.

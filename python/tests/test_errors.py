@@ -255,3 +255,50 @@ def test_values_that_are_not_finite():
         forces[2] = number
         with pytest.raises((ValueError, AssertionError)):
             pile.assert_close(pile.contact_ids(), forces)
+
+
+def test_integers_of_any_length():
+    # Python prints integers of up to 4300 digits.
+    texts = ["1" + 4500 * "0", 10**4500, Fraction(10**4500)]
+    piles = [Pile(2, loads={(0, 0, 0): load}) for load in texts]
+    assert piles[0] == piles[1] == piles[2] and len(set(map(hash, piles))) == 1
+    assert piles[0].weight == 4 + 10**4500
+    with pytest.raises(ValueError, match="5001 characters"):
+        Pile(10**5000)
+    with pytest.raises(ValueError, match="at most 5000 digits"):
+        Pile(2, loads={(0, 0, 0): 10**5000})
+
+
+def test_long_piles_are_compared():
+    a, b = 1, 1
+    while b < 10**4989:
+        a, b = b, a + b
+    one, other = Fraction(b, a), Fraction(a + b, b)
+    piles = [Pile(3, loads={(0, 0, 0): x, (1, 0, 1): y}) for x, y in [(one, other), (other, one), (one, other)]]
+    assert piles[0] != piles[1] and piles[0] == piles[2]
+    assert hash(piles[0]) == hash(piles[2])
+
+
+@pytest.mark.parametrize(
+    ("forces", "message"),
+    [
+        (lambda forces: np.ma.masked_less(forces, 2), "some entries are masked"),
+        (lambda forces: forces + 0j, "must be real numbers, not complex128"),
+        (lambda forces: [None, *forces[1:]], "must be real numbers, not NoneType"),
+        (lambda forces: forces > 1, "must be real numbers, not bool"),
+        (lambda forces: [str(force) for force in forces], "must be real numbers, not <U"),
+    ],
+)
+def test_arrays_of_other_entries(forces, message):
+    pile = Pile(4)
+    with pytest.raises((TypeError, ValueError), match=f"forces: .*{message}"):
+        pile.compare(pile.contact_ids(), forces(pile.forces()))
+    exact = [Fraction(force) for force in pile.forces()]
+    assert pile.compare(pile.contact_ids(), exact).accepted()
+
+
+def test_ids_from_0():
+    pile = Pile(4)
+    with pytest.raises(ValueError, match=r"give ids \+ 1") as refused:
+        pile.compare(pile.contact_ids() - 1, pile.forces())
+    assert "--" not in str(refused.value)

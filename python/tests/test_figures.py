@@ -1,5 +1,8 @@
 """Figures and files."""
 
+import os
+import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -87,3 +90,30 @@ def test_export(tmp_path):
     assert all((tmp_path / "pile" / name).stat().st_size for name in names)
     # The default format is csv.
     assert "contacts.csv" in Pile(4).export(str(tmp_path / "tables"))
+
+
+@pytest.mark.parametrize("name", ["shear.png", "shear.pdf", "shear.html"])
+def test_figures_are_svg(tmp_path, name):
+    path = tmp_path / name
+    with pytest.raises(ValueError, match="figures are SVG, which the extension of .* is not: use .svg"):
+        Pile(4).plot("shear").save(path)
+    assert not path.exists()
+    for kept in ("shear.SVG", "shear"):
+        Pile(4).plot("shear").save(tmp_path / kept)
+    with pytest.raises(ValueError, match="pages are HTML"):
+        Pile(4).show().save(tmp_path / "pile.svg")
+
+
+def test_open_files_are_not_replaced(tmp_path):
+    if not os.path.exists("/dev/stdout"):
+        pytest.skip("the system has no names of open files")
+    code = "from cannonpile import Pile; Pile(2).plot('shear').save('/dev/stdout')"
+    log = tmp_path / "log.txt"
+    with log.open("w") as out:
+        out.write("before\n")
+        out.flush()
+        subprocess.run([sys.executable, "-c", code], stdout=out, check=True)
+        out.seek(0, os.SEEK_END)
+        out.write("after\n")
+    text = log.read_text(encoding="utf-8")
+    assert text.startswith("before\n<svg ") and text.endswith("after\n")

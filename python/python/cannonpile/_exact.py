@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any, TypeAlias, Union
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from decimal import Decimal
     from fractions import Fraction
 
 #: An exact number.
@@ -51,7 +51,18 @@ Fraction or a Decimal
             raise TypeError(
                 f"{name}: {value!r} is not an exact number: write an int, a str such as '6/5', a Fraction or a Decimal"
             ) from None
-    return f"{int(numerator)}" if denominator == 1 else f"{int(numerator)}/{int(denominator)}"
+    return digits(numerator) if denominator == 1 else f"{digits(numerator)}/{digits(denominator)}"
+
+
+def digits(value: Any) -> str:
+    """Return an integer of any length as text. `str` refuses integers of more than 4300 digits.
+
+    Examples
+    --------
+    >>> len(digits(10**5000))
+    5001
+    """
+    return f"{Decimal(int(value)):f}"
 
 
 def _float_message(name: str, value: Any) -> str:
@@ -123,7 +134,7 @@ def place(name: str, value: Any) -> str:
     """
     if isinstance(value, str) or not hasattr(value, "__iter__"):
         raise TypeError(f"{name}: {value!r} is not a site; write (k, i, j), or (i, j) on the base")
-    return ",".join(str(integer(name, n)) for n in value)
+    return ",".join(digits(integer(name, n)) for n in value)
 
 
 def numbers(name: str, value: Exact | tuple[Exact, ...]) -> str:

@@ -63,10 +63,12 @@ class Figure:
         Parameters
         ----------
         path : str or path
-            The file. An existing file is replaced.
+            The file, with the extension ``.svg`` or none. An existing file is replaced.
 
         Raises
         ------
+        ValueError
+            If the extension of the file is not that of an SVG document.
         OSError
             If the file cannot be written.
 
@@ -80,7 +82,7 @@ class Figure:
         ...     path.read_text(encoding="utf-8")[:5]
         '<svg '
         """
-        write(path, self._svg)
+        write(path, self._svg, "figures are SVG", ".svg")
 
     def _repr_svg_(self) -> str:
         return self._svg

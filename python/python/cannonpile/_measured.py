@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -97,6 +99,7 @@ def _flat(given: dict[str, NDArray[Any] | None]) -> dict[str, NDArray[Any] | Non
 def _ids(ids: ArrayLike | None) -> NDArray[np.int64] | None:
     if ids is None:
         return None
+    _check_masks("ids", ids)
     array = np.asarray(ids)
     if array.size == 0:
         array = array.reshape(-1, 2)
@@ -116,16 +119,37 @@ def _ids(ids: ArrayLike | None) -> NDArray[np.int64] | None:
 def _floats(name: str, values: ArrayLike | None, row: tuple[int, ...]) -> NDArray[np.float64] | None:
     if values is None:
         return None
+    _check_masks(name, values)
     try:
-        array = np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise type(error)(f"{name}: {error}") from None
+        given = np.asarray(values)
+        _check_kind(name, given)
+        array = np.ascontiguousarray(given, dtype=np.float64)
+    except (OverflowError, TypeError, ValueError) as error:
+        prefix = f"{name}: "
+        raise type(error)(prefix + str(error).removeprefix(prefix)) from None
     if np.ndim(values) == 0:
         array = array.reshape(())
     if array.size == 0:
         array = array.reshape(-1, *row)
     _check_shape(name, array, row)
     return array
+
+
+def _check_masks(name: str, values: Any) -> None:
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name}: some entries are masked: leave out their contacts, or fill them")
+
+
+def _check_kind(name: str, array: NDArray[Any]) -> None:
+    """Check that the entries are real numbers. NumPy would read None as nan, and 1 + 2j as 1."""
+    # Fractions, decimals and long integers are objects.
+    real = (Real, Decimal, np.integer, np.floating)
+    if array.dtype.kind == "O":
+        wrong = [type(entry).__name__ for entry in array.flat if isinstance(entry, bool) or not isinstance(entry, real)]
+    else:
+        wrong = [] if array.dtype.kind in "iuf" or array.size == 0 else [str(array.dtype)]
+    if wrong:
+        raise TypeError(f"{name}: the entries must be real numbers, not {wrong[0]}")
 
 
 def _check_shape(name: str, array: NDArray[Any], row: tuple[int, ...]) -> None:

@@ -50,10 +50,12 @@ class Page:
         Parameters
         ----------
         path : str or path
-            The file. An existing file is replaced.
+            The file, with the extension ``.html``, ``.htm`` or none. An existing file is replaced.
 
         Raises
         ------
+        ValueError
+            If the extension of the file is not that of an HTML document.
         OSError
             If the file cannot be written.
 
@@ -67,7 +69,7 @@ class Page:
         ...     path.read_text(encoding="utf-8")[:15]
         '<!doctype html>'
         """
-        write(path, self._html)
+        write(path, self._html, "pages are HTML", ".html", ".htm")
 
     def _repr_html_(self) -> str:
         # A frame separates the styles and scripts of the page from those of the notebook.

@@ -109,11 +109,11 @@ class Pile:
             raise ValueError("top and base exclude each other: remove one of the two")
         options: list[tuple[str, str]] = []
         if layers is not None:
-            options.append(("layers", str(_exact.integer("layers", layers))))
+            options.append(("layers", _exact.digits(_exact.integer("layers", layers))))
         texts = {"stacking": stacking, "top": top, "base": base}
         options.extend((name, _exact.text(name, value)) for name, value in texts.items() if value is not None)
         options.append(("state", _exact.text("state", state)))
-        options.append(("dimension", str(_exact.integer("dimension", dimension))))
+        options.append(("dimension", _exact.digits(_exact.integer("dimension", dimension))))
         ratios = {"sin_phi": sin_phi, "spacing": spacing}
         options.extend((name, _exact.number(name, value)) for name, value in ratios.items() if value is not None)
         sizes = {"radius": radius, "mass": mass, "gravity": gravity, "stiffness_ratio": stiffness_ratio}

@@ -133,7 +133,7 @@ def census(
     """
     if layers is not None and base is not None:
         raise ValueError("layers and base exclude each other: remove one of the two")
-    height = str(_exact.integer("layers", 10 if layers is None else layers))
+    height = _exact.digits(_exact.integer("layers", 10 if layers is None else layers))
     shape = None if base is None else _exact.text("base", base)
     entries = native.census(height, shape, bool(standing), bool(horizontal))
     return (CensusEntry(*entry) for entry in entries)
@@ -196,7 +196,7 @@ def mean(
     if top is not None and base is not None:
         raise ValueError("top and base exclude each other: remove one of the two")
     rows = native.mean(
-        str(_exact.integer("layers", layers)),
+        _exact.digits(_exact.integer("layers", layers)),
         None if top is None else _exact.text("top", top),
         None if base is None else _exact.text("base", base),
         _exact.loads(loads),
