@@ -34,8 +34,13 @@ impl<E: Into<Error>> From<E> for Failure {
 impl Failure {
     /// Converts an error of writing to stdout, or to the file that `option` names.
     pub(crate) fn of_writing(error: WriteError, option: &str, file: Option<&Path>) -> Self {
-        let file = file.map(|path| format!("--{option} {}", path.display()));
-        let target = file.unwrap_or_else(|| "to stdout".into());
+        let (target, remedy) = match file {
+            Some(path) => (format!("--{option} {}", path.display()), WRITABLE_FOLDER),
+            None => (
+                "to stdout".into(),
+                "redirect stdout to a place with free space",
+            ),
+        };
         let (target, reason) = match error {
             WriteError::Answer(error) => return error.into(),
             WriteError::Io(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -46,9 +51,7 @@ impl Failure {
             WriteError::File { path, error } => (path.display().to_string(), reason(&error)),
             error => (target, error.to_string()),
         };
-        Self::Message(format!(
-            "cannot write {target}: {reason}; choose an existing, writable folder with free space"
-        ))
+        Self::Message(format!("cannot write {target}: {reason}; {remedy}"))
     }
 }
 
@@ -92,6 +95,8 @@ impl<E: Into<Error>> From<E> for InputError {
     }
 }
 
+/// The remedy for a file that cannot be written.
+const WRITABLE_FOLDER: &str = "choose an existing, writable folder with free space";
 /// The remedy for a file that cannot be read.
 pub(crate) const READABLE_FILE: &str = "give a readable file";
 pub(crate) const READABLE_FILE_OR_STDIN: &str = "give a readable file, or - for stdin";
@@ -132,12 +137,13 @@ pub(crate) fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Writes to stdout, or atomically to the file that `option` names.
+/// Writes to stdout, or atomically to the file that `option` names. The name `-` is stdout.
 pub(crate) fn write_to(
     option: &str,
     file: Option<&Path>,
     content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), Failure> {
+    let file = file.filter(|path| *path != Path::new("-"));
     let written = match file {
         Some(path) => write_aside(path, content),
         None => write_out(content),

@@ -9,6 +9,7 @@ mod export;
 mod found_tables;
 mod man;
 mod mean;
+mod outputs;
 mod plot;
 mod scene;
 mod stackings;
@@ -193,7 +194,7 @@ fn headers_of_tables() {
         (
             "summary",
             "layers,stacking,spheres,contacts,weight,stands,min_contact,base_spheres,normal_min,\
-             normal_max,max_shear_ratio,touching,plan,margin_squared",
+             normal_max,max_shear_ratio_over_tan_theta,touching,plan,margin_squared_over_tan2_theta",
         ),
         ("base", "i,j,normal,shear_x,shear_y"),
         ("base --dimension 2", "i,normal,shear_x"),

@@ -13,8 +13,9 @@ use crate::error::bug;
 /// Writes a file under a temporary name, and renames it when it is complete. A failure leaves an existing file
 /// unchanged.
 ///
-/// Pipes, devices and other special files are written directly. Symbolic links are followed. A dangling link and a
-/// read-only file are errors. The new file inherits the permissions of the file that it replaces.
+/// Symbolic links are followed, also to a file that does not exist yet. Pipes, devices and the files that a process has
+/// open (`/dev/stdout`, `/dev/fd/3`) are written where they are, and not replaced. A read-only file is an error. The new
+/// file inherits the permissions of the file that it replaces.
 ///
 /// An interrupted process can [remove](super::remove_unfinished) its temporary files. A killed process leaves a hidden
 /// file `.cannonpile-…` in the folder, which the next call for that folder removes.
@@ -56,21 +57,20 @@ impl Aside {
         path: &Path,
         write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
     ) -> Result<Self, WriteError> {
-        let target = match fs::canonicalize(path) {
-            Ok(target) => target,
-            // A rename would replace a dangling link, but links must be followed.
-            Err(error) if path.is_symlink() => return Err(error.into()),
-            Err(_) => path.to_owned(),
-        };
+        let target = followed(path)?;
+        let descriptor = descriptor(&target);
         let permissions = fs::metadata(&target)
             .ok()
             .map(|metadata| metadata.permissions());
         if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
             return Err(io::Error::from(io::ErrorKind::PermissionDenied).into());
         }
-        if target.exists() && !target.is_file() {
-            let out = fs::OpenOptions::new().write(true).open(&target)?;
-            let bytes = write_to(out, write)?;
+        if descriptor.is_some() || target.exists() && !target.is_file() {
+            let bytes = match descriptor {
+                Some(STDOUT) => write_to(io::stdout().lock(), write)?,
+                Some(STDERR) => write_to(io::stderr().lock(), write)?,
+                _ => write_to(fs::OpenOptions::new().append(true).open(&target)?, write)?,
+            };
             let file = None;
             return Ok(Self {
                 file,
@@ -118,6 +118,31 @@ impl Aside {
     pub(crate) fn target(&self) -> &Path {
         &self.target
     }
+}
+
+const STDOUT: u32 = 1;
+const STDERR: u32 = 2;
+
+/// Follows symbolic links, also to a file that does not exist. A link to an open file of the process is not followed.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    const MOST: u32 = 40;
+    let mut target = path.to_owned();
+    for _ in 0..MOST {
+        match fs::read_link(&target) {
+            Ok(link) if descriptor(&target).is_none() => target = target.with_file_name(link),
+            _ => return Ok(target),
+        }
+    }
+    // The system has the name of the error.
+    fs::canonicalize(path)
+}
+
+/// Returns the number of the open file of this process that a path such as `/dev/fd/1` names.
+fn descriptor(path: &Path) -> Option<u32> {
+    let folder = fs::canonicalize(path.parent()?).ok()?;
+    let own = ["/proc/self/fd", "/dev/fd"].map(|own| fs::canonicalize(own).ok());
+    let number = path.file_name()?.to_str()?.parse();
+    number.ok().filter(|_| own.contains(&Some(folder)))
 }
 
 /// Renames a locked file to a name for locked files.
