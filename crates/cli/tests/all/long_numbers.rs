@@ -1,0 +1,248 @@
+//! Every operation on numbers, with numbers of about 5000 digits, in a thread with a stack of 512 kB.
+//!
+//! The numbers are ratios of Fibonacci numbers. Their continued fractions have the most terms, and two neighbours differ in
+//! the last one only. An operation that calls itself once for each term exhausts the stack, which kills the test.
+
+use core::hash::{Hash, Hasher};
+use std::hint::black_box;
+use std::process::Command;
+use std::thread::{Builder, scope};
+use std::{fs, hash};
+
+use cannonpile::geometry::{Inclination, Spacing};
+use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::num_bigint::BigInt;
+use cannonpile::num_rational::BigRational;
+use cannonpile::scalar::{
+    Algebra, ByValue, CorrectlyRounded, DoubleDouble, Enclosure, Interval, Polynomial,
+    RealEmbeddable, Surd, SurdSum, parse, reduced,
+};
+use cannonpile::shape::Selection;
+use cannonpile::{Error, Load, Packing, Pile, ratio};
+use cannonpile_dem::scene::Scene;
+use cannonpile_dem::table::{self, FileFormat, NumberFormat, Table, Units};
+use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+use cannonpile_figure::Subject;
+
+/// The greatest stack of an operation. Reading the options of a command takes more than this, with any numbers.
+const STACK: usize = 512 * 1024;
+const STACK_OF_COMMANDS: usize = 2 * STACK;
+
+/// F(n+1)/F(n) and F(n+2)/F(n+1) for the first Fibonacci number F(n) of this many digits.
+fn neighbours(digits: u32) -> [BigRational; 2] {
+    let limit = BigInt::from(10).pow(digits - 1);
+    let (mut a, mut b) = (BigInt::from(1), BigInt::from(1));
+    while b < limit {
+        (a, b) = (b.clone(), a + b);
+    }
+    let sum = &a + &b;
+    [BigRational::new(b.clone(), a), BigRational::new(sum, b)]
+}
+
+fn hashed(value: &impl Hash) -> u64 {
+    let mut hasher = hash::DefaultHasher::new();
+    value.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// The kilobytes of the stack of this thread that were used. `None` where the system does not tell.
+fn used() -> Option<u64> {
+    let marker = 0_u8;
+    let address = (&raw const marker).addr();
+    let maps = fs::read_to_string("/proc/self/smaps").ok()?;
+    let is_here = |line: &str| {
+        let [from, to] = [0, 1].map(|n| line.split(' ').next()?.split('-').nth(n));
+        let end = |text: Option<&str>| usize::from_str_radix(text?, 16).ok();
+        end(from)
+            .zip(end(to))
+            .is_some_and(|(from, to)| (from..to).contains(&address))
+    };
+    let mut lines = maps.lines().skip_while(|line| !is_here(line));
+    let resident = lines.find_map(|line| line.strip_prefix("Rss:"))?;
+    resident.trim().strip_suffix(" kB")?.parse().ok()
+}
+
+/// Runs operations, one after the other, and prints the stack that each used.
+macro_rules! run {
+    ($($name:literal: $operation:expr;)*) => {
+        // Each stack is larger than the last one, so no stack is used again.
+        let mut size = STACK / 2;
+        $(
+        size += 4096;
+        assert!(size <= STACK);
+        let stack = scope(|threads| {
+            let thread = Builder::new().stack_size(size).spawn_scoped(threads, || {
+                let _ = black_box($operation);
+                used()
+            });
+            thread.expect("a thread").join().expect($name)
+        });
+        match stack {
+            Some(stack) => println!("{stack:4} kB  {}", $name),
+            None => println!("         {}", $name),
+        }
+        )*
+    };
+}
+
+fn written(table: Result<Table<'_>, cannonpile_dem::Error>, numbers: NumberFormat) -> String {
+    let mut text = Vec::new();
+    table
+        .unwrap()
+        .write(FileFormat::Csv, numbers, &mut text)
+        .unwrap();
+    String::from_utf8(text).unwrap()
+}
+
+#[test]
+fn numbers() {
+    let [a, b] = neighbours(4990);
+    let [x, y] = [&a, &b].map(|number| Surd::from(number.clone()));
+    let [root, other] = [&a, &b].map(|number| Surd::sqrt(number.clone()).unwrap());
+    let sum = SurdSum::new(root.clone(), other.clone());
+    let text = a.to_string();
+    let (f64s, f32s) = (f64::nearest_to_rational, f32::nearest_to_rational);
+    let raw = BigRational::new_raw(-a.numer() * 6, a.denom() * -6);
+    run! {
+        "parse::rational": parse::rational(&text).unwrap();
+        "rational: order and equality": assert!(ByValue(&a) != ByValue(&b) && ByValue(&a).max(ByValue(&b)) == ByValue(&b).max(ByValue(&a)));
+        "rational: hash": assert_eq!(hashed(&ByValue(&a)), hashed(&ByValue(&raw)));
+        "rational: reduced": assert!(ByValue(&reduced(raw.clone())) == ByValue(&a));
+        "rational: nearest f64 and f32": (f64s(&a), f32s(&a), f64s(&raw));
+        "DoubleDouble::from_rational": DoubleDouble::from_rational(&a);
+        "Surd: from, order and equality": assert!(x != y && (x < y) == (y > x) && x == Surd::from(raw.clone()));
+        "Surd: hash": assert_eq!(hashed(&x), hashed(&Surd::from(raw.clone())));
+        "Surd: order of roots": assert!(root != other && (root < other) == (x < y));
+        "Surd: hash of a root": hashed(&root);
+        "Surd: product, reciprocal, square": (root.clone() * &other, root.checked_recip(), root.square());
+        "Surd: sum, scaled, sign": (x.checked_add(&y), root.checked_add(&other), root.scaled(&b), root.sign());
+        "Surd: nearest f64 and f32, order with f64": (root.nearest::<f64>(), root.nearest::<f32>(), x.nearest::<f64>(), root < 1.0);
+        "Surd: text": assert_eq!(x.to_string().parse::<Surd>().unwrap(), x);
+        "SurdSum: sum, sign, order with f64": (SurdSum::new(root.clone(), -other.clone()).sign(), sum < 1.0);
+        "SurdSum: nearest, equality, hash, text": (sum.nearest::<f64>(), sum == sum.clone(), hashed(&sum), sum.to_string());
+        "Interval: from, contains": assert!(Interval::from_rational(&a).contains(&a));
+        "Enclosure: contains, equality, hash": assert!(Enclosure::point(a.clone()).contains(&a) && hashed(&a.enclosure().unwrap()) == hashed(&Enclosure::point(a.clone())));
+        "Polynomial: from, equality, text": assert!(Polynomial::constant(&a) != Polynomial::constant(&b) && !Polynomial::constant(&a).to_string().is_empty());
+    }
+}
+
+#[test]
+fn piles() -> Result<(), Error> {
+    let [a, b] = neighbours(4990);
+    let loads = |first: &BigRational, second: &BigRational| -> Result<Pile, Error> {
+        let pile =
+            Pile::under(Region::SITE, "+-".parse()?)?.with_load(Site::APEX, first.clone())?;
+        let load = Load {
+            down: second.clone(),
+            x: first.clone(),
+            y: first.clone(),
+        };
+        pile.with_load(Site::new(0, 0, 1), load)
+    };
+    let (pile, other) = (loads(&a, &b)?, loads(&b, &a)?);
+    // The corners of a polygon are quotients of long products.
+    let [c, d] = neighbours(500);
+    let short = loads(&c, &d)?;
+    let tilt = [a.clone() / ratio!(100), b.clone() / ratio!(1000)];
+    let spacing = Spacing::from_square(b.recip() * ratio!(2))?;
+    let packing = Packing::new(&pile, &spacing)?
+        .with_mass(a.clone())?
+        .with_radius(b.clone())?
+        .with_gravity(a.clone())?;
+    let (in_pile, in_si) = (Units::of_pile(&pile), Units::of_packing(packing.clone()));
+    let forces = pile.forces::<BigRational>();
+    let floor = Site::new(0, 0, 2);
+    let one = || forces.contact(Site::APEX, Direction::Alpha).unwrap();
+    let base = || {
+        forces
+            .base(Selection::Base)
+            .unwrap()
+            .collect::<Result<Vec<_>, _>>()
+            .unwrap()
+    };
+    let contacts = || {
+        forces
+            .contacts(Selection::All)
+            .unwrap()
+            .collect::<Result<Vec<_>, _>>()
+            .unwrap()
+    };
+    run! {
+        "Pile: loads, weights, tilt": loads(&a, &b).unwrap().with_weight(floor, a.clone()).unwrap().with_tilt(tilt.clone()).unwrap();
+        "Pile: equality": assert!(pile == loads(&a, &b).unwrap() && pile != other);
+        "Pile: hash": assert_eq!(hashed(&pile), hashed(&loads(&a, &b).unwrap()));
+        "Pile: text, weight": (pile.to_string(), pile.weight());
+        "Pile::isosceles": assert!(Pile::isosceles(3, b.recip()).unwrap() != Pile::isosceles(3, a.recip()).unwrap());
+        "Load: equality, hash, text": assert!(hashed(&pile.load(Site::APEX).unwrap()) == hashed(&pile.load(Site::APEX).unwrap()) && pile.load(Site::APEX).unwrap() != pile.load(floor).unwrap() && pile.load(floor).unwrap().to_string() == "0");
+        "Spacing, Inclination: equality, hash, text": assert!(hashed(&spacing) == hashed(&spacing.clone()) && !spacing.to_string().is_empty() && Inclination::new(&spacing, pile.dimension()).unwrap() == packing.inclination().clone());
+        "Clearance: check": pile.clearance().check(&spacing);
+        "Forces: one contact": one();
+        "Forces: contacts, equality": assert!(contacts() == contacts());
+        "Forces: base, equality": assert!(base() == base());
+        "Forces: sums": (forces.sum_of_contacts(Selection::All).unwrap(), forces.sum_on_floor(Selection::Base).unwrap());
+        "Forces<Interval>": pile.forces::<Interval>().contact(Site::APEX, Direction::Alpha);
+        "Forces<DoubleDouble>": pile.forces::<DoubleDouble>().contact(Site::APEX, Direction::Alpha);
+        "Forces<f64>": pile.forces::<f64>().contact(Site::APEX, Direction::Alpha);
+        "Forces<Polynomial>": pile.forces::<Polynomial>().contact(Site::APEX, Direction::Alpha);
+        "Packing: contact, vectors, base": (packing.contact(Site::APEX, Direction::Alpha).unwrap(), packing.clone().mass_of(floor).unwrap(), packing.on_floor(floor).unwrap());
+        "Pile: standing": pile.standing().unwrap();
+        "Pile: base_extremes": assert!(pile.base_extremes().unwrap() == pile.base_extremes().unwrap());
+        "Pile: margin": assert!(pile.margin().unwrap() == pile.margin().unwrap());
+        "Pile: stability, of 500 digits": assert!(short.stability().unwrap() == short.stability().unwrap());
+        "Packing: sensitivity, equality": { let changes = || packing.sensitivity::<BigRational>(Site::APEX).unwrap(); assert!(changes() == changes()) };
+        "tables, exact": [table::base(&in_pile, Selection::Base), table::contacts(&in_pile, Selection::All), table::base(&in_si, Selection::Base), table::contacts(&in_si, Selection::All), table::spheres(&packing, Selection::All)].map(|table| written(table, NumberFormat::Exact));
+        "tables, intervals": [table::base(&in_pile, Selection::Base), table::contacts(&in_pile, Selection::All)].map(|table| written(table, NumberFormat::Interval));
+        "summary": written(Ok(table::Summary::new(&in_pile, None).unwrap().table()), NumberFormat::Exact);
+        "figures": [cannonpile_figure::base, cannonpile_figure::section, cannonpile_figure::shear, cannonpile_figure::pile, cannonpile_figure::stability].map(|draw| draw(&Subject::of_pile(&pile, &Spacing::new(ratio!(6 / 5)).unwrap()).unwrap()).is_ok());
+        "Scene: toml, equality": { let scene = Scene { mass: a.clone(), gravity: b.clone(), ..Scene::default() }; assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene) };
+        "RandomPiles: mean, equality": { let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus).unwrap()).with_load(Site::APEX, a.clone()).unwrap(); (piles == piles.clone(), piles.mean(&0.5).is_ok(), piles.exact(&b.recip()).map(|mean| mean == mean.clone()).is_ok()) };
+    }
+    Ok(())
+}
+
+/// The commands, in a process whose main thread has this stack, and whose other threads have it too.
+#[cfg(unix)]
+#[test]
+fn commands() {
+    let [a, b] = neighbours(4990);
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = format!("layers = 3\nload = [\"0,0,0={a}\", \"1,0,1={b}\"]\n");
+    fs::write(folder.path().join("scene.toml"), scene).expect("a scene");
+    for command in [
+        "summary",
+        "base",
+        "contacts --number interval",
+        "spheres --stress",
+        "stability",
+        "sensitivity --at 0,0,0",
+        "response --at 0,0,0",
+        "explain",
+        "scene",
+        "plot base",
+        "plot network",
+        "export lammps --to lammps",
+        "export yade --to yade",
+        "export checks --to yade-check,lammps-test",
+        "export card --to card",
+        "export csv --to csv,mtx,vtp",
+    ] {
+        let mut shell = Command::new("sh");
+        let script = format!(
+            "ulimit -s {}; exec \"$0\" {command} --scene scene.toml",
+            STACK_OF_COMMANDS / 1024
+        );
+        shell.args(["-c", &script, env!("CARGO_BIN_EXE_cannonpile")]);
+        let output = shell
+            .current_dir(folder.path())
+            .env("RUST_MIN_STACK", STACK.to_string())
+            .output();
+        let output = output.expect("a shell");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            matches!(output.status.code(), Some(0..=2)),
+            "{command}: {:?} {message}",
+            output.status
+        );
+        assert!(message.lines().count() <= 1, "{command}: {message}");
+    }
+}
