@@ -193,7 +193,7 @@ impl Output {
         made: Option<&Path>,
         others: impl FnOnce() -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let file = self.file.as_deref();
+        let file = self.file();
         let is_within = |file: &Path| made.is_some_and(|folder| creates_folder_of(folder, file));
         // Text that was written to stdout cannot be taken back.
         if file.is_none_or(is_within) {
@@ -210,13 +210,18 @@ impl Output {
         })
     }
 
+    /// The file. `-` is stdout.
+    fn file(&self) -> Option<&Path> {
+        self.file.as_deref().filter(|file| *file != Path::new("-"))
+    }
+
     /// Writes to the file or to stdout and shows the progress, one row a line.
     pub(crate) fn write(
         &self,
         progress: &Progress,
         content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
     ) -> Result<(), Failure> {
-        let file = self.file.as_deref();
+        let file = self.file();
         write_to("output", file, |out| {
             progress.count(out, file.is_none(), content)
         })
@@ -244,8 +249,25 @@ pub(crate) fn resolve_format(
                  out, or change the extension"
             )))
         }
-        (format, ending) => Ok(format.or(ending).unwrap_or(Format::Table)),
+        (None, None) => match file.and_then(foreign) {
+            Some(other) => Err(Failure::Message(format!(
+                "--{file_option}: tables are written as text, csv or json, not as {other}: use the extension csv or json, or \
+                 give --{format_option}"
+            ))),
+            None => Ok(Format::Table),
+        },
+        (Some(format), _) | (None, Some(format)) => Ok(format),
     }
+}
+
+/// Returns the extension of a file, if it is that of a format for tables that is not written.
+fn foreign(file: &Path) -> Option<&str> {
+    const FOREIGN: &str =
+        " tsv tab jsonl ndjson xls xlsx ods parquet feather xml yaml html md tex ";
+    let ending = file.extension()?.to_str()?;
+    FOREIGN
+        .contains(&format!(" {} ", ending.to_ascii_lowercase()))
+        .then_some(ending)
 }
 
 #[derive(Clone, Copy, ValueEnum)]

@@ -20,6 +20,10 @@ pub(crate) mod stability;
 pub(crate) mod summary;
 pub(crate) mod verify;
 
+use std::fmt::Display;
+use std::io;
+use std::path::Path;
+
 use cannonpile::Pile;
 use cannonpile::geometry::Spacing;
 use cannonpile::shape::Selection;
@@ -27,15 +31,33 @@ use cannonpile_dem::Key;
 use cannonpile_dem::scene::parse;
 use cannonpile_dem::table::{Cell, Table};
 use cannonpile_disorder::check_fault_probability;
+use cannonpile_horizontal::certificate::read_certificates;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
 use crate::Error;
-use crate::output::{Failure, InputError, print_message};
+use crate::output::{Failure, InputError, print_message, write_to};
 use crate::progress::Progress;
 
 /// The message for `--certificate` with `--floor rough`.
 const CERTIFICATE_ON_ROUGH_FLOOR: &str = "--certificate: forces on a rough floor need no certificate, because they are unique: leave it out";
+
+/// Writes certificates into the file of `--certificate`, if `check` accepts them.
+fn write_accepted(
+    file: &Path,
+    write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let refused = |reason: &dyn Display| {
+        let text = format!("--certificate: leave it out, because check would refuse it: {reason}");
+        Failure::Message(text)
+    };
+    let mut text = Vec::new();
+    let certificates = write(&mut text).and_then(|()| read_certificates(text.as_slice()));
+    for certificate in certificates.map_err(|error| refused(&error))? {
+        certificate.check().map_err(|error| refused(&error))?;
+    }
+    write_to("certificate", Some(file), |out| Ok(out.write_all(&text)?))
+}
 
 /// Parses the probability of a sign change.
 fn fault_probability(text: &str) -> Result<BigRational, Error> {

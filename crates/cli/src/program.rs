@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use cannonpile::engine::quoted;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -29,10 +30,35 @@ Exit status: 0 success; 1 the answer is no (unstable, different, rejected); 2 us
 
 /// Exact contact forces in regular piles of spheres
 #[derive(Parser)]
-#[command(name = "cannonpile", version, max_term_width = 100, arg_required_else_help = true, after_help = START)]
+#[command(name = "cannonpile", version, max_term_width = 100, arg_required_else_help = true, after_help = START, mut_subcommands(adapted))]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+}
+
+/// Reads names of values in any case, and hides the scene options that a command refuses from its help.
+fn adapted(command: clap::Command) -> clap::Command {
+    let refused = match command.get_name() {
+        "bounds" => "weightless floor friction floor_friction",
+        "summary" => "state stiffness_ratio",
+        "spheres" => "floor friction floor_friction",
+        "stability" | "response" => {
+            "weightless state stiffness_ratio floor friction floor_friction"
+        }
+        "explain" | "sensitivity" | "ensemble" => {
+            "state stiffness_ratio floor friction floor_friction"
+        }
+        _ => "",
+    };
+    let option = |option: clap::Arg| {
+        let is_refused = refused
+            .split(' ')
+            .any(|name| name == option.get_id().as_str());
+        let is_hidden = is_refused || option.is_hide_set();
+        let has_value = option.get_action().takes_values();
+        option.ignore_case(has_value).hide(is_hidden)
+    };
+    command.mut_args(option).mut_subcommands(adapted)
 }
 
 #[derive(Subcommand)]
@@ -187,7 +213,10 @@ fn usage(error: &clap::Error) -> ExitCode {
         }
         _ => {}
     }
-    let text = error.to_string();
+    let mut text = error.to_string();
+    if let Some(ContextValue::String(value)) = error.get(ContextKind::InvalidValue) {
+        text = text.replace(value, &quoted(value));
+    }
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let message: Vec<&str> = lines
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))

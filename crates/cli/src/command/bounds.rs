@@ -9,8 +9,9 @@ use cannonpile_horizontal::certificate::{Certificate, write_certificates};
 use cannonpile_horizontal::{NormalBounds, bounds};
 use clap::Args;
 
+use super::write_accepted;
 use crate::args::{BasePart, Number, Output, SceneOptions, with_row_options};
-use crate::output::{Failure, write_to};
+use crate::output::Failure;
 use crate::progress::Progress;
 use crate::tables;
 
@@ -66,9 +67,7 @@ impl Bounds {
         let format = self.output.format()?;
         let content = |out: &mut dyn Write| table.write(format.into(), self.number.into(), out);
         self.output.write_with(&progress, content, None, || {
-            write_to("certificate", Some(file), |mut out| {
-                Ok(write_certificates(&proofs, &mut out)?)
-            })
+            write_accepted(file, |out| write_certificates(&proofs, out))
         })?;
         Ok(true)
     }

@@ -11,13 +11,13 @@ use cannonpile_dem::table::{Table, Units};
 use cannonpile_horizontal::certificate::{Certificate, write_certificate};
 use clap::Args;
 
-use super::{CERTIFICATE_ON_ROUGH_FLOOR, TensionCheck};
+use super::{CERTIFICATE_ON_ROUGH_FLOOR, TensionCheck, write_accepted};
 use crate::Culprit;
 use crate::args::{
     BasePart, MethodOption, Number, Numbers, Output, Part, SceneOptions, in_state, spheres,
     with_row_options,
 };
-use crate::output::{Failure, InputError, write_to};
+use crate::output::{Failure, InputError};
 use crate::progress::Progress;
 
 /// The options of `base` and `contacts`: scene, selection `P`, numbers, method and output.
@@ -126,12 +126,10 @@ impl<P: Args> Forces<P> {
         let content =
             |out: &mut dyn Write| table.write(format.into(), self.numbers.number.into(), out);
         self.output.write_with(&progress, content, None, || {
-            let Some(certificate) = certificate else {
+            let (Some(certificate), Some(file)) = (certificate, &self.certificate) else {
                 return Ok(());
             };
-            write_to("certificate", self.certificate.as_deref(), |mut out| {
-                Ok(write_certificate(certificate, &mut out)?)
-            })
+            write_accepted(file, |out| write_certificate(certificate, out))
         })?;
         drop(progress);
         tension.note(pile, selection);

@@ -1,5 +1,6 @@
 //! `plot KIND`: draws figures.
 
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use cannonpile::lattice::{Dimension, Region};
@@ -209,6 +210,11 @@ impl Plot {
             no_title,
         } = self.parts().1;
         check_extension(file.as_deref())?;
+        if file.is_none() && io::stdout().is_terminal() {
+            return Err(Failure::Message(
+                "--output: a terminal does not show SVG: give a file such as pile.svg".to_owned(),
+            ));
+        }
         let figure = self.draw()?.laid_out(Layout {
             width: f64::from(*width),
             title: !no_title,

@@ -10,9 +10,9 @@ use cannonpile_horizontal::certificate::write_certificate;
 use cannonpile_horizontal::equilibrium;
 use clap::Args;
 
-use super::CERTIFICATE_ON_ROUGH_FLOOR;
+use super::{CERTIFICATE_ON_ROUGH_FLOOR, write_accepted};
 use crate::args::{Numbers, Output, SceneOptions};
-use crate::output::{Failure, print_message, write_to};
+use crate::output::{Failure, print_message};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -23,18 +23,20 @@ Columns:
   min_contact                smallest force between layers, in mg/(3cosθ), without horizontal contacts
   base_spheres               number of bottom spheres
   normal_min, normal_max     range of the base normal forces, in mg
-  max_shear_ratio            largest ratio of shear to normal force at the base
+  max_shear_ratio            largest ratio of shear to normal force at the base, as magnitudes, in tanθ; empty if a bottom
+                             sphere has a shear, but no normal force
   touching                   spheres that touch at --spacing in addition to those of adjacent layers
   plan                       method that computes the forces
-  margin_squared             t_c², the square of the least tilt at which a contact opens (see stability), without horizontal
-                             contacts; empty if the pile needs these, is unstable, or has no weight above the floor
+  margin_squared             t_c², the square of the least tilt at which a contact opens (see stability), in tan²θ, without
+                             horizontal contacts; empty if the pile needs these, is unstable, or has no weight above the floor
 
 At a = R neighbours in a layer touch, and stands takes these horizontal contacts into account. The exit status is 1 unless
 the pile is stable. The table shows - for a value that takes too long to compute, and a note gives the reason. With
---units si forces are in N.
+--units si forces are in N, and the ratios are plain numbers. Otherwise csv and json name their units:
+max_shear_ratio_over_tan_theta, margin_squared_over_tan2_theta, and friction_needed_over_tan_half_theta below.
 
 With --floor rough the columns are layers, spheres, contacts, weight, base_spheres, normal_min, normal_max, and
-  friction_needed            least coefficient of friction of a contact with a force, in tan(θ/2); a number with --units si
+  friction_needed            least coefficient of friction of a contact with a force, in tan(θ/2)
   floor_friction_needed      least coefficient of friction of the floor, in the same unit
   stands                     no if --friction or --floor-friction is less, yes if not; empty if neither is given
 
@@ -92,9 +94,7 @@ impl Summary {
         if let Some(file) = &self.certificate {
             let known = summary.certificate().cloned();
             let certificate = known.map_or_else(|| equilibrium(&pile), Ok)?;
-            write_to("certificate", Some(file), |mut out| {
-                Ok(write_certificate(&certificate, &mut out)?)
-            })?;
+            write_accepted(file, |out| write_certificate(&certificate, out))?;
         }
         let table = summary.table();
         self.output

@@ -61,7 +61,7 @@ fn columns(more: &[&'static str]) -> Vec<Column> {
     columns.push(Column::plain("base_spheres"));
     columns.extend(["normal_min", "normal_max"].map(|name| Column::measured(name, "mg")));
     columns.extend(["k", "i", "j", "direction"].map(Column::plain));
-    columns.push(Column::measured("margin_squared", ""));
+    columns.push(Column::measured("margin_squared", "tan²θ"));
     columns
 }
 
@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(
             csv(census(found)),
             "stacking,layers,stands,min_contact,base_spheres,normal_min,normal_max,k,i,j,direction,\
-             margin_squared\n\
+             margin_squared_over_tan2_theta\n\
              ++,3,yes,1,6,5/3,5/3,0,0,0,alpha,1/4\n+-,3,yes,2/3,7,14/9,5/3,1,0,0,alpha,1/16\n",
         );
     }

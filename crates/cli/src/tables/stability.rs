@@ -23,7 +23,7 @@ pub(crate) fn margin(
     };
     let mut entries = vec![
         (
-            Column::measured("margin_squared", ""),
+            Column::measured("margin_squared", "tan²θ"),
             squared.map_or(Cell::Missing, Cell::from),
         ),
         (angle_column, angle.map_or(Cell::Missing, Cell::from)),
@@ -69,7 +69,7 @@ mod tests {
     fn the_margin_of_a_straight_pile() {
         let pile = Pile::triangular(4).unwrap();
         let least = pile.margin().unwrap().unwrap();
-        let head = "margin_squared,angle,k,i,j,direction,stands\n1/4,19.5,";
+        let head = "margin_squared_over_tan2_theta,angle,k,i,j,direction,stands\n1/4,19.5,";
         for (opens, contact) in [
             (Some(least.opens), "0,0,0,alpha,yes\n"),
             (None, ",,,,yes\n"),

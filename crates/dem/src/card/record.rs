@@ -346,9 +346,10 @@ fn on_floor(numbered: &NumberedPile<'_>, extremes: &BaseExtremes) -> Result<[Jso
         rational(multiple * packing.sphere_weight(), "a force on the floor")
     };
     let ratio = packing.inclination().tan() * &extremes.max_shear_ratio;
+    let ratio = (!extremes.shear_without_normal).then(|| value(&ratio, "a ratio of forces"));
     Ok([
         normal(&extremes.normal_min)?,
         normal(&extremes.normal_max)?,
-        value(&ratio, "a ratio of forces")?,
+        ratio.transpose()?.unwrap_or(Json::Null),
     ])
 }

@@ -216,7 +216,7 @@ impl NumberFormat {
 /// Returns the `f64` below and above a number, as the shortest texts that read back the same. Both are equal if the
 /// number is a float.
 fn ends(number: &impl Exact, quantity: &'static str) -> Result<[String; 2], Error> {
-    let overflow = || Error::overflow(quantity, "f64");
+    let overflow = || Error::overflow(quantity, "an interval of f64");
     let float: f64 = number.rounded().ok_or_else(overflow)?;
     let [lower, upper] = match number.partial_cmp(&float) {
         Some(Ordering::Less) => [float.next_down(), float],

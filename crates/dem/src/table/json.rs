@@ -14,7 +14,7 @@ pub(super) fn write(
     numbers: NumberFormat,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let keys: Vec<Vec<String>> = columns.iter().map(|column| column.heads(numbers)).collect();
+    let keys: Vec<Vec<String>> = columns.iter().map(|column| column.keys(numbers)).collect();
     let mut line = Line::default();
     let mut separator = "[\n";
     for row in rows {

@@ -60,6 +60,22 @@ impl Column {
         1 + usize::from(self.quantity && numbers == NumberFormat::Interval)
     }
 
+    /// Returns the names in csv and json, which show no units. A ratio in a unit that contains θ has the unit in its name.
+    pub(super) fn keys(&self, numbers: NumberFormat) -> Vec<String> {
+        let name = match (self.name, self.unit) {
+            ("margin_squared", "tan²θ") => "margin_squared_over_tan2_theta",
+            ("max_shear_ratio", "tanθ") => "max_shear_ratio_over_tan_theta",
+            ("friction_needed", "tan(θ/2)") => "friction_needed_over_tan_half_theta",
+            ("floor_friction_needed", "tan(θ/2)") => "floor_friction_needed_over_tan_half_theta",
+            (name, _) => name,
+        };
+        Self {
+            name,
+            ..self.clone()
+        }
+        .heads(numbers)
+    }
+
     /// Returns the headers.
     pub(super) fn heads(&self, numbers: NumberFormat) -> Vec<String> {
         let name = self.name;

@@ -131,6 +131,11 @@ impl<'p> Summary<'p> {
                  have to be compared: use fewer layers"
             ),
         });
+        let slides = self
+            .base
+            .as_ref()
+            .is_ok_and(|base| base.shear_without_normal);
+        let slides = slides.then(|| "a bottom sphere has a shear, but no normal force".to_owned());
         let base = self.base.as_ref().err().map(ToString::to_string);
         let method = self.method.as_ref().err().map(ToString::to_string);
         let reasons = [
@@ -141,6 +146,7 @@ impl<'p> Summary<'p> {
                 self.margin.as_ref().err().map(ToString::to_string),
             ),
             ("normal_min, normal_max, max_shear_ratio", base),
+            ("max_shear_ratio", slides),
             ("plan", method),
         ];
         let left_out = reasons
@@ -227,16 +233,26 @@ impl<'p> Summary<'p> {
             let base = self.base.as_ref();
             base.map_or(Cell::Missing, |base| in_units(value(base)))
         };
-        let ratio = self.base.as_ref().ok().map(|base| match &tan {
-            None => base.max_shear_ratio.clone(),
-            Some(tan) => tan.clone() * &base.max_shear_ratio,
-        });
-        let ratio_unit = if tan.is_none() { "tanθ" } else { "" };
+        let base = self.base.as_ref().ok();
+        let ratio = base
+            .filter(|base| !base.shear_without_normal)
+            .map(|base| match &tan {
+                None => base.max_shear_ratio.clone(),
+                Some(tan) => tan.clone() * &base.max_shear_ratio,
+            });
+        let [ratio_unit, margin_unit] = match tan {
+            None => ["tanθ", "tan²θ"],
+            Some(_) => ["", ""],
+        };
         let least = self.standing.least.as_ref();
         let least = least.map(|contact| units.contact(contact.force.clone()));
         let method = self.method.as_ref().map(Method::to_string);
         let plan = method.map_or(Cell::Missing, |method| Cell::Word(method.into()));
         let margin = self.margin.as_ref().ok().cloned().flatten();
+        let margin = margin.map(|margin| match &tan {
+            None => margin,
+            Some(tan) => margin * tan.square(),
+        });
         let plain = |name, cell: Cell| (Column::plain(name), cell);
         let count = |name, count: BigUint| plain(name, Cell::Integer(count.into()));
         let measured = |name, unit, cell: Cell| (Column::measured(name, unit), cell);
@@ -275,7 +291,7 @@ impl<'p> Summary<'p> {
             plain("plan", plan),
             measured(
                 "margin_squared",
-                "",
+                margin_unit,
                 margin.map_or(Cell::Missing, Cell::from),
             ),
         ];

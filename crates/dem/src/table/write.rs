@@ -90,7 +90,7 @@ impl Table<'_> {
             }
             (FileFormat::Csv, _) => {
                 let mut csv = csv::Writer::from_writer(out);
-                csv.write_record(columns.iter().flat_map(|column| column.heads(numbers)))?;
+                csv.write_record(columns.iter().flat_map(|column| column.keys(numbers)))?;
                 for row in rows {
                     show(columns, &row?, numbers, &mut line)?;
                     csv.write_record(line.fields())?;

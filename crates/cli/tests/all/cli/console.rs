@@ -41,7 +41,7 @@ macro_rules! console {
 
 // The number of commands of each file.
 console! {
-    base: 109;
+    base: 114;
     bounds: 20;
     cases: 25;
     census: 21;
@@ -61,7 +61,7 @@ console! {
     sensitivity: 15;
     spheres: 22;
     stability: 31;
-    summary: 41;
+    summary: 42;
     tables: 9;
     verify: 16;
 }

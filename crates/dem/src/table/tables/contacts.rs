@@ -88,14 +88,14 @@ fn table<'p>(
     refuse_beyond(&count, narrower(selection))?;
     let mut columns = indices(pile, &["k"]);
     columns.push(Column::plain("direction"));
-    columns.push(Column::summed("force", units.force()));
+    columns.push(Column::measured("force", units.force()));
     if let Units::Si(_) = units {
         columns.extend(["fx", "fy", "fz"].each(|name| Column::measured(name, "N")));
         columns.extend(["x", "y", "z"].each(|name| Column::measured(name, "m")));
     }
     let bounds = bounds(&columns, units, selection)?;
     let made = units.clone();
-    let (asked, spheres) = (rows.clone(), rows.flatten());
+    let spheres = rows.flatten();
     let rows = move |numbers| {
         let sloping = match rounding(numbers, selection) {
             Some(Rounding::F64) => rounded_contacts::<f64>(&made, selection)?,
@@ -107,19 +107,7 @@ fn table<'p>(
         }
         Ok(listed.after(sloping, spheres, made))
     };
-    let summed = units.clone();
-    let sums = move || {
-        let sloping = summed.forces().sum_of_contacts(selection)?;
-        let horizontal = pushing(pile, &asked).map(|(_, force)| force);
-        Ok(vec![
-            summed.contact(sloping + horizontal.sum::<BigRational>()),
-        ])
-    };
-    let table = Table::made_for(columns, "contacts", rows).bounded(count, bounds);
-    Ok(match selection {
-        Selection::One(_) => table.summed_by_rows(),
-        _ => table.summed(sums),
-    })
+    Ok(Table::made_for(columns, "contacts", rows).bounded(count, bounds))
 }
 
 /// Returns the first cells of a contact's row: site and direction.
