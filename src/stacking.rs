@@ -485,12 +485,13 @@ impl FromStr for Pattern {
     /// use cannonpile::stacking::Pattern;
     ///
     /// assert_eq!("hcp".parse::<Pattern>()?, Pattern::Hcp);
+    /// assert_eq!("HCP".parse::<Pattern>()?, Pattern::Hcp);
     /// assert_eq!("ABCB".parse::<Pattern>()?, Pattern::Spelled("++-".parse()?));
     /// assert!("bcc".parse::<Pattern>().is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     fn from_str(text: &str) -> Result<Self, Error> {
-        Ok(match text {
+        Ok(match text.to_ascii_lowercase().as_str() {
             "fcc" => Self::Fcc,
             "hcp" => Self::Hcp,
             "dhcp" => Self::Dhcp,
