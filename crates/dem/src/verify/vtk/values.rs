@@ -134,10 +134,14 @@ impl Values {
     }
 }
 
-/// Parses the numbers in a text.
+/// Parses the numbers in a text. Fortran writes the exponent after `D`.
 fn numbers<T: FromStr>(text: &str, expected: &'static str) -> Result<Vec<T>, String> {
     let words = text.split_ascii_whitespace();
-    let numbers = words.map(|word| word.parse().map_err(|_| Error::syntax(word, expected)));
+    let number = |word: &str| {
+        word.parse()
+            .or_else(|_| word.replace(['d', 'D'], "e").parse())
+    };
+    let numbers = words.map(|word| number(word).map_err(|_| Error::syntax(word, expected)));
     numbers
         .collect::<Result<_, _>>()
         .map_err(|error| error.to_string())

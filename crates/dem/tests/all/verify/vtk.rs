@@ -60,6 +60,21 @@ const MIXED: [(&str, &[u8]); 10] = [
 ];
 
 #[test]
+fn exponents_of_fortran_are_read() {
+    let text = std::str::from_utf8(GRIDS[1]).unwrap();
+    for letter in ["D", "d"] {
+        let written = text.replace(
+            " 0.46225016352102427",
+            &format!(" 4.6225016352102427{letter}-01"),
+        );
+        assert_ne!(written, text);
+        let reader = Reader::of(Preset::Lethe);
+        let comparison = read(&reader, written.as_bytes()).unwrap().comparison;
+        assert!(comparison.accepted(1e-10), "{letter}: {comparison}");
+    }
+}
+
+#[test]
 fn lines_among_other_cells_are_read() {
     for (form, file) in MIXED {
         // The text of VTK has eleven digits.
