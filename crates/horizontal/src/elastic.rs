@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use cannonpile::Pile;
 use cannonpile::engine::{bug, check_interrupt};
 use cannonpile::lattice::{Dimension, Site, count};
+use cannonpile::scalar::ByValue;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
@@ -231,7 +232,8 @@ fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
 /// the float solution shows which contacts of these spheres are open. `None` if no sphere or every sphere is
 /// weightless.
 fn with_light_spheres(weights: &[BigRational]) -> Option<Vec<BigRational>> {
-    let least = weights.iter().filter(|weight| !weight.is_zero()).min()?;
+    let weighed = weights.iter().filter(|weight| !weight.is_zero());
+    let least = weighed.min_by_key(|weight| ByValue(weight))?;
     let light = least / BigRational::from_integer(1000.into());
     let heavier = |weight: &BigRational| {
         if weight.is_zero() {

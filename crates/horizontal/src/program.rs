@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::iter::repeat_n;
 
 use cannonpile::engine::{bug, check_interrupt};
+use cannonpile::scalar::ByValue;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use num_rational::BigRational;
@@ -84,7 +85,8 @@ pub(crate) fn in_floats(
     let quadratic =
         CscMatrix::new_from_triplets(all, all, diagonal.clone(), diagonal, vec![1.0; squares]);
     // The right-hand sides are scaled to order 1.
-    let greatest = sums.iter().max().filter(|greatest| greatest.is_positive());
+    let greatest = sums.iter().max_by_key(|sum| ByValue(sum));
+    let greatest = greatest.filter(|greatest| greatest.is_positive());
     let unit = greatest.cloned().unwrap_or_else(BigRational::one);
     let mut linear = Vec::with_capacity(all);
     for sum in sums {

@@ -23,6 +23,7 @@
 //! are compressive, and its gap, −κ′c = 2, is positive: this is the elastic state.
 
 use cannonpile::engine::{bug, check_interrupt};
+use cannonpile::scalar::ByValue;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
@@ -132,7 +133,7 @@ impl Springs<'_> {
             let tensile = changes.filter(|(_, (_, after))| after.is_negative());
             let first =
                 tensile.map(|(contact, (before, after))| (before / (before - after), contact));
-            let Some((share, contact)) = first.min() else {
+            let Some((share, contact)) = least(first) else {
                 return Ok(state);
             };
             for (force, after) in forces.iter_mut().zip(&state.forces) {
@@ -184,14 +185,14 @@ impl Springs<'_> {
             let change = self.state(system, Cause::Gap(tensile))?;
             let contacts = (0..system.open.len()).filter(|c| system.open[*c]);
             let closing = contacts.filter(|c| change.gaps[*c].is_negative());
-            let closing = closing
-                .map(|c| (-&state.gaps[c] / &change.gaps[c], c))
-                .min();
+            let closing = least(closing.map(|c| (-&state.gaps[c] / &change.gaps[c], c)));
             let enough = change.forces[tensile]
                 .is_positive()
                 .then(|| -&state.forces[tensile] / &change.forces[tensile]);
             match (closing, enough) {
-                (Some((gap, contact)), enough) if enough.as_ref().is_none_or(|e| gap < *e) => {
+                (Some((gap, contact)), enough)
+                    if enough.as_ref().is_none_or(|e| (&gap - e).is_negative()) =>
+                {
                     self.close(contact, system)?;
                 }
                 (_, Some(_)) => return self.open(tensile, system),
@@ -371,7 +372,7 @@ impl State {
         let mut overlapping: Vec<usize> = (0..open.len())
             .filter(|c| open[*c] && self.gaps[*c].is_negative())
             .collect();
-        overlapping.sort_by(|one, other| self.gaps[*one].cmp(&self.gaps[*other]));
+        overlapping.sort_by_key(|contact| ByValue(&self.gaps[*contact]));
         overlapping
     }
 
@@ -380,9 +381,14 @@ impl State {
         let forces = self.forces.iter().enumerate();
         let (contact, _) = forces
             .filter(|(_, force)| force.is_negative())
-            .min_by_key(|(_, force)| *force)?;
+            .min_by_key(|(_, force)| ByValue(force))?;
         Some(contact)
     }
+}
+
+/// Returns the least number with its contact; of several, that of the first contact.
+fn least(numbers: impl Iterator<Item = (BigRational, usize)>) -> Option<(BigRational, usize)> {
+    numbers.min_by(|(a, first), (b, second)| (ByValue(a), first).cmp(&(ByValue(b), second)))
 }
 
 /// Returns the error for a system without a solution: cancellation, or a violated invariant.

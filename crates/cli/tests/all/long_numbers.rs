@@ -10,7 +10,7 @@ use std::thread::{Builder, scope};
 use std::{fs, hash};
 
 use cannonpile::geometry::{Inclination, Spacing};
-use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
 use cannonpile::num_bigint::BigInt;
 use cannonpile::num_rational::BigRational;
 use cannonpile::scalar::{
@@ -200,6 +200,36 @@ fn piles() -> Result<(), Error> {
     Ok(())
 }
 
+#[test]
+fn horizontal_contacts() -> Result<(), Box<dyn core::error::Error + Send + Sync>> {
+    use cannonpile_horizontal::certificate::{Certificate, read_certificate, write_certificate};
+
+    let [a, b] = neighbours(1500);
+    let pile = Pile::triangular(3)?
+        .with_load(Site::APEX, a.clone())?
+        .with_load(Site::new(1, 0, 1), b.clone())?;
+    let corner = Site::new(0, 0, 2);
+    let stiffness = a.clone();
+    let certificate = cannonpile_horizontal::equilibrium(&pile)?;
+    let forces = Certificate::of_forces(&pile)?;
+    let contact = HorizontalContact {
+        site: Site::new(0, 0, 1),
+        axis: Axis::AlphaBeta,
+    };
+    run! {
+        "horizontal: equilibrium, equality": assert!(cannonpile_horizontal::equilibrium(&pile).unwrap() == certificate);
+        "horizontal: check": certificate.check().unwrap();
+        "horizontal: bounds": cannonpile_horizontal::bounds(&pile, corner).unwrap();
+        "horizontal: elastic": cannonpile_horizontal::elastic(&pile, &stiffness).unwrap();
+        "horizontal: margin": cannonpile_horizontal::margin(&pile).unwrap();
+        "certificate of forces: equality, check": assert!(forces == forces.clone() && forces.check().is_ok());
+        "certificate of forces: rounded": forces.clone().rounded().unwrap().check().unwrap();
+        "certificate: file": { let mut text = Vec::new(); write_certificate(&forces, &mut text).unwrap(); assert!(read_certificate(text.as_slice()).unwrap() == forces) };
+        "Pile: horizontal force": pile.clone().with_horizontal_force(contact, a.clone()).is_ok();
+    }
+    Ok(())
+}
+
 /// The commands, in a process whose main thread has this stack, and whose other threads have it too.
 #[cfg(unix)]
 #[test]
@@ -213,7 +243,7 @@ fn commands() {
         "base",
         "contacts --number interval",
         "spheres --stress",
-        "stability",
+        "stability --spacing 1",
         "sensitivity --at 0,0,0",
         "response --at 0,0,0",
         "explain",

@@ -6,6 +6,7 @@ use cannonpile::engine::{bug, common_multiple, refuse_beyond_memory};
 use cannonpile::formula::{beside, increments, pushed, resultant, tripled_half_turn, weight};
 use cannonpile::geometry::{Vector, directions, disc_directions};
 use cannonpile::lattice::{Axis, Dimension, Direction, HorizontalContact, Sign, Site};
+use cannonpile::scalar::ByValue;
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
 use num_bigint::BigInt;
@@ -163,7 +164,7 @@ impl Certificate {
             return Err(Box::new(Refusal::Sign { compressive }));
         }
         let close = |site, what, (given, exact): (&BigRational, &BigRational), within| {
-            if &(given - exact).abs() <= within {
+            if ByValue(&(given - exact).abs()) <= ByValue(within) {
                 return Ok(());
             }
             let (given, exact) = (given.clone(), exact.clone());
@@ -383,13 +384,13 @@ impl Certificate {
             extreme.normal.clone(),
             normal(work(&self.pile, &self.field)),
         );
-        if proved != claimed {
+        if ByValue(&proved) != ByValue(&claimed) {
             return Err(Box::new(Refusal::Bound { claimed, proved }));
         }
         if extreme.attained {
             let received = received(pile, &self.forces()?, site);
             let attained = normal(received.into_iter().sum());
-            if attained != claimed {
+            if ByValue(&attained) != ByValue(&claimed) {
                 return Err(Box::new(Refusal::Attained { claimed, attained }));
             }
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use cannonpile::data::{listed, number};
 use cannonpile::engine::refuse_beyond;
 use cannonpile::lattice::Site;
-use cannonpile::scalar::Algebra;
+use cannonpile::scalar::{Algebra, ByValue};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, FloorForce, Pile};
 use num_rational::BigRational;
@@ -155,7 +155,10 @@ impl Certificate {
             forces.each(
                 |force| match BigRational::from_float(f64::from_rational(force)) {
                     Some(float) => {
-                        within = within.clone().max((&float - &*force).abs());
+                        let error = (&float - &*force).abs();
+                        if ByValue(&error) > ByValue(&within) {
+                            within = error;
+                        }
                         *force = float;
                     }
                     None => are_finite = false,
