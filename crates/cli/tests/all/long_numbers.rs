@@ -234,31 +234,36 @@ fn horizontal_contacts() -> Result<(), Box<dyn core::error::Error + Send + Sync>
 #[cfg(unix)]
 #[test]
 fn commands() {
-    let [a, b] = neighbours(4990);
     let folder = tempfile::tempdir().expect("a folder");
-    let scene = format!("layers = 3\nload = [\"0,0,0={a}\", \"1,0,1={b}\"]\n");
-    fs::write(folder.path().join("scene.toml"), scene).expect("a scene");
+    for (name, digits) in [("long.toml", 4990), ("short.toml", 800)] {
+        let [a, b] = neighbours(digits);
+        let scene = format!("layers = 3\nload = [\"0,0,0={a}\", \"1,0,1={b}\"]\n");
+        fs::write(folder.path().join(name), scene).expect("a scene");
+    }
     for command in [
-        "summary",
-        "base",
-        "contacts --number interval",
-        "spheres --stress",
-        "stability --spacing 1",
-        "sensitivity --at 0,0,0",
-        "response --at 0,0,0",
-        "explain",
-        "scene",
-        "plot base",
-        "plot network",
-        "export lammps --to lammps",
-        "export yade --to yade",
-        "export checks --to yade-check,lammps-test",
-        "export card --to card",
-        "export csv --to csv,mtx,vtp",
+        "summary --scene long.toml",
+        "base --scene long.toml",
+        "contacts --number interval --scene long.toml",
+        "spheres --stress --scene long.toml",
+        "stability --scene long.toml",
+        "sensitivity --at 0,0,0 --scene long.toml",
+        "response --at 0,0,0 --scene long.toml",
+        "explain --scene long.toml",
+        "scene --scene long.toml",
+        "plot base --scene long.toml",
+        "plot network --scene long.toml",
+        "export lammps --to lammps --scene long.toml",
+        "export yade --to yade --scene long.toml",
+        "export checks --to yade-check,lammps-test --scene long.toml",
+        "export card --to card --scene long.toml",
+        "export csv --to csv,mtx,vtp --scene long.toml",
+        "stability --spacing 1 --scene short.toml",
+        "bounds --scene short.toml",
+        "plot bounds --scene short.toml",
     ] {
         let mut shell = Command::new("sh");
         let script = format!(
-            "ulimit -s {}; exec \"$0\" {command} --scene scene.toml",
+            "ulimit -s {}; exec \"$0\" {command}",
             STACK_OF_COMMANDS / 1024
         );
         shell.args(["-c", &script, env!("CARGO_BIN_EXE_cannonpile")]);
