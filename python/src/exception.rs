@@ -85,7 +85,9 @@ fn of_refusal(refusal: &Refusal) -> String {
         ),
     ];
     let text = refusal.to_string();
-    arguments.iter().fold(text, |text, (option, argument)| text.replace(option, argument))
+    arguments.iter().fold(text, |text, (option, argument)| {
+        text.replace(option, argument)
+    })
 }
 
 /// Returns the exception for an invalid argument.
