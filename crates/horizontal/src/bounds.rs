@@ -10,9 +10,9 @@ use num_traits::Zero;
 
 use crate::Error;
 use crate::certificate::{Certificate, Claim, Extreme, Refusal, work};
-use crate::exact_simplex::Solution;
+use crate::exact_simplex::{Program, Solution};
 use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
-use crate::program::{Program, accepted, of_formulas};
+use crate::program::{accepted, of_formulas};
 use crate::straight::{End, Straight};
 use crate::symmetry::Orbits;
 use crate::upper::Upper;

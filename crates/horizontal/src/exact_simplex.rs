@@ -24,6 +24,7 @@
 //! are fractions in machine words. After an overflow the method continues from the last basis in longer ones, and at last
 //! in big rationals.
 
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use cannonpile::engine::{bug, check_interrupt};
@@ -32,7 +33,6 @@ use num_rational::BigRational;
 
 use crate::Error;
 use crate::exact::{Exact, Factors, Sparse, sparse, subtract};
-use crate::program::Program;
 
 /// The exact result of a linear program.
 pub(crate) enum Solution {
@@ -72,6 +72,16 @@ static PIVOTS: AtomicU64 = AtomicU64::new(0);
 #[must_use]
 pub fn exact_pivots() -> u64 {
     PIVOTS.load(Ordering::Relaxed)
+}
+
+/// A linear program: minimise Σ cost · x over x ≥ 0 with Σ column · x = sums.
+pub(crate) struct Program<'n> {
+    /// The columns of the matrix, by unknown: coefficients by equation. Those of the sloping forces come first, and are nonsingular.
+    pub(crate) columns: Cow<'n, [Sparse]>,
+    /// The right-hand sides, by equation.
+    pub(crate) sums: Vec<BigRational>,
+    /// The costs, by unknown.
+    pub(crate) cost: Vec<BigRational>,
 }
 
 /// Solves a linear program, from a basis with as many of the suggested unknowns as possible.

@@ -1,6 +1,5 @@
 //! Linear and quadratic programs over compressive forces: an interior-point solver in floats suggests which forces are zero.
 
-use std::borrow::Cow;
 use std::iter::repeat_n;
 
 use cannonpile::engine::{bug, check_interrupt};
@@ -13,18 +12,8 @@ use num_traits::{One, Signed, ToPrimitive};
 use crate::Error;
 use crate::certificate::{Certificate, Refusal};
 use crate::exact::Sparse;
-use crate::exact_simplex::{Solution, solve};
+use crate::exact_simplex::{Program, Solution, solve};
 use crate::network::MAX_EQUATIONS;
-
-/// A linear program: minimise Σ cost · x over x ≥ 0 with Σ column · x = sums.
-pub(crate) struct Program<'n> {
-    /// The columns of the matrix, by unknown: coefficients by equation. Those of the sloping forces come first, and are nonsingular.
-    pub(crate) columns: Cow<'n, [Sparse]>,
-    /// The right-hand sides, by equation.
-    pub(crate) sums: Vec<BigRational>,
-    /// The costs, by unknown.
-    pub(crate) cost: Vec<BigRational>,
-}
 
 impl Program<'_> {
     /// Returns the exact solution. The basis is suggested by an interior-point solver in floats.
@@ -87,6 +76,7 @@ pub(crate) fn in_floats(
     // The right-hand sides are scaled to order 1.
     let greatest = sums.iter().max_by_key(|sum| ByValue(sum));
     let greatest = greatest.filter(|greatest| greatest.is_positive());
+    // Sums that are all zero need no scale.
     let unit = greatest.cloned().unwrap_or_else(BigRational::one);
     let mut linear = Vec::with_capacity(all);
     for sum in sums {

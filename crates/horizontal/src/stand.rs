@@ -9,9 +9,9 @@ use num_traits::{One, Zero};
 use crate::Error;
 use crate::beginning::{beginning, certified, certified_down_to};
 use crate::certificate::{Certificate, Claim};
-use crate::exact_simplex::{Solution, solve};
+use crate::exact_simplex::{Program, Solution, solve};
 use crate::network::{MAX_EQUATIONS, Network};
-use crate::program::{Program, accepted};
+use crate::program::accepted;
 use crate::run::{run_starts, too_long_run};
 
 /// The first truncated pile that is tested has this many layers above its fixed floor, unless the first failure is

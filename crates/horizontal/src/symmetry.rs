@@ -14,7 +14,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use crate::exact::{Sparse, place};
-use crate::program::Program;
+use crate::exact_simplex::Program;
 use crate::{Each, network::Network};
 
 /// A symmetric shape. Its sites have coordinates n = (o − i − j, i, j), with o the net number of + steps above. A

@@ -245,6 +245,8 @@ macro_rules! equality {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use super::*;
 
     /// The exponents of 3 lie just below, at and just above multiples of 40, with other factors or without.
