@@ -42,8 +42,9 @@ impl Digits {
         // Half a unit of the last digit, and the length of three halves.
         let is_explained = error <= 5.0 * last(self.most) || difference <= last(self.decimals);
         let digits = self.most;
+        let plural = if digits == 1 { "" } else { "s" };
         ((1..=FEW).contains(&digits) && is_explained).then(|| {
-            let text = format!("the numbers have {digits} digits only, which explains the errors: write all 17 (in LAMMPS by dump_modify format float %.17g)");
+            let text = format!("the numbers have only {digits} significant digit{plural}, which explains the errors: write all 17 (in LAMMPS by dump_modify format float %.17g)");
             Finding::new(FindingKind::Digits, text)
         })
     }

@@ -284,6 +284,7 @@ fn errors_speak_as_the_table_does() {
             "in.txt  --preset  exadem",
             &["15 columns", "no header"],
         ),
+        ("row-of-totals", "in.csv", &["'Total'", "line 5", "footer"]),
         ("zero-based-ids", "in.csv", &["no sphere 0", "--first-id 0"]),
     ] {
         let (status, out, err) = verify(folder, &arguments.split("  ").collect::<Vec<_>>());

@@ -359,9 +359,11 @@ impl Header {
         let first = i64::try_from(self.first_id).ok();
         let counted = whole_number(text).zip(first);
         let counted = counted.and_then(|(id, first)| id.checked_sub(first)?.checked_add(1));
+        let is_word = text.starts_with(char::is_alphabetic);
+        let expected = if is_word { NO_ID } else { ID };
         counted.ok_or_else(|| Fault::Field {
             column: quantity.name(),
-            error: Box::new(Error::syntax(text, ID)),
+            error: Box::new(Error::syntax(text, expected)),
         })
     }
 }
@@ -494,3 +496,7 @@ pub(in crate::verify) fn shortened(names: &[&str]) -> String {
 }
 
 const ID: &str = "the number of a sphere, such as 17, with all its digits (in LAMMPS by dump_modify format float %.17g)";
+
+/// What is expected in place of a word, which may begin a row of totals.
+const NO_ID: &str =
+    "the number of a sphere, such as 17: if this row is a footer, leave it out or put # before it";

@@ -163,7 +163,7 @@ fn six_digits_are_named() {
     says(
         &finding(&compared, 1e-6),
         FindingKind::Digits,
-        "the numbers have 6 digits only",
+        "the numbers have only 6 significant digits",
         &[],
     );
 }
