@@ -398,8 +398,9 @@ impl Polynomial {
     }
 
     fn term(monomial: Monomial, coefficient: &BigRational) -> Self {
-        let (numer, denom) = coefficient.reduced().into_raw();
-        Self::canonical(collect_terms(Vec::from([(monomial, numer)])), denom)
+        let sign = coefficient.denom().signum();
+        let terms = Vec::from([(monomial, coefficient.numer() * &sign)]);
+        Self::canonical(collect_terms(terms), coefficient.denom() * sign)
     }
 
     /// Removes zero coefficients and reduces the fraction. `denominator` must not be negative.
