@@ -67,7 +67,7 @@ mod tests {
         assert_eq!((six.most, six.decimals), (6, 9));
         assert!(
             six.explain(4e-6, 1.0)
-                .is_some_and(|six| six.text.contains(" 6 digits "))
+                .is_some_and(|six| six.text.contains(" 6 significant digits"))
         );
         assert!(six.explain(6e-6, 1e-3).is_none());
         let fixed = seen(&[0.4623, 12.0, 123.4567, 0.0]);
