@@ -475,7 +475,8 @@ class RoughFloor:
         --------
         >>> from cannonpile import Pile
         >>> four = Pile(2).on_rough_floor()
-        >>> four.assert_close(four.pile.contact_ids(), vectors=four.normal_vectors(), tangential=four.tangential_vectors())
+        >>> forces = {"vectors": four.normal_vectors(), "tangential": four.tangential_vectors()}
+        >>> four.assert_close(four.pile.contact_ids(), **forces, floor=four.floor_vectors())
         """
         _tolerance(rtol)
         self.compare(ids, forces, vectors=vectors, tangential=tangential, floor=floor)._assert_accepted(rtol)
