@@ -417,6 +417,15 @@ fn whole_square(n: BigUint) -> (BigUint, BigUint) {
     }
 }
 
+impl Surd {
+    /// Returns a fraction that is in lowest terms and has a positive denominator, without a greatest common divisor.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn from_reduced(value: BigRational) -> Self {
+        Self::normal(value, BigUint::one())
+    }
+}
+
 impl From<BigRational> for Surd {
     /// The fraction need not be in lowest terms.
     fn from(value: BigRational) -> Self {

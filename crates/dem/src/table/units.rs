@@ -100,7 +100,7 @@ impl<'p> Units<'p> {
     /// Returns the magnitude of a contact force, from its multiple of f₀.
     pub(super) fn contact(&self, multiple: BigRational) -> Surd {
         match self {
-            Self::Pile(_) => multiple.into(),
+            Self::Pile(_) => Surd::from_reduced(multiple),
             Self::Si(packing) => packing.unit_force().scaled(&multiple),
         }
     }
@@ -108,7 +108,7 @@ impl<'p> Units<'p> {
     /// Returns the force of a bottom sphere on the floor, from its multiples.
     pub(super) fn on_floor(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
         match self {
-            Self::Pile(_) => force.map(Surd::from),
+            Self::Pile(_) => force.map(Surd::from_reduced),
             Self::Si(packing) => packing.floor_force_in_si(force),
         }
     }
@@ -116,7 +116,7 @@ impl<'p> Units<'p> {
     /// Returns the stress of a sphere times its volume, from its multiples.
     pub(super) fn stress(&self, multiples: [BigRational; 6]) -> [Surd; 6] {
         match self {
-            Self::Pile(_) => multiples.map(Surd::from),
+            Self::Pile(_) => multiples.map(Surd::from_reduced),
             Self::Si(packing) => packing.stress_in_si(&multiples),
         }
     }
