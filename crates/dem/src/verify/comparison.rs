@@ -162,8 +162,8 @@ impl Comparison {
         self.0.matched()
     }
 
-    /// Returns the number of entries that are shares of the force of another entry: equal entries are, if their sums are nearer
-    /// to the exact forces.
+    /// Returns the number of second entries of pairs whose entries are added up, since for most pairs the sum is nearer to the
+    /// exact force than each entry.
     ///
     /// # Examples
     /// ```

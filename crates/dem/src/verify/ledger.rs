@@ -291,7 +291,8 @@ impl<'p> Ledger<'p> {
         !self.floor.is_empty()
     }
 
-    /// Returns whether two rows of a pair are shares of its force: their sums are nearer to the exact forces.
+    /// Returns whether two rows of a pair are shares of its force: for most pairs the sum is nearer to the exact force than
+    /// each row. A row of 0 beside the exact force is a contradiction.
     fn are_shares(&self) -> Result<bool, Refusal> {
         let mut votes = [0_u64; 2];
         let is_twice = |listed: &Listed| matches!(listed, Listed::Twice | Listed::Differently);
@@ -307,7 +308,7 @@ impl<'p> Ledger<'p> {
             {
                 let [first, second] = [first, second].each(|row| row.force);
                 let off = |force: f64| (force - exact.force).abs();
-                let are_shares = off(first + second) < off(first).max(off(second));
+                let are_shares = off(first + second) < off(first).min(off(second));
                 votes[usize::from(are_shares)] += 1;
             }
         }
