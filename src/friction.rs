@@ -57,7 +57,7 @@ use num_traits::{One, Zero};
 use crate::each::Each;
 use crate::geometry::LayerGap;
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Algebra, Surd, SurdSum, product};
+use crate::scalar::{Algebra, ByValue, Surd, SurdSum, product};
 use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Packing, Pile};
 
@@ -255,7 +255,8 @@ pub struct RoughContact {
     pub point: [Surd; 3],
 }
 
-exact_surd::equality!(RoughContact);
+exact_surd::equality!(RoughContact; |x| (x.site, x.direction, &x.point, ByValue(&x.normal), &x.normal_vector,
+    &x.tangential, &x.tangential_vector));
 
 impl<'p> RoughPacking<'p> {
     /// Returns the contacts of a part of the pile: N and T = N·tan(θ/2), in N.

@@ -28,7 +28,7 @@ use num_traits::One;
 
 use crate::Error;
 use crate::lattice::Dimension;
-use crate::scalar::{Algebra, Ring, Surd, TWO};
+use crate::scalar::{Algebra, ByValue, Ring, Surd, TWO};
 
 /// Returns the contact directions ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
 ///
@@ -166,7 +166,7 @@ pub struct Inclination {
     sin2: BigRational,
 }
 
-exact_surd::equality!(Hash for Inclination);
+exact_surd::equality!(Hash for Inclination; |x| ByValue(&x.sin2));
 
 impl Inclination {
     /// Returns the angle for this spacing: sin²θ = q(d−1)/(2d), with q = (a/R)² and the dimension d.

@@ -19,7 +19,7 @@ use crate::each::Each;
 use crate::formula;
 use crate::geometry::{Clearance, Load, Vector, directions, disc_directions, square_across};
 use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};
-use crate::scalar::{Algebra, Ring, reduced, sum_of};
+use crate::scalar::{Algebra, ByValue, Ring, reduced, sum_of};
 use crate::shape::{Numbering, Rows, Selection, Shape, Sites};
 use crate::stacking::Stacking;
 
@@ -49,7 +49,7 @@ pub struct Pile {
     loading: Loading,
 }
 
-exact_surd::equality!(Hash for Pile);
+exact_surd::equality!(Hash for Pile; |x| (&x.shape, ByValue(&x.sin_phi), &x.loading));
 
 impl Pile {
     /// Returns the paper's pile: an equilateral base, φ = π/6.

@@ -181,10 +181,16 @@ pub trait Ring:
     + for<'a> Mul<&'a Self, Output = Self>
     + Send
     + Sync
-    + 'static
 {
     /// Returns the integer `n` as a value of this type: exact, or correctly rounded.
     fn from_i128(n: i128) -> Self;
+
+    /// Returns a key: two values are equal if and only if their keys are. Rationals override it, because their `==`
+    /// calls itself once for each common term of two continued fractions.
+    #[doc(hidden)]
+    fn comparison_key(&self) -> impl PartialEq {
+        self
+    }
 }
 
 /// The integers, of any size. They are numerators over a denominator that is known in advance.
@@ -379,7 +385,7 @@ pub struct Enclosure {
     pub upper: BigRational,
 }
 
-exact_surd::equality!(Hash for Enclosure);
+exact_surd::equality!(Hash for Enclosure; |x| [&x.lower, &x.upper].map(ByValue));
 
 impl Enclosure {
     /// Returns the enclosure of a value that is known exactly.

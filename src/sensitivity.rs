@@ -21,7 +21,7 @@ use crate::engine::check_interrupt;
 use crate::error::{bug, refuse_beyond};
 use crate::geometry::{Inclination, Load, Vector};
 use crate::lattice::{Dimension, Direction, Sign, Site};
-use crate::scalar::{Field, TWO};
+use crate::scalar::{Field, Ring, TWO};
 use crate::shape::Selection;
 use crate::sorted::Sorted;
 use crate::{Error, Packing, Pile};
@@ -46,7 +46,7 @@ pub struct ForceChange<T = BigRational> {
     pub change: T,
 }
 
-exact_surd::equality!(ForceChange<T>, T; site, direction, force, change);
+exact_surd::equality!(ForceChange<T>, T: Ring; |x| (x.site, x.direction, [&x.force, &x.change].map(Ring::comparison_key)));
 
 /// The contact that independent deviations of the radii open first.
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ pub struct Spread<T = BigRational> {
     pub variance: T,
 }
 
-exact_surd::equality!(Spread<T>, T; site, direction, force, variance);
+exact_surd::equality!(Spread<T>, T: Ring; |x| (x.site, x.direction, [&x.force, &x.variance].map(Ring::comparison_key)));
 
 impl<T: Field> Spread<T> {
     /// Returns the square of the relative standard deviation r of the radii at which the force is three standard

@@ -50,7 +50,7 @@ pub struct Affine<T = BigRational> {
     pub b: T,
 }
 
-exact_surd::equality!(Affine<T>, T; c, a, b);
+exact_surd::equality!(Affine<T>, T: Ring; |x| [&x.c, &x.a, &x.b].map(Ring::comparison_key));
 
 impl<T: Ring> Affine<T> {
     /// Returns the function with the values at the tilts (0, 0), (1, 0) and (0, 1).
@@ -115,7 +115,7 @@ pub struct Stability<C = (Site, Direction)> {
     pub corners: Vec<Tilt>,
 }
 
-exact_surd::equality!(Stability<C>, C);
+exact_surd::equality!(Stability<C>, C: PartialEq; |x| (&x.margin, x.corners.iter().map(by_value).collect::<Vec<_>>()));
 
 /// The least tilt at which a contact opens.
 #[derive(Clone, Debug)]
@@ -129,7 +129,7 @@ pub struct Margin<C = (Site, Direction)> {
     pub opens: C,
 }
 
-exact_surd::equality!(Margin<C>, C);
+exact_surd::equality!(Margin<C>, C: PartialEq; |x| (ByValue(&x.squared), by_value(&x.tilt), &x.opens));
 
 fn by_value(tilt: &Tilt) -> [ByValue<'_>; 2] {
     tilt.each_ref().map(ByValue)

@@ -37,13 +37,13 @@
 //! forces are computed for the stored spheres alone, and copied to their images.
 
 use super::grid::{Grid, Moves, Piece, Stored, cut, sum};
-use exact_surd::rational::is_same;
 
 use crate::Error;
 use crate::each::Each;
 use crate::error::bug;
 use crate::lattice::Direction;
 use crate::pile::System;
+use crate::scalar::ByValue;
 use crate::shape::Shape;
 
 /// The maximum number of steps in a window, unless a single run is longer.
@@ -55,7 +55,7 @@ const LAYERS: i128 = 9;
 /// Returns whether the forces of a pile have threefold symmetry.
 pub(crate) fn has_threefold_symmetry(system: &System<'_>) -> bool {
     let [a, b, c] = &system.increments;
-    let same = is_same(a, b) && is_same(b, c);
+    let same = ByValue(a) == ByValue(b) && ByValue(b) == ByValue(c);
     let even = same && system.fills_its_layers() && system.gravity_is_vertical();
     // If the rotation maps the base or the top onto itself, it does so with all layers.
     even && system.has_no_loads() && system.shape.base().sum_of_turn().is_some()

@@ -7,6 +7,7 @@ use exact_surd::layout::{padded, part};
 use super::Answers;
 use crate::each::Each;
 use crate::lattice::Site;
+use crate::scalar::{Ring, Surd, SurdSum};
 
 /// The force of one bottom sphere on the floor.
 ///
@@ -45,7 +46,9 @@ pub struct FloorForce<T> {
     pub shear_y: T,
 }
 
-exact_surd::equality!(FloorForce<T>, T; site, normal, shear_x, shear_y);
+exact_surd::equality!(FloorForce<T>, T: Ring; |x| (x.site, [&x.normal, &x.shear_x, &x.shear_y].map(Ring::comparison_key)));
+exact_surd::equality!(FloorForce<Surd>; |x| (x.site, &x.normal, &x.shear_x, &x.shear_y));
+exact_surd::equality!(FloorForce<SurdSum>; |x| (x.site, &x.normal, &x.shear_x, &x.shear_y));
 
 impl<T> FloorForce<T> {
     /// Returns the force with `f` applied to each component.

@@ -6,6 +6,7 @@ use exact_surd::layout::{padded, part};
 
 use super::Answers;
 use crate::lattice::{Direction, Site};
+use crate::scalar::{Ring, Surd};
 
 /// The force of one contact, between a sphere and one of the spheres that support it.
 ///
@@ -37,7 +38,8 @@ pub struct ContactForce<T> {
     pub force: T,
 }
 
-exact_surd::equality!(ContactForce<T>, T; site, direction, force);
+exact_surd::equality!(ContactForce<T>, T: Ring; |x| (x.site, x.direction, x.force.comparison_key()));
+exact_surd::equality!(ContactForce<Surd>; |x| (x.site, x.direction, &x.force));
 
 impl<T: fmt::Display> fmt::Display for ContactForce<T> {
     /// Prints the site, the direction and the force, as `(0,0,0) alpha: 1`. The flag `+` and a precision apply to the

@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use crate::Error;
-use crate::scalar::{Surd, reduced};
+use crate::scalar::{ByValue, Surd, reduced};
 
 /// The spacing a/R: the distance 2a between horizontal neighbours over the diameter 2R. It is positive, and its square
 /// q is rational.
@@ -30,7 +30,7 @@ pub struct Spacing {
     square: BigRational,
 }
 
-exact_surd::equality!(Hash for Spacing);
+exact_surd::equality!(Hash for Spacing; |x| ByValue(&x.square));
 
 impl Spacing {
     /// Returns the spacing a/R.

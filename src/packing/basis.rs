@@ -3,7 +3,7 @@
 use crate::forces::FloorForce;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Site};
-use crate::scalar::Field;
+use crate::scalar::{Field, Ring};
 use crate::{Error, Forces};
 
 /// The geometry and the weight of a packing in a scalar. It converts [`Forces`] and positions to SI units.
@@ -46,7 +46,7 @@ pub struct SiBasis<T> {
     pub radius: T,
 }
 
-exact_surd::equality!(SiBasis<T>, T; sin, cos, twice_cos_phi, weight, radius);
+exact_surd::equality!(SiBasis<T>, T: Ring; |x| [&x.sin, &x.cos, &x.twice_cos_phi, &x.weight, &x.radius].map(Ring::comparison_key));
 
 impl<T: Field> SiBasis<T> {
     /// Returns the force of a contact, f·mg/(W cosθ), in newtons.

@@ -11,7 +11,7 @@ use crate::Error;
 use crate::formula;
 use crate::geometry::Load;
 use crate::lattice::{Axis, HorizontalContact, Sign, Site};
-use crate::scalar::reduced;
+use crate::scalar::{ByValue, reduced};
 
 /// The weights of the spheres, in mg, the loads on them, and the forces of horizontal contacts, in f₀. No weight,
 /// downward load or horizontal contact force is negative.
@@ -26,7 +26,7 @@ pub(crate) struct Loading {
     spheres: BTreeMap<Site, Acting>,
 }
 
-exact_surd::equality!(Hash for Loading);
+exact_surd::equality!(Hash for Loading; |x| (x.weightless, x.tilt.each_ref().map(ByValue), &x.spheres));
 exact_surd::equality!(Hash for Acting);
 
 /// What acts on a sphere besides ordinary gravity.

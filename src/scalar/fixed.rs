@@ -40,7 +40,6 @@ pub trait FixedInteger:
     + Into<BigInt>
     + Send
     + Sync
-    + 'static
 {
     /// The name of the rational over this integer.
     const RATIONAL_NAME: &'static str;

@@ -7,11 +7,15 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, Numerators, RealEmbeddable, RealSign, Ring};
+use super::{Algebra, ByValue, Enclosure, Exactness, Field, Numerators, RealEmbeddable, RealSign, Ring};
 
 impl Ring for BigRational {
     fn from_i128(n: i128) -> Self {
         Self::from_integer(n.into())
+    }
+
+    fn comparison_key(&self) -> impl PartialEq {
+        ByValue(self)
     }
 }
 

@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 
 use crate::error::bug;
 use crate::geometry::Vector;
-use crate::scalar::Surd;
+use crate::scalar::{ByValue, Surd};
 use crate::{Error, Pile};
 
 /// The exact extremes of the force on the floor over the base of a pile.
@@ -44,7 +44,7 @@ pub struct BaseExtremes {
     pub shear_without_normal: bool,
 }
 
-exact_surd::equality!(BaseExtremes; normal_min, normal_max, max_shear_ratio, shear_without_normal);
+exact_surd::equality!(BaseExtremes; |x| ([&x.normal_min, &x.normal_max].map(ByValue), &x.max_shear_ratio, x.shear_without_normal));
 
 impl Pile {
     /// Returns the extremes of the force on the floor.

@@ -15,6 +15,7 @@ use crate::{Each, Error};
 use cannonpile::Packing;
 use cannonpile::friction::RoughPacking;
 use cannonpile::lattice::Dimension;
+use cannonpile::scalar::ByValue;
 
 /// The coefficients of friction of a simulated pile on a rough floor.
 ///
@@ -43,7 +44,7 @@ struct Coefficient {
     exact: Option<BigRational>,
 }
 
-cannonpile::engine::equality!(Coefficient);
+cannonpile::engine::equality!(Coefficient; |x| (x.rounded, x.exact.as_ref().map(ByValue)));
 
 impl Friction {
     /// Returns twice the coefficients that the pile needs.

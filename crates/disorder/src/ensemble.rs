@@ -75,7 +75,7 @@ use crate::{Each, Error};
 use cannonpile::Pile;
 use cannonpile::formula;
 use cannonpile::lattice::{Region, Site};
-use cannonpile::scalar::reduced;
+use cannonpile::scalar::{ByValue, reduced};
 use cannonpile::shape::Anchor;
 use cannonpile::stacking::Stacking;
 
@@ -104,7 +104,7 @@ pub struct Ensemble {
     bins: BigRational,
 }
 
-cannonpile::engine::equality!(Ensemble);
+cannonpile::engine::equality!(Ensemble; |x| (&x.layer, &x.stackings, x.has_horizontal_contacts, ByValue(&x.bins)));
 
 impl Ensemble {
     /// Returns the ensemble of these stackings under a top layer, with bins of width 1/3.

@@ -2,7 +2,7 @@
 
 use core::num::NonZeroI64;
 
-use cannonpile::scalar::{Algebra, Field, Numerators};
+use cannonpile::scalar::{Algebra, Field, Numerators, Ring};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, pow};
@@ -51,7 +51,7 @@ pub struct MeanForce<T> {
     pub shear_y: T,
 }
 
-cannonpile::engine::equality!(MeanForce<T>, T; place, probability, normal, shear_x, shear_y);
+cannonpile::engine::equality!(MeanForce<T>, T: Ring; |x| (x.place, [&x.probability, &x.normal, &x.shear_x, &x.shear_y].map(Ring::comparison_key)));
 
 impl<T> MeanForce<T> {
     /// Returns the row for sums of a probability and three forces. `over` divides a sum by a scale, and the scales are
@@ -122,7 +122,7 @@ pub struct Mean<T> {
     rows: Vec<MeanForce<T>>,
 }
 
-cannonpile::engine::equality!(Mean<T>, T; rows);
+cannonpile::engine::equality!(Mean<T>, T: Ring; |x| &x.rows);
 
 impl<T> Mean<T> {
     /// Sorts the rows.

@@ -1,7 +1,7 @@
 //! Moments of the response to a load, and the waves of the mean response.
 
 use cannonpile::engine::refuse_beyond;
-use cannonpile::scalar::{Algebra, Field, Ring};
+use cannonpile::scalar::{Algebra, ByValue, Field, Ring};
 use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -43,7 +43,7 @@ pub struct Moments {
     pub fourth: BigRational,
 }
 
-cannonpile::engine::equality!(Moments);
+cannonpile::engine::equality!(Moments; |x| [&x.second, &x.third, &x.fourth].map(ByValue));
 
 impl Moments {
     /// Returns the moments of the response in one stacking.
@@ -159,7 +159,7 @@ pub struct Wave {
     pub dispersion: BigRational,
 }
 
-cannonpile::engine::equality!(Wave);
+cannonpile::engine::equality!(Wave; |x| [&x.damping, &x.dispersion].map(ByValue));
 
 impl Wave {
     /// Returns damping and dispersion at the fault probability `q`. The result is `None` for q = 0, where the response

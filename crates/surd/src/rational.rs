@@ -1,10 +1,8 @@
 //! Sums, products and quotients of rationals whose denominators are mostly powers of three, and the order of rationals.
 
-use alloc::format;
-use alloc::string::String;
-use core::any::Any;
+#[doc(hidden)]
+pub use alloc::format;
 use core::cmp::Ordering;
-use core::fmt::Debug;
 use core::hash::{Hash, Hasher};
 
 use num_bigint::{BigInt, BigUint};
@@ -196,50 +194,34 @@ impl Hash for ByValue<'_> {
     }
 }
 
-/// Returns whether two values are equal: as [`ByValue`] if they are rationals, by `==` otherwise.
-#[doc(hidden)]
-pub fn is_same<T: PartialEq + 'static>(a: &T, b: &T) -> bool {
-    let [x, y] = [a, b].map(|value| (value as &dyn Any).downcast_ref().map(ByValue));
-    x.map_or_else(|| a == b, |x| Some(x) == y)
-}
-
-/// Returns the `Debug` text of a value.
-#[doc(hidden)]
-pub fn debug_text(value: &impl Debug) -> String {
-    format!("{value:?}")
-}
-
-/// Implements `PartialEq` and `Eq`, and `Hash` if it is named, for a type that contains rationals.
+/// Implements `PartialEq` and `Eq`, after `Hash for` also `Hash`, for a type that contains rationals: two values are equal
+/// if and only if their keys are.
 ///
-/// The fields that are named are compared by [`is_same`]. If none is named, values are compared by their `Debug` texts.
+/// The key contains every field, and rationals as [`ByValue`]. By default it is the `Debug` text, which serves all types but
+/// those of floats and of surds.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! equality {
-    ($type:ty $(, $parameter:ident)?; $($field:ident),+) => {
-        impl $(<$parameter: Eq + 'static>)? Eq for $type {}
-        impl $(<$parameter: PartialEq + 'static>)? PartialEq for $type {
-            fn eq(&self, other: &Self) -> bool {
-                let Self { $($field),+ } = self;
-                $($crate::rational::is_same($field, &other.$field))&&+
+    (Hash for $type:ty; |$value:ident| $key:expr) => {
+        $crate::equality!($type; |$value| $key);
+        impl core::hash::Hash for $type {
+            fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+                let $value = self;
+                core::hash::Hash::hash(&$key, state);
             }
         }
     };
-    ($type:ty $(, $parameter:ident)?) => {
-        impl $(<$parameter: core::fmt::Debug>)? Eq for $type {}
-        impl $(<$parameter: core::fmt::Debug>)? PartialEq for $type {
+    ($type:ty $(, $parameter:ident: $bound:path)?; |$value:ident| $key:expr) => {
+        impl $(<$parameter: $bound + Eq>)? Eq for $type {}
+        impl $(<$parameter: $bound>)? PartialEq for $type {
             fn eq(&self, other: &Self) -> bool {
-                let [a, b] = [self, other].map($crate::rational::debug_text);
+                let [a, b] = [self, other].map(|$value| $key);
                 a == b
             }
         }
     };
-    (Hash for $type:ty) => {
-        $crate::equality!($type);
-        impl core::hash::Hash for $type {
-            fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
-                $crate::rational::debug_text(self).hash(state);
-            }
-        }
+    ($($type:tt)+) => {
+        $crate::equality!($($type)+; |value| $crate::rational::format!("{value:?}"));
     };
 }
 

@@ -422,6 +422,10 @@ impl Surd {
     #[doc(hidden)]
     #[must_use]
     pub fn from_reduced(value: BigRational) -> Self {
+        debug_assert!(
+            value.denom().is_positive() && value.numer().gcd(value.denom()).is_one(),
+            "{value} is not in lowest terms"
+        );
         Self::normal(value, BigUint::one())
     }
 }

@@ -203,3 +203,16 @@ fn radicand_of_coprime_quotient_is_that_of_numerator() {
     assert_eq!(form(1009 * 1009 * 1013, 1009), 1013_u32.into());
     assert_eq!(form(1009 * 1009 * 1013, 1), 1_031_316_053_u32.into());
 }
+
+#[test]
+fn reduced_fractions_are_taken_as_they_are() {
+    for (n, d) in [(0, 1), (2, 3), (-2, 3)] {
+        assert_eq!(Surd::from_reduced(ratio(n, d)), Surd::from(ratio(n, d)));
+    }
+    for (n, d) in [(2, 4), (1, -2), (0, 3)] {
+        let raw = || BigRational::new_raw(n.into(), d.into());
+        assert_eq!(Surd::from(raw()), Surd::from(ratio(n, d)));
+        let taken = std::panic::catch_unwind(|| Surd::from_reduced(raw()));
+        assert_eq!(taken.is_err(), cfg!(debug_assertions), "{n}/{d}");
+    }
+}

@@ -62,7 +62,7 @@ fn loaded(pile: &Pile) -> Pile {
 
 /// The forces of a pile, in the order of [`Forces::contacts`] and [`Forces::base`].
 #[derive(Clone, Debug, PartialEq)]
-struct Known<T: 'static> {
+struct Known<T: Ring> {
     contacts: Vec<ContactForce<T>>,
     floor: Vec<FloorForce<T>>,
 }
@@ -79,7 +79,7 @@ impl<T: Algebra + PartialEq> Known<T> {
         }
     }
 
-    fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Known<U> {
+    fn map<U: Ring>(&self, mut f: impl FnMut(&T) -> U) -> Known<U> {
         let contacts = self.contacts.iter().map(|contact| ContactForce {
             site: contact.site,
             direction: contact.direction,

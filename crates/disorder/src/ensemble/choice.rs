@@ -4,7 +4,7 @@ use core::fmt;
 use core::ops::Range;
 use core::str::FromStr;
 
-use cannonpile::scalar::reduced;
+use cannonpile::scalar::{ByValue, reduced};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
@@ -65,7 +65,7 @@ pub struct Samples {
     fault_probability: BigRational,
 }
 
-cannonpile::engine::equality!(Hash for Samples);
+cannonpile::engine::equality!(Hash for Samples; |x| (x.count, x.seed, ByValue(&x.fault_probability)));
 
 impl Samples {
     /// Returns the parameters of `count` samples with this seed and fault probability.

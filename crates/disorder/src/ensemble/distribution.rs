@@ -102,7 +102,7 @@ pub struct Extreme {
     pub stacking: Stacking,
 }
 
-cannonpile::engine::equality!(Extreme);
+cannonpile::engine::equality!(Extreme; |x| (ByValue(&x.force), &x.stacking));
 
 impl Histogram {
     /// Returns the total count of all bins.

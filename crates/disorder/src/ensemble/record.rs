@@ -3,7 +3,7 @@
 use std::io::{self, Read, Write};
 
 use cannonpile::data::number;
-use cannonpile::scalar::reduced;
+use cannonpile::scalar::{ByValue, reduced};
 use hmac_sha256::Hash;
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -56,7 +56,7 @@ pub struct TallyRecord {
     tally: Tally,
 }
 
-cannonpile::engine::equality!(TallyRecord);
+cannonpile::engine::equality!(TallyRecord; |x| (&x.version, ByValue(&x.fault_probability), &x.tally));
 
 /// The entries of a file from which the others follow.
 #[derive(Deserialize)]
