@@ -177,11 +177,11 @@ pub fn search<E: Judged>(
     let [of_a_layer, less] = E::ENTRIES;
     let rows = of_a_layer * layers - less;
     if failing && rows > MAX_ENTRIES.into() {
-        return Err(Error::too_many_rows(
-            rows.unsigned_abs().into(),
-            MAX_ENTRIES,
-            "ask for fewer layers, or only for stable stackings",
-        ));
+        return Err(Error::TooManyRows {
+            rows: rows.unsigned_abs().into(),
+            limit: MAX_ENTRIES,
+            remedy: "ask for fewer layers, or only for stable stackings",
+        });
     }
     Ok(Search {
         steps,
@@ -334,11 +334,11 @@ pub fn carried_up<E: Judged>(
 ) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
     let rows = stackings_of(base);
     if rows > BigUint::from(MAX_ENTRIES) {
-        return Err(Error::too_many_rows(
+        return Err(Error::TooManyRows {
             rows,
-            MAX_ENTRIES,
-            "ask for a smaller base",
-        ));
+            limit: MAX_ENTRIES,
+            remedy: "ask for a smaller base",
+        });
     }
     let one_of_two = base.is_its_own_mirror_image();
     // `signs` contains the steps from the base to the current layer. `pending` contains the layers still to visit, each

@@ -12,11 +12,12 @@ use alloc::vec::Vec;
 use exact_surd::short::quoted;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use num_traits::{Signed, ToPrimitive};
 
 use crate::engine::Method;
 use crate::geometry::{LayerGap, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
+use crate::scalar::reduced;
 
 /// An error about a pile, a site, a geometry or a number.
 ///
@@ -31,19 +32,16 @@ use crate::lattice::{Dimension, Direction, Region, Site};
 #[non_exhaustive]
 pub enum Error {
     /// The number of layers is not between 1 and [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
-    #[non_exhaustive]
     Layers {
         /// The given number.
         given: BigInt,
     },
     /// sin φ is not strictly between 0 and 1.
-    #[non_exhaustive]
     SinPhi {
         /// The given value.
         given: BigRational,
     },
     /// The pile has no such site.
-    #[non_exhaustive]
     SiteOutside {
         /// The given site.
         site: Site,
@@ -55,7 +53,6 @@ pub enum Error {
         region: Option<Box<Region>>,
     },
     /// The pile has no such layer.
-    #[non_exhaustive]
     LayerOutside {
         /// The given layer.
         layer: i128,
@@ -63,13 +60,11 @@ pub enum Error {
         layers: i128,
     },
     /// A contact below a sphere of the bottom layer, which is on the floor.
-    #[non_exhaustive]
     OnFloor {
         /// The given sphere.
         site: Site,
     },
     /// A force on the floor from a sphere that does not touch it.
-    #[non_exhaustive]
     NotOnFloor {
         /// The given sphere.
         site: Site,
@@ -77,43 +72,36 @@ pub enum Error {
         floor: i128,
     },
     /// A direction without contacts in a pile of discs.
-    #[non_exhaustive]
     NoSuchDirection {
         /// The given direction.
         direction: Direction,
     },
     /// A region of the lattice without a site.
-    #[non_exhaustive]
     EmptyRegion {
         /// The given region.
         region: Box<Region>,
     },
     /// A region with coordinates beyond ±10³⁶.
-    #[non_exhaustive]
     RegionTooLarge {
         /// The given region, or the region that would grow beyond the limit.
         region: Box<Region>,
     },
     /// The side of a triangle or hexagon is not between 1 and 10³⁶.
-    #[non_exhaustive]
     RegionSide {
         /// The given side.
         given: i128,
     },
     /// A run of a stacking has a negative length.
-    #[non_exhaustive]
     RunLength {
         /// The given length.
         given: i128,
     },
     /// A stacking has too many sign changes.
-    #[non_exhaustive]
     TooManyRuns {
         /// The largest number of runs.
         limit: usize,
     },
     /// The given number of layers differs from that of the stacking.
-    #[non_exhaustive]
     LayersOfStacking {
         /// The given number of layers.
         layers: i128,
@@ -121,7 +109,6 @@ pub enum Error {
         spelled: i128,
     },
     /// A base does not support the given number of layers.
-    #[non_exhaustive]
     TooHigh {
         /// The given number of layers.
         layers: i128,
@@ -131,7 +118,6 @@ pub enum Error {
         base: Box<Region>,
     },
     /// A weight, load or horizontal force is negative.
-    #[non_exhaustive]
     NegativeLoad {
         /// `load`, `weight` or `horizontal force`.
         quantity: &'static str,
@@ -141,7 +127,6 @@ pub enum Error {
         given: Box<BigRational>,
     },
     /// A force on discs that points out of their plane.
-    #[non_exhaustive]
     OutOfPlane {
         /// `load` or `tilt`.
         quantity: &'static str,
@@ -149,7 +134,6 @@ pub enum Error {
     /// A pile without weight above the floor, on which a tilt of gravity has no effect.
     NoWeight,
     /// A pile whose forces on a rough floor are not unique, or not covered.
-    #[non_exhaustive]
     RoughFloor {
         /// The property that the pile must have.
         needed: &'static str,
@@ -157,13 +141,11 @@ pub enum Error {
         given: Box<str>,
     },
     /// A method that does not apply. Closed forms need a straight stacking, and sweeps need spheres instead of discs.
-    #[non_exhaustive]
     NoSuchMethod {
         /// The given method.
         method: Method,
     },
     /// A sphere of another layer.
-    #[non_exhaustive]
     OtherLayer {
         /// The layer of the sphere.
         layer: i128,
@@ -171,7 +153,6 @@ pub enum Error {
         at: i128,
     },
     /// A slice whose length differs from the number of forces.
-    #[non_exhaustive]
     Length {
         /// The number of forces.
         needed: usize,
@@ -179,7 +160,6 @@ pub enum Error {
         given: usize,
     },
     /// A result that needs more memory than the limit.
-    #[non_exhaustive]
     TooLarge {
         /// The quantity to compute.
         quantity: &'static str,
@@ -191,7 +171,6 @@ pub enum Error {
         remedy: &'static str,
     },
     /// A length, mass, gravity or spacing that is not positive.
-    #[non_exhaustive]
     NotPositive {
         /// The name of the quantity.
         quantity: &'static str,
@@ -199,7 +178,6 @@ pub enum Error {
         given: BigRational,
     },
     /// Spheres would overlap at this spacing.
-    #[non_exhaustive]
     Overlap {
         /// The given spacing.
         spacing: Box<Spacing>,
@@ -209,7 +187,6 @@ pub enum Error {
         allowed: Box<(Option<Spacing>, Option<Spacing>)>,
     },
     /// A spacing at which the contacts would be horizontal or the spheres would not touch.
-    #[non_exhaustive]
     TooFlat {
         /// The given spacing.
         spacing: Box<Spacing>,
@@ -217,7 +194,6 @@ pub enum Error {
         limit: Box<Spacing>,
     },
     /// No spacing keeps the spheres of this pile from overlapping.
-    #[non_exhaustive]
     NoSpacing {
         /// sin φ of the pile.
         sin_phi: BigRational,
@@ -225,7 +201,6 @@ pub enum Error {
         layers: i128,
     },
     /// A result does not fit in the requested number type.
-    #[non_exhaustive]
     Overflow {
         /// The quantity that overflows.
         quantity: &'static str,
@@ -235,7 +210,6 @@ pub enum Error {
     /// An error about a single number.
     Number(exact_surd::Error),
     /// A text with a syntax error.
-    #[non_exhaustive]
     Syntax {
         /// The text, shortened if it is long.
         text: String,
@@ -243,7 +217,6 @@ pub enum Error {
         expected: &'static str,
     },
     /// A long stacking with a misplaced character.
-    #[non_exhaustive]
     Misspelled {
         /// The stacking, shortened.
         text: String,
@@ -253,7 +226,6 @@ pub enum Error {
         found: Option<char>,
     },
     /// A table with too many rows.
-    #[non_exhaustive]
     TooManyRows {
         /// The number of rows.
         rows: BigUint,
@@ -263,13 +235,11 @@ pub enum Error {
         remedy: &'static str,
     },
     /// Horizontal contacts in a pile whose neighbours in a layer do not all touch at a = R.
-    #[non_exhaustive]
     NoHorizontalContacts {
         /// sin φ of the pile.
         sin_phi: BigRational,
     },
     /// A given spacing at which neighbours in a layer do not touch.
-    #[non_exhaustive]
     NotTouching {
         /// The given spacing.
         spacing: Spacing,
@@ -277,7 +247,6 @@ pub enum Error {
     /// The work was cancelled by an `Interrupt`.
     Interrupted,
     /// A broken invariant: a bug of this library.
-    #[non_exhaustive]
     Bug {
         /// The broken invariant.
         invariant: &'static str,
@@ -295,6 +264,39 @@ exact_surd::equality!(Error);
 pub fn bug(invariant: &'static str) -> Error {
     debug_assert!(false, "broken invariant: {invariant}");
     Error::Bug { invariant }
+}
+
+/// Returns the value in lowest terms.
+///
+/// # Errors
+/// [`Error::NotPositive`].
+pub fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
+    let given = reduced(value);
+    if given.is_positive() {
+        return Ok(given);
+    }
+    Err(Error::NotPositive { quantity, given })
+}
+
+/// Returns the value for a sphere, in lowest terms.
+///
+/// # Errors
+/// [`Error::NegativeLoad`].
+pub fn not_negative(
+    quantity: &'static str,
+    site: Site,
+    value: BigRational,
+) -> Result<BigRational, Error> {
+    let value = reduced(value);
+    if !value.is_negative() {
+        return Ok(value);
+    }
+    let given = Box::new(value);
+    Err(Error::NegativeLoad {
+        quantity,
+        site,
+        given,
+    })
 }
 
 /// Returns an error if `needed` exceeds `limit`.
@@ -389,6 +391,13 @@ impl Error {
         }
     }
 
+    /// Returns the error for a result that does not fit in a number type.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn overflow(quantity: &'static str, scalar: &'static str) -> Self {
+        Self::Overflow { quantity, scalar }
+    }
+
     /// Returns a syntax error that quotes `text`, shortened if it is long.
     #[doc(hidden)]
     #[must_use]
@@ -396,98 +405,6 @@ impl Error {
         Self::Syntax {
             text: quoted(text),
             expected,
-        }
-    }
-}
-
-/// Constructors of errors that the other crates of the workspace also report.
-#[doc(hidden)]
-impl Error {
-    #[must_use]
-    pub fn layers(given: BigInt) -> Self {
-        Self::Layers { given }
-    }
-
-    #[must_use]
-    pub fn layer_outside(layer: i128, layers: i128) -> Self {
-        Self::LayerOutside { layer, layers }
-    }
-
-    #[must_use]
-    pub fn site_outside(
-        site: Site,
-        layers: i128,
-        dimension: Dimension,
-        region: Option<Region>,
-    ) -> Self {
-        Self::SiteOutside {
-            site,
-            layers,
-            dimension,
-            region: region.map(Box::new),
-        }
-    }
-
-    #[must_use]
-    pub fn on_floor(site: Site) -> Self {
-        Self::OnFloor { site }
-    }
-
-    #[must_use]
-    pub fn not_on_floor(site: Site, floor: i128) -> Self {
-        Self::NotOnFloor { site, floor }
-    }
-
-    #[must_use]
-    pub fn negative_load(quantity: &'static str, site: Site, given: BigRational) -> Self {
-        Self::NegativeLoad {
-            quantity,
-            site,
-            given: Box::new(given),
-        }
-    }
-
-    #[must_use]
-    pub fn not_positive(quantity: &'static str, given: BigRational) -> Self {
-        Self::NotPositive { quantity, given }
-    }
-
-    #[must_use]
-    pub fn not_touching(spacing: Spacing) -> Self {
-        Self::NotTouching { spacing }
-    }
-
-    #[must_use]
-    pub fn length(needed: usize, given: usize) -> Self {
-        Self::Length { needed, given }
-    }
-
-    #[must_use]
-    pub fn overflow(quantity: &'static str, scalar: &'static str) -> Self {
-        Self::Overflow { quantity, scalar }
-    }
-
-    #[must_use]
-    pub fn too_large(
-        quantity: &'static str,
-        needed: BigUint,
-        limit: u64,
-        remedy: &'static str,
-    ) -> Self {
-        Self::TooLarge {
-            quantity,
-            needed,
-            limit,
-            remedy,
-        }
-    }
-
-    #[must_use]
-    pub fn too_many_rows(rows: BigUint, limit: u64, remedy: &'static str) -> Self {
-        Self::TooManyRows {
-            rows,
-            limit,
-            remedy,
         }
     }
 }

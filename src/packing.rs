@@ -11,12 +11,13 @@ pub use rows::PackedContact;
 use alloc::vec::Vec;
 
 use num_rational::BigRational;
-use num_traits::{One, Signed};
+use num_traits::One;
 
 use crate::engine::{Counters, Method};
+use crate::error::positive;
 use crate::geometry::{Inclination, LayerGap, Spacing, Vector, square_across};
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Ring, Surd, product, reduced};
+use crate::scalar::{Ring, Surd, product};
 use crate::{Error, FloorForce, Forces, Pile};
 
 /// A pile whose spheres have a spacing, a radius and a mass, under a given gravity.
@@ -90,7 +91,9 @@ impl<'p> Packing<'p> {
     pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let touching = pile.clearance().check(spacing)?;
         if pile.horizontal_forces().len() > 0 && !touching.contains(&LayerGap { layers: 0 }) {
-            return Err(Error::not_touching(spacing.clone()));
+            return Err(Error::NotTouching {
+                spacing: spacing.clone(),
+            });
         }
         let inclination = Inclination::new(spacing, pile.dimension())?;
         let forces = pile.forces::<BigRational>();
@@ -666,16 +669,6 @@ impl Roots {
 
     fn forces(&self) -> [&Surd; 3] {
         self.forces.each_ref()
-    }
-}
-
-/// Returns `value`, if it is positive.
-fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
-    let value = reduced(value);
-    if value.is_positive() {
-        Ok(value)
-    } else {
-        Err(Error::not_positive(quantity, value))
     }
 }
 

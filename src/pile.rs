@@ -5,7 +5,6 @@ mod loading;
 mod system;
 
 pub(crate) use loading::Loading;
-use loading::not_negative;
 pub(crate) use system::{Extra, System};
 
 use alloc::borrow::Cow;
@@ -16,6 +15,7 @@ use num_traits::{One, Signed, Zero};
 
 use crate::Error;
 use crate::each::Each;
+use crate::error::not_negative;
 use crate::formula;
 use crate::geometry::{Clearance, Load, Vector, directions, disc_directions, square_across};
 use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};

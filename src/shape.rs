@@ -324,7 +324,10 @@ impl Shape {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn layer(&self, k: i128) -> Result<Region, Error> {
-        self.region(k).ok_or(Error::layer_outside(k, self.layers()))
+        self.region(k).ok_or(Error::LayerOutside {
+            layer: k,
+            layers: self.layers(),
+        })
     }
 
     /// Returns the region of the bottom layer.

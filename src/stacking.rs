@@ -122,7 +122,9 @@ impl Stacking {
             }
             layers = layers.saturating_add(steps);
             if layers > MAX_LAYERS {
-                return Err(Error::layers(layers.into()));
+                return Err(Error::Layers {
+                    given: layers.into(),
+                });
             }
             if steps == 0 {
                 continue;
@@ -214,7 +216,9 @@ impl Stacking {
     /// gives a single run.
     fn periodic(layers: i128, length: i128) -> Result<Self, Error> {
         if !(1..=MAX_LAYERS).contains(&layers) {
-            return Err(Error::layers(layers.into()));
+            return Err(Error::Layers {
+                given: layers.into(),
+            });
         }
         let steps = layers - 1;
         let length = if length == 0 { steps.max(1) } else { length };

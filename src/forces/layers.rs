@@ -108,12 +108,12 @@ impl<'p, T: Algebra> Layers<'p, T> {
         let region = self.shape().layer(k)?;
         let sites = region.site_count();
         let Some(spheres) = sites.to_usize() else {
-            return Err(Error::too_large(
-                "a layer",
-                sites,
-                usize::MAX as u64,
-                "ask for one sphere",
-            ));
+            return Err(Error::TooLarge {
+                quantity: "a layer",
+                needed: sites,
+                limit: usize::MAX as u64,
+                remedy: "ask for one sphere",
+            });
         };
         Ok(Some(Layer {
             layers: self,
@@ -162,12 +162,12 @@ impl<'p, T: Algebra> Layers<'p, T> {
     /// ```
     pub fn slice_len(&self) -> Result<usize, Error> {
         let spheres = self.shape().spheres_in(self.above_the_floor());
-        spheres.to_usize().ok_or(Error::too_large(
-            "all contact forces",
-            spheres,
-            usize::MAX as u64,
-            "fill layer by layer",
-        ))
+        spheres.to_usize().ok_or(Error::TooLarge {
+            quantity: "all contact forces",
+            needed: spheres,
+            limit: usize::MAX as u64,
+            remedy: "fill layer by layer",
+        })
     }
 
     /// Writes the contact forces of all remaining layers into slices, one slice for each direction, layer after layer,
@@ -257,7 +257,10 @@ fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
 /// Returns an error unless each slice has `needed` elements.
 pub(crate) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
     match slices.iter().find(|slice| slice.len() != needed) {
-        Some(slice) => Err(Error::length(needed, slice.len())),
+        Some(slice) => Err(Error::Length {
+            needed,
+            given: slice.len(),
+        }),
         None => Ok(()),
     }
 }

@@ -5,10 +5,11 @@ use core::str::FromStr;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
 use crate::Error;
-use crate::scalar::{ByValue, Surd, reduced};
+use crate::error::positive;
+use crate::scalar::{ByValue, Surd};
 
 /// The spacing a/R: the distance 2a between horizontal neighbours over the diameter 2R. It is positive, and its square
 /// q is rational.
@@ -49,13 +50,10 @@ impl Spacing {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn new(ratio: BigRational) -> Result<Self, Error> {
-        if ratio.is_positive() {
-            Ok(Self {
-                square: &ratio * &ratio,
-            })
-        } else {
-            Err(Error::not_positive("spacing", ratio))
-        }
+        let ratio = positive("spacing", ratio)?;
+        Ok(Self {
+            square: &ratio * &ratio,
+        })
     }
 
     /// Returns the spacing √q.
@@ -75,12 +73,8 @@ impl Spacing {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn from_square(square: BigRational) -> Result<Self, Error> {
-        let square = reduced(square);
-        if square.is_positive() {
-            Ok(Self { square })
-        } else {
-            Err(Error::not_positive("spacing", square))
-        }
+        let square = positive("spacing", square)?;
+        Ok(Self { square })
     }
 
     /// Returns q = (a/R)².

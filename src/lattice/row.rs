@@ -69,13 +69,11 @@ impl Row {
         } else {
             end.abs_diff(start)
         };
-        usize::try_from(sites).map_err(|_| {
-            Error::too_large(
-                "a row",
-                sites.into(),
-                usize::MAX as u64,
-                "ask for pieces of it",
-            )
+        usize::try_from(sites).map_err(|_| Error::TooLarge {
+            quantity: "a row",
+            needed: sites.into(),
+            limit: usize::MAX as u64,
+            remedy: "ask for pieces of it",
         })
     }
 }

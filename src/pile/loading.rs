@@ -1,17 +1,17 @@
 //! The weights of the spheres, their loads, and the forces of horizontal contacts.
 
-use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 use crate::Error;
+use crate::error::not_negative;
 use crate::formula;
 use crate::geometry::Load;
 use crate::lattice::{Axis, HorizontalContact, Sign, Site};
-use crate::scalar::{ByValue, reduced};
+use crate::scalar::ByValue;
 
 /// The weights of the spheres, in mg, the loads on them, and the forces of horizontal contacts, in f₀. No weight,
 /// downward load or horizontal contact force is negative.
@@ -230,20 +230,4 @@ impl Loading {
             (pushes.is_some() || !extra.is_zero()).then_some((*site, extra, pushes))
         })
     }
-}
-
-pub(super) fn not_negative(
-    quantity: &'static str,
-    site: Site,
-    given: BigRational,
-) -> Result<BigRational, Error> {
-    let given = reduced(given);
-    if given.is_negative() {
-        return Err(Error::NegativeLoad {
-            quantity,
-            site,
-            given: Box::new(given),
-        });
-    }
-    Ok(given)
 }

@@ -7,7 +7,9 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::{Algebra, ByValue, Enclosure, Exactness, Field, Numerators, RealEmbeddable, RealSign, Ring};
+use super::{
+    Algebra, ByValue, Enclosure, Exactness, Field, Numerators, RealEmbeddable, RealSign, Ring,
+};
 
 impl Ring for BigRational {
     fn from_i128(n: i128) -> Self {

@@ -25,7 +25,9 @@ fn layers() {
         says(&error, &[&given.to_string(), "at least 1", "10^36"]);
     }
     let digits = "12345678901234567890123456789012345678901234567890";
-    let error = Error::layers(digits.parse().unwrap());
+    let error = Error::Layers {
+        given: digits.parse().unwrap(),
+    };
     says(&error, &[digits]);
 }
 
@@ -62,15 +64,15 @@ fn queries_of_the_wrong_sphere() {
     let forces = pile.forces::<BigRational>();
     let below = |site| forces.contact(site, Direction::Alpha).unwrap_err();
     let site = Site { i: 1, j: 0, k: 2 };
-    assert_eq!(below(site), Error::on_floor(site));
-    assert_eq!(forces.unbalanced(site), Err(Error::on_floor(site)));
+    assert_eq!(below(site), Error::OnFloor { site });
+    assert_eq!(forces.unbalanced(site), Err(Error::OnFloor { site }));
     says(
         &below(site),
         &["(1,0,2)", "floor", "ask for the force on the floor"],
     );
     let (site, floor) = (Site { i: 1, j: 0, k: 1 }, 2);
     let error = forces.on_floor(site).unwrap_err();
-    assert_eq!(error, Error::not_on_floor(site, floor));
+    assert_eq!(error, Error::NotOnFloor { site, floor });
     says(&error, &["(1,0,1)", "k = 2"]);
     let discs = Pile::discs(3).unwrap();
     let forces = discs.forces::<f64>();
@@ -100,7 +102,13 @@ fn not_positive() {
         ];
         for (quantity, error) in refused {
             let error = error.unwrap();
-            assert_eq!(error, Error::not_positive(quantity, given.clone()));
+            assert_eq!(
+                error,
+                Error::NotPositive {
+                    quantity,
+                    given: given.clone()
+                }
+            );
             says(&error, &[quantity, &text, "must be positive"]);
         }
     }
@@ -234,10 +242,10 @@ fn syntax() {
 /// Errors of tables and of a census.
 #[test]
 fn too_many_rows() {
-    let error = Error::too_many_rows(
-        Pile::triangular(MAX_LAYERS).unwrap().contact_count(),
-        100_000_000_000,
-        "ask for one layer with --layer",
-    );
+    let error = Error::TooManyRows {
+        rows: Pile::triangular(MAX_LAYERS).unwrap().contact_count(),
+        limit: 100_000_000_000,
+        remedy: "ask for one layer with --layer",
+    };
     says(&error, &["10^107", "100000000000", "--layer"]);
 }

@@ -33,7 +33,6 @@ pub enum Error {
     /// sin φ was given for a pile of discs.
     SinPhiOfDiscs,
     /// Two options of a scene exclude each other.
-    #[non_exhaustive]
     Excluded {
         /// The option to change.
         given: Key,
@@ -41,7 +40,6 @@ pub enum Error {
         beside: Key,
     },
     /// A scene file is not TOML.
-    #[non_exhaustive]
     NotToml {
         /// The line, counted from 1.
         line: usize,
@@ -49,7 +47,6 @@ pub enum Error {
         reason: String,
     },
     /// A scene file has an unknown key.
-    #[non_exhaustive]
     UnknownKey {
         /// The line of the key, counted from 1.
         line: usize,
@@ -61,7 +58,6 @@ pub enum Error {
         known: &'static [&'static str],
     },
     /// No benchmark case has this name.
-    #[non_exhaustive]
     UnknownCase {
         /// The name, shortened if it is long.
         name: String,
@@ -69,7 +65,6 @@ pub enum Error {
         nearest: Option<&'static str>,
     },
     /// A value in a scene file was rejected.
-    #[non_exhaustive]
     InFile {
         /// The line of the key, counted from 1.
         line: usize,
@@ -79,19 +74,16 @@ pub enum Error {
         error: Box<Self>,
     },
     /// A quantity in SI units was requested for a pile without sizes and weights.
-    #[non_exhaustive]
     NeedsUnits {
         /// The quantity.
         quantity: Quantity,
     },
     /// A test for the suite of another code needs a state at rest, but some contact of the pile needs a tensile force.
-    #[non_exhaustive]
     MustPull {
         /// The remedy.
         remedy: &'static str,
     },
     /// A file that only exists for a floor with glue.
-    #[non_exhaustive]
     GluedOnly {
         /// The file.
         file: &'static str,
@@ -213,17 +205,17 @@ impl Error {
     }
 
     pub(crate) fn on_floor(site: Site) -> Self {
-        cannonpile::Error::on_floor(site).into()
+        cannonpile::Error::OnFloor { site }.into()
     }
 
     /// Returns the error for a count that exceeds the address space.
     pub(crate) fn beyond_addresses(quantity: &'static str, needed: BigUint) -> Self {
-        cannonpile::Error::too_large(
+        cannonpile::Error::TooLarge {
             quantity,
             needed,
-            usize::MAX as u64,
-            "use fewer layers, or a smaller top or base",
-        )
+            limit: usize::MAX as u64,
+            remedy: "use fewer layers, or a smaller top or base",
+        }
         .into()
     }
 }

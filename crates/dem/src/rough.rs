@@ -3,7 +3,6 @@
 use std::io::Write;
 
 use num_rational::BigRational;
-use num_traits::Signed;
 
 use super::lammps::script_texts;
 use super::numbered::NumberedPile;
@@ -13,6 +12,7 @@ use super::yade::{by_id, texts, with_vector};
 use crate::table::WriteError;
 use crate::{Each, Error};
 use cannonpile::Packing;
+use cannonpile::engine::positive;
 use cannonpile::friction::RoughPacking;
 use cannonpile::lattice::Dimension;
 use cannonpile::scalar::ByValue;
@@ -145,12 +145,10 @@ pub(super) fn hold(
 
 impl Coefficient {
     fn of(exact: &BigRational) -> Result<Self, Error> {
-        if !exact.is_positive() {
-            return Err(cannonpile::Error::not_positive("friction", exact.clone()).into());
-        }
+        let exact = positive("friction", exact.clone())?;
         Ok(Self {
-            rounded: normal(exact, "friction")?,
-            exact: Some(exact.reduced()),
+            rounded: normal(&exact, "friction")?,
+            exact: Some(exact),
         })
     }
 }

@@ -9,10 +9,11 @@ use core::fmt;
 use core::str::FromStr;
 
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 use crate::rough::hold;
 use crate::{Each, Error, Friction, Key};
+use cannonpile::engine::positive;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::shape::Shape;
@@ -333,10 +334,7 @@ impl Scene {
             (Key::StiffnessRatio, &self.stiffness_ratio),
         ];
         for (quantity, value) in sizes.into_iter().chain(self.coefficients()) {
-            if !value.is_positive() {
-                let (name, value) = (quantity.name(), value.clone());
-                return Err(cannonpile::Error::not_positive(name, value).into());
-            }
+            positive(quantity.name(), value.clone())?;
         }
         Ok(())
     }
@@ -382,9 +380,9 @@ impl Scene {
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     pub fn check_touching(&self) -> Result<(), Error> {
-        match &self.spacing {
+        match self.spacing.clone() {
             Some(spacing) if !spacing.square().is_one() => {
-                Err(cannonpile::Error::not_touching(spacing.clone()).into())
+                Err(cannonpile::Error::NotTouching { spacing }.into())
             }
             _ => Ok(()),
         }

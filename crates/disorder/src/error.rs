@@ -25,7 +25,6 @@ pub enum Error {
     /// An error of the crate `cannonpile`. It displays as that error.
     Core(cannonpile::Error),
     /// The ensemble has more stackings than one run enumerates.
-    #[non_exhaustive]
     TooManyStackings {
         /// The number of stackings.
         stackings: BigUint,
@@ -33,13 +32,11 @@ pub enum Error {
         limit: u64,
     },
     /// The fault probability is not between 0 and 1.
-    #[non_exhaustive]
     FaultProbability {
         /// The value given.
         given: BigRational,
     },
     /// A load is on a sphere whose position depends on the stacking.
-    #[non_exhaustive]
     PlaceOfLoad {
         /// The sphere.
         site: Site,
@@ -47,7 +44,6 @@ pub enum Error {
         on_base: bool,
     },
     /// The quantity is defined for the response to loads only. It needs weightless spheres and at least one load.
-    #[non_exhaustive]
     NotAResponse {
         /// The quantity requested.
         quantity: &'static str,
@@ -55,7 +51,6 @@ pub enum Error {
         weightless: bool,
     },
     /// The base supports no stacking of this height.
-    #[non_exhaustive]
     NoStacking {
         /// The number of layers requested.
         layers: i128,

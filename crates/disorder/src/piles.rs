@@ -1,11 +1,10 @@
 //! Piles of random stackings, with their geometry and loads.
 
-use cannonpile::engine::common_denominator;
+use cannonpile::engine::{common_denominator, not_negative};
 use cannonpile::lattice::{Dimension, MAX_LAYERS, Region, Site};
-use cannonpile::scalar::reduced;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 use super::stackings::{FirstSign, RandomStackings};
 use crate::Error;
@@ -177,15 +176,18 @@ impl RandomPiles {
         };
         if !is_inside {
             let layers = self.stackings.layers();
-            let outside = cannonpile::Error::site_outside(site, layers, Dimension::Three, region);
+            let outside = cannonpile::Error::SiteOutside {
+                site,
+                layers,
+                dimension: Dimension::Three,
+                region: region.map(Box::new),
+            };
             return Err(outside.into());
         }
-        if load.is_negative() {
-            return Err(cannonpile::Error::negative_load("load", site, load).into());
-        }
+        let load = not_negative("load", site, load)?;
         match self.loads.binary_search_by_key(&at, |(site, _)| *site) {
             Ok(place) => self.loads[place].1 += load,
-            Err(place) => self.loads.insert(place, (at, reduced(load))),
+            Err(place) => self.loads.insert(place, (at, load)),
         }
         Ok(self)
     }

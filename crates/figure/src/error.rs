@@ -21,7 +21,6 @@ use num_bigint::BigUint;
 #[non_exhaustive]
 pub enum Error {
     /// A figure would have more glyphs than a reader can tell apart.
-    #[non_exhaustive]
     TooManyGlyphs {
         /// The number of glyphs.
         glyphs: BigUint,

@@ -149,7 +149,7 @@ pub fn layer(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
     let layer = Layer::new(subject, k, LIMIT, "choose a higher layer")?;
     if k == pile.layers() - 1 {
         let site = middle(pile, k)?;
-        return Err(cannonpile::Error::on_floor(site).into());
+        return Err(cannonpile::Error::OnFloor { site }.into());
     }
     let place = |site: Site| layer.place(subject, site).map(Some);
     let (links, tensile) = links(subject, Selection::Layer(k), place)?;

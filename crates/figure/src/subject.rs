@@ -359,7 +359,7 @@ impl<'p> Subject<'p> {
 /// Returns the sphere below another in a direction.
 pub(super) fn below(pile: &Pile, site: Site, direction: Direction) -> Result<Site, Error> {
     let below = pile.shape().below(site, direction);
-    below.ok_or_else(|| cannonpile::Error::on_floor(site).into())
+    below.ok_or_else(|| cannonpile::Error::OnFloor { site }.into())
 }
 
 /// Returns a number, correctly rounded to `f64`.

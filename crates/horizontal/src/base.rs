@@ -57,7 +57,7 @@ pub fn base_bounds(pile: &Pile, part: Selection) -> Result<BaseBounds<'_>, Error
     let rows = pile.rows(part)?;
     let floor = pile.layers() - 1;
     if let Some(site) = rows.clone().flatten().next().filter(|site| site.k != floor) {
-        return Err(cannonpile::Error::not_on_floor(site, floor).into());
+        return Err(cannonpile::Error::NotOnFloor { site, floor }.into());
     }
     let symmetric = AxisSymmetry::of(pile).map(|symmetry| (symmetry, HashMap::new()));
     Ok(BaseBounds {

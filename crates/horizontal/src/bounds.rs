@@ -113,7 +113,7 @@ pub fn bounds(pile: &Pile, site: Site) -> Result<NormalBounds, Error> {
     let site = pile.shape().check(site)?;
     let floor = pile.layers() - 1;
     if site.k < floor {
-        return Err(cannonpile::Error::not_on_floor(site, floor).into());
+        return Err(cannonpile::Error::NotOnFloor { site, floor }.into());
     }
     pile.check_horizontal()?;
     if pile.is_weightless() {

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use cannonpile::Pile;
-use cannonpile::engine::{bug, check_interrupt};
+use cannonpile::engine::{bug, check_interrupt, positive};
 use cannonpile::lattice::{Dimension, Site, count};
 use cannonpile::scalar::ByValue;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{ToPrimitive, Zero};
 
 use crate::certificate::{Certificate, Claim};
 use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
@@ -79,10 +79,7 @@ pub struct ElasticState {
 pub fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<ElasticState, Error> {
     let mut pile = pile.clone().without_horizontal_forces();
     pile.check_horizontal()?;
-    if !stiffness_ratio.is_positive() {
-        let given = stiffness_ratio.clone();
-        return Err(cannonpile::Error::not_positive("stiffness-ratio", given).into());
-    }
+    positive("stiffness-ratio", stiffness_ratio.clone())?;
     let certificate = match certified(&pile, stiffness_ratio) {
         Err(Error::Core(cannonpile::Error::TooLarge { .. }))
             if pile.shape().stacking().is_straight() && pile.is_uniform() =>

@@ -20,13 +20,11 @@ use crate::short::{numbers, quoted};
 #[non_exhaustive]
 pub enum Error {
     /// The radicand of a square root is negative.
-    #[non_exhaustive]
     NegativeRadicand {
         /// The radicand that was given.
         given: BigRational,
     },
     /// A text does not have the expected form.
-    #[non_exhaustive]
     Syntax {
         /// The text, shortened if it is long.
         text: String,

@@ -29,12 +29,12 @@ impl Pile {
     fn base_places(&self) -> PyResult<usize> {
         let count = self.exact.base_sphere_count();
         usize::try_from(&count).map_err(|_| {
-            let error = cannonpile::Error::too_large(
-                "the forces of all bottom spheres",
-                count,
-                usize::MAX as u64,
-                "use fewer layers, or a smaller top or base",
-            );
+            let error = cannonpile::Error::TooLarge {
+                quantity: "the forces of all bottom spheres",
+                needed: count,
+                limit: usize::MAX as u64,
+                remedy: "use fewer layers, or a smaller top or base",
+            };
             Raised::from(error).into_exception()
         })
     }

@@ -292,7 +292,7 @@ fn layers_reject_invalid_queries() {
     let layer = layers.next_layer().unwrap().unwrap();
     let refused = layer.fill([&mut [], &mut [], &mut []]);
     let needed = layer.sphere_count();
-    assert_eq!(refused, Err(Error::length(needed, 0)));
+    assert_eq!(refused, Err(Error::Length { needed, given: 0 }));
     let elsewhere = layer.to_below(Site::APEX);
     assert!(matches!(
         elsewhere,
@@ -327,7 +327,7 @@ fn layers_reject_invalid_queries() {
     let one = Pile::triangular(1).unwrap();
     let mut alone = one.forces::<f64>().layers(Selection::All).unwrap();
     let floor = alone.next_layer().unwrap().unwrap();
-    let on_floor = Err(Error::on_floor(Site::APEX));
+    let on_floor = Err(Error::OnFloor { site: Site::APEX });
     assert_eq!(floor.fill([&mut [0.0], &mut [0.0], &mut [0.0]]), on_floor);
     assert_eq!(floor.to_below(Site::APEX).map(|_| ()), on_floor);
     assert!((floor.on_floor(Site::APEX).unwrap().normal - 1.0).abs() < 1e-15);

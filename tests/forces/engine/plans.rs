@@ -152,12 +152,12 @@ fn a_sweep_has_at_most_2_to_the_27_values() {
         }
         plan => assert_eq!(plan.unwrap().numbers, most),
     }
-    let refused = Error::too_large(
-        "a sweep down to this layer",
-        more,
-        MAX_NUMBERS,
-        "ask for one sphere, or for fewer layers",
-    );
+    let refused = Error::TooLarge {
+        quantity: "a sweep down to this layer",
+        needed: more,
+        limit: MAX_NUMBERS,
+        remedy: "ask for one sphere, or for fewer layers",
+    };
     assert_eq!(plan(14_913_080), Err(refused));
 }
 

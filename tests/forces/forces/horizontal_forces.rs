@@ -190,7 +190,7 @@ fn invalid_horizontal_forces_are_rejected() {
     let site = Site { i: 0, j: 0, k: 3 };
     assert_eq!(
         push(contact(0, 0, 3, Axis::AlphaBeta), one.clone()),
-        Err(Error::on_floor(site))
+        Err(Error::OnFloor { site })
     );
     let pull = push(contact(0, 0, 2, Axis::AlphaBeta), ratio(-1, 2)).unwrap_err();
     assert_eq!(

@@ -202,11 +202,17 @@ fn slices_of_a_wrong_length_are_rejected() {
     let [mut a, mut b, mut c] = [[0.0; 3]; 3];
     assert_eq!(layer.fill([&mut a, &mut b, &mut c]), Ok(()));
     let wrong = layer.fill([&mut a, &mut b, &mut [0.0; 2]]);
-    assert_eq!(wrong, Err(Error::length(3, 2)));
+    assert_eq!(
+        wrong,
+        Err(Error::Length {
+            needed: 3,
+            given: 2
+        })
+    );
     let whole = forces.layers(Selection::All).expect("layers");
     let needed = whole.slice_len().expect("few");
     let wrong = whole.fill([&mut a, &mut b, &mut c]);
-    assert_eq!(wrong, Err(Error::length(needed, 3)));
+    assert_eq!(wrong, Err(Error::Length { needed, given: 3 }));
     let floor = forces.layers(Selection::Base).expect("a base").slice_len();
     assert_eq!(floor, Ok(0));
 }
@@ -272,7 +278,7 @@ fn layers_reject_sites_of_other_layers() {
     let pile = Pile::triangular(5).expect("a pile");
     let (site, floor) = (Site { i: 1, j: 0, k: 2 }, 4);
     let forces = pile.forces::<BigRational>();
-    let refused = Err(Error::not_on_floor(site, floor));
+    let refused = Err(Error::NotOnFloor { site, floor });
     let mut layers = forces.layers(Selection::Layer(2)).expect("a layer");
     let layer = layers
         .next_layer()
@@ -290,7 +296,7 @@ fn layers_reject_sites_of_other_layers() {
     ));
 
     let first = Site { i: 0, j: 0, k: 2 };
-    let refused = Err(Error::not_on_floor(first, floor));
+    let refused = Err(Error::NotOnFloor { site: first, floor });
     let layers = forces.layers(Selection::Layer(2)).expect("a layer");
     let mut layers = layers.nearest::<f64>().expect("floats");
     let layer = layers

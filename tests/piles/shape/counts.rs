@@ -220,7 +220,10 @@ fn layers_have_limits() {
     for dimension in SHAPES {
         for layers in [i128::MIN, -1, 0, MAX_LAYERS + 1, i128::MAX] {
             let given = layers.into();
-            assert_eq!(Sites::pyramid(layers, dimension), Err(Error::layers(given)));
+            assert_eq!(
+                Sites::pyramid(layers, dimension),
+                Err(Error::Layers { given })
+            );
         }
         assert!(Sites::pyramid(1, dimension).is_ok());
         assert!(Sites::pyramid(MAX_LAYERS, dimension).is_ok());

@@ -50,7 +50,10 @@ fn has_layers(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
         assert_eq!(sites_of(&shape.layer(k).expect("a layer")), *layer);
     }
     for k in [-1, count, i128::MIN, i128::MAX] {
-        let refused = Error::layer_outside(k, count);
+        let refused = Error::LayerOutside {
+            layer: k,
+            layers: count,
+        };
         assert_eq!(shape.layer(k), Err(refused.clone()));
         assert_eq!(shape.rows(Selection::Layer(k)).err(), Some(refused));
         assert_eq!(shape.sign_below(k), None);

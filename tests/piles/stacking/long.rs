@@ -139,7 +139,12 @@ fn stackings_with_too_many_layers_are_rejected() {
             Stacking::hcp(layers),
             Stacking::dhcp(layers),
         ] {
-            assert_eq!(made, Err(Error::layers(layers.into())));
+            assert_eq!(
+                made,
+                Err(Error::Layers {
+                    given: layers.into()
+                })
+            );
         }
     }
 }
@@ -164,7 +169,7 @@ fn invalid_runs_are_rejected() {
     assert_eq!((joined.layers(), joined.runs().len()), (MAX_LAYERS, 1));
     let more = halves.into_iter().chain([run(Sign::Plus, 1)]);
     let given = (MAX_LAYERS + 1).into();
-    assert_eq!(Stacking::from_runs(more), Err(Error::layers(given)));
+    assert_eq!(Stacking::from_runs(more), Err(Error::Layers { given }));
 }
 
 /// The error names the position of the fault in a long text, and the character there.

@@ -224,11 +224,11 @@ fn the_error_of_a_large_census_states_its_size() {
     let most = 9_090_909_095;
     assert!(census::under_one_sphere(most, true).is_ok());
     let refused = |layers, rows: u64| {
-        let refusal = Error::too_many_rows(
-            rows.into(),
-            census::MAX_ENTRIES,
-            "ask for fewer layers, or only for stable stackings",
-        );
+        let refusal = Error::TooManyRows {
+            rows: rows.into(),
+            limit: census::MAX_ENTRIES,
+            remedy: "ask for fewer layers, or only for stable stackings",
+        };
         assert_eq!(census::under_one_sphere(layers, true).err(), Some(refusal));
     };
     refused(most + 1, 100_000_000_006);

@@ -223,12 +223,12 @@ fn refused(n: i128, load: BigRational, loaded: fn(i128) -> Site) {
     let pile = Pile::under(row, stacking("+++++++-+")).unwrap();
     let pile = pile.with_load(loaded(n), load);
     let starts = 8 * n.unsigned_abs() + 28;
-    let refused = Error::too_large(
-        "the verdict on this pile",
-        BigUint::from(14 * (8 + 9) + 9 * (starts + 2)),
-        134_217_728,
-        "move the sign changes closer to the top",
-    );
+    let refused = Error::TooLarge {
+        quantity: "the verdict on this pile",
+        needed: BigUint::from(14 * (8 + 9) + 9 * (starts + 2)),
+        limit: 134_217_728,
+        remedy: "move the sign changes closer to the top",
+    };
     assert_eq!(pile.unwrap().standing(), Err(refused));
 }
 

@@ -220,7 +220,7 @@ Examples:
         {
             return Err(InputError {
                 remedy: Some("the command base"),
-                ..InputError::of(Culprit::Site, cannonpile::Error::on_floor(site))
+                ..InputError::of(Culprit::Site, cannonpile::Error::OnFloor { site })
             }
             .into());
         }

@@ -16,10 +16,11 @@ pub(super) fn pieces(rows: Rows<'_>) -> impl Iterator<Item = Row> {
 
 /// Checks that the slice has `needed` entries.
 pub(super) fn check_length<V>(needed: usize, places: &[V]) -> Result<(), Error> {
-    if places.len() == needed {
+    let given = places.len();
+    if given == needed {
         return Ok(());
     }
-    Err(cannonpile::Error::length(needed, places.len()).into())
+    Err(cannonpile::Error::Length { needed, given }.into())
 }
 
 /// Writes to the next entry.

@@ -64,7 +64,7 @@ pub fn layers(text: &str) -> Result<i128, Error> {
         .map_err(|_| Error::syntax(text, "a number of layers such as 10 or 1e36"))?;
     match i128::try_from(&given) {
         Ok(layers) if (1..=MAX_LAYERS).contains(&layers) => Ok(layers),
-        _ => Err(cannonpile::Error::layers(given).into()),
+        _ => Err(cannonpile::Error::Layers { given }.into()),
     }
 }
 

@@ -115,5 +115,10 @@ pub fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> 
     if *rows <= BigUint::from(MAX_ROWS) {
         return Ok(());
     }
-    Err(cannonpile::Error::too_many_rows(rows.clone(), MAX_ROWS, remedy).into())
+    Err(cannonpile::Error::TooManyRows {
+        rows: rows.clone(),
+        limit: MAX_ROWS,
+        remedy,
+    }
+    .into())
 }

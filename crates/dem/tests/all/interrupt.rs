@@ -202,7 +202,7 @@ fn without_a_request_errors_are_unchanged() {
     let interrupt = Interrupt::new();
     assert!(!interrupt.is_requested());
     let refused = interrupt.during(|| Pile::triangular(0)).err();
-    assert_eq!(refused, Some(cannonpile::Error::layers(0.into())));
+    assert_eq!(refused, Some(cannonpile::Error::Layers { given: 0.into() }));
     interrupt.clone().request();
     assert!(interrupt.is_requested());
     let ended = interrupt.during(Interrupt::check);

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use cannonpile::engine::common_denominator;
+use cannonpile::engine::{bug, common_denominator, refuse_beyond};
 use cannonpile::scalar::Surd;
 use cannonpile_dem::Error;
 use cannonpile_dem::numbered::nearest;
@@ -45,17 +45,18 @@ impl Quantity {
         if let Some(place) = self.places.get(&key) {
             return Ok(*place);
         }
+        // Each number has a digit.
+        self.refuse_beyond_limit(self.numbers.len() as u64)?;
         let new = u32::try_from(self.numbers.len())
-            .map_err(|_| self.too_large(self.numbers.len() as u64))?;
+            .map_err(|_| bug("the limit of digits fits in 32 bits"))?;
         self.places.insert(key, new);
         self.numbers.push(number);
         Ok(new)
     }
 
-    /// Returns the error for too many digits.
-    fn too_large(&self, needed: u64) -> Error {
+    fn refuse_beyond_limit(&self, digits: u64) -> Result<(), Error> {
         let remedy = "use fewer layers, or loads with one small denominator";
-        cannonpile::Error::too_large(self.name, needed.into(), MAX_DIGITS, remedy).into()
+        Ok(refuse_beyond(self.name, digits, MAX_DIGITS, remedy)?)
     }
 
     /// Returns the list: numerators over a common denominator, and the correctly rounded multiples and forces in N.
@@ -65,9 +66,7 @@ impl Quantity {
         let digits = self.numbers.iter();
         let bits = digits.map(|x| x.numer().bits() + denominator.bits() - x.denom().bits());
         let digits = bits.map(|bits| bits * 302 / 1000 + 1).sum();
-        if digits > MAX_DIGITS {
-            return Err(self.too_large(digits));
-        }
+        self.refuse_beyond_limit(digits)?;
         let numerators = self.numbers.iter();
         let numerators = numerators.map(|x| (x.numer() * (&denominator / x.denom())).to_string());
         let numerators: Vec<String> = numerators.collect();

@@ -337,7 +337,11 @@ fn invalid_requests_are_errors() {
     let pile = Pile::triangular(4).unwrap();
     assert_eq!(
         bounds(&pile, Site::APEX),
-        Err(Core::not_on_floor(Site::APEX, 3).into())
+        Err(Core::NotOnFloor {
+            site: Site::APEX,
+            floor: 3
+        }
+        .into())
     );
     assert!(matches!(
         bounds(&pile, Site { i: 4, ..site }),

@@ -43,7 +43,10 @@ fn cannot_stand() {
 #[test]
 fn errors_of_the_core() {
     let error = bounds(&Pile::triangular(6).unwrap(), Site::APEX).unwrap_err();
-    let inner = cannonpile::Error::not_on_floor(Site::APEX, 5);
+    let inner = cannonpile::Error::NotOnFloor {
+        site: Site::APEX,
+        floor: 5,
+    };
     assert_eq!(error, Error::Core(inner.clone()));
     assert_eq!(error.to_string(), inner.to_string());
     assert!(error.source().is_none());

@@ -159,7 +159,14 @@ fn invalid_elastic_requests_are_errors() {
     let pile = Pile::triangular(4).unwrap();
     let given = ratio(0, 1);
     let refused = elastic(&pile, &given).unwrap_err();
-    assert_eq!(refused, Core::not_positive("stiffness-ratio", given).into());
+    assert_eq!(
+        refused,
+        Core::NotPositive {
+            quantity: "stiffness-ratio",
+            given
+        }
+        .into()
+    );
     let leaning = Pile::isosceles(4, ratio(1, 3)).unwrap();
     assert!(matches!(
         elastic(&leaning, &ratio(1, 1)),

@@ -221,7 +221,10 @@ mod injected_faults {
         };
         assert!(fill(4, careless).is_err());
         let careful = |slices: [&mut [f64]; 3]| match slices.iter().find(|slice| slice.len() != 4) {
-            Some(slice) => Err(Error::length(4, slice.len())),
+            Some(slice) => Err(Error::Length {
+                needed: 4,
+                given: slice.len(),
+            }),
             None => Ok(()),
         };
         assert!(fill(4, careful).is_ok());

@@ -39,7 +39,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     refuse_beyond(&rows.site_count(), "ask for one sphere")?;
     let floor = pile.layers() - 1;
     if let Some(site) = rows.clone().flatten().next().filter(|site| site.k != floor) {
-        return Err(cannonpile::Error::not_on_floor(site, floor).into());
+        return Err(cannonpile::Error::NotOnFloor { site, floor }.into());
     }
     let mut columns = indices(pile, &[]);
     columns.push(Column::summed("normal", units.normal()));

@@ -131,7 +131,7 @@ fn multiples_and_sites_equal_single_evaluations() {
 fn slices_that_do_not_fit_are_refused() {
     let pile = Pile::triangular(4).expect("a pile");
     let arrays = PileArrays::of_pile(&pile).expect("arrays");
-    let length = |needed, given| Err(Error::Core(cannonpile::Error::length(needed, given)));
+    let length = |needed, given| Err(Error::Core(cannonpile::Error::Length { needed, given }));
     assert_eq!(arrays.fill_forces(&mut [0.0; 29]), length(30, 29));
     assert_eq!(arrays.fill_ids(&mut [[0_u8; 2]; 31]), length(30, 31));
     assert_eq!(arrays.fill_sites(&mut [[0_i8; 3]; 19]), length(20, 19));
