@@ -100,14 +100,11 @@ mod axes;
 mod comparison;
 mod difference;
 mod digits;
-mod entry;
 mod finding;
 mod floor;
-mod format;
 mod frame;
 mod friction;
 mod gathering;
-mod kind;
 mod ledger;
 mod listed;
 mod loaded;
@@ -122,24 +119,22 @@ mod refinement;
 mod refusal;
 mod registration;
 mod report;
-mod rows;
 mod slots;
 mod soft;
 mod symptoms;
 mod tally;
 mod unbalanced;
-mod vtk;
+
+pub use contact_tables::{
+    Columns, Dialect, DialectOptions, FileKind, Force, Mark, Preset, RowCounts, Separator,
+    TextEncoding,
+};
 
 pub use axes::{Axes, Coordinate, TableAxis};
 pub use comparison::Comparison;
 pub use difference::{Difference, Extra};
-pub use entry::Force;
 pub use finding::{Finding, FindingKind};
-pub use format::{
-    Columns, Dialect, DialectOptions, Mark, Preset, RowCounts, Separator, TextEncoding,
-};
 pub use frame::Frame;
-pub use kind::FileKind;
 pub use measured::{MAX_ENTRIES, Measured};
 pub use placed::Placed;
 pub use read::{Compared, Reader, read};

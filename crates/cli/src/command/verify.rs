@@ -10,10 +10,11 @@ use cannonpile::Packing;
 use cannonpile_dem::scene::{Floor, Scene};
 use cannonpile_dem::table::{FileFormat, NumberFormat};
 use cannonpile_dem::verify::{
-    Columns, Compared, DialectOptions, Fault, Mark, Preset, Reader, RefinementFiles, Refusal,
-    Report, Separator, Source, TextEncoding,
+    Columns, Compared, DialectOptions, Mark, Preset, Reader, RefinementFiles, Refusal, Report,
+    Separator, Source, TextEncoding,
 };
 use clap::{Args, ValueEnum};
+use contact_tables::Error;
 
 use super::note_instability;
 use crate::args::{Format, Output, SceneOptions, in_state};
@@ -40,7 +41,7 @@ record; json also has the scene, the SHA-256 of the file and the version of this
 scene.toml beside FILE is read.
 
 The kind of FILE is known by its content: a text table, a LAMMPS dump local file, a VTK file (.vtp, .vtu, .vtk), or a file of
-ParaView that names such files (.pvtp, .pvtu, .vtm, .pvd). It may be compressed by gzip. Of a text table the first
+ParaView that names the pieces of one table (.pvtp, .pvtu). It may be compressed by gzip. Of a text table the first
 lines decide the dialect: separator, quotes, comments, decimal sign, header, row of units. The report shows it, and the
 options under Table override it. Only the columns that are needed are read.
 
@@ -340,14 +341,13 @@ impl Verify {
                 "{}: {refusal}",
                 self.scene.clone().unwrap_or_default().place_of_size(scene)
             ),
-            Refusal::Io(error) if error.kind() == io::ErrorKind::InvalidData => {
+            Refusal::Table(Error::Io(error)) if error.kind() == io::ErrorKind::InvalidData => {
                 format!("{name}, {error}: compress it again, or give it as it is")
             }
-            Refusal::Io(error) => return unreadable(name, &error, READABLE_FILE_OR_STDIN),
-            refusal @ Refusal::Line {
-                fault: Fault::NoColumn { .. } | Fault::NoNamedColumn { .. },
-                ..
-            } if is_measured => {
+            Refusal::Table(Error::Io(error)) => {
+                return unreadable(name, &error, READABLE_FILE_OR_STDIN);
+            }
+            refusal @ Refusal::Table(Error::NoColumn { .. }) if is_measured => {
                 format!("{name}, {refusal}; --columns can name them")
             }
             refusal => format!("{name}, {refusal}"),

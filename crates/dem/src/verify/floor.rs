@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::entry::Force;
+use contact_tables::Force;
+
 use super::measured::{distance, relative, sort_decreasing};
 use super::refusal::Refusal;
 use crate::vector::plus;

@@ -2,15 +2,17 @@
 
 use num_traits::ToPrimitive;
 
-use super::entry::{Entry, Force, Place, Sink};
+use contact_tables::{Contact, Force, Place, Rows};
+
 use super::frame::Frame;
 use super::ledger::Ledger;
 use super::loaded::LoadedContacts;
-use super::measured::opposite;
+use super::measured::{magnitude, opposite, whole};
 use super::places::{Found, Places};
 use super::refusal::Refusal;
 use super::registration;
-use super::rows::{Row, Rows};
+use crate::Error;
+use crate::error::bug;
 use cannonpile::Interrupt;
 
 /// The number of rows that suffices to decide that the table is in the frame of the scene, if all rows match contacts
@@ -46,7 +48,7 @@ impl<'p> Gathering<'p> {
     /// Finds the frame, and passes all rows to the ledger.
     pub(super) fn settle(mut self) -> Result<(Ledger<'p>, Frame), Refusal> {
         let kept = core::mem::take(&mut self.kept);
-        if self.is_own || kept.len() == 0 {
+        if self.is_own || kept.is_empty() {
             return Ok((self.ledger, Frame::OWN));
         }
         let frame = self.frame(&kept)?;
@@ -67,19 +69,19 @@ impl<'p> Gathering<'p> {
         Ok(fit.frame)
     }
 
-    fn give(&mut self, row: &Row, frame: &Frame) -> Result<(), Refusal> {
-        let place = row.place.map(|point| frame.place(point));
+    fn give(&mut self, row: &Contact, frame: &Frame) -> Result<(), Refusal> {
+        let place = place_of(row)?.map(|point| frame.place(point));
         let found = match self.places.find(&place, self.within) {
             Ok(found) => found,
             // A row that matches no contact is ignored if its force is 0.
-            Err(_) if row.force.magnitude() == 0.0 => return Ok(()),
+            Err(_) if magnitude(row.force) == 0.0 => return Ok(()),
             Err(fault) => return Err(fault.at(row.line)),
         };
         let force = row.force.map(|vector| frame.turned(vector));
         let tangential = row.tangential.map(|vector| frame.turned(vector));
         let admitted = match found {
             Found::Floor { sphere, is_second } => {
-                let force = force.with_tangential(tangential);
+                let force = whole(force, tangential);
                 let on_sphere = match place {
                     Place::Centres(_) if is_second => force.map(opposite),
                     Place::Centres(_) => force,
@@ -87,7 +89,7 @@ impl<'p> Gathering<'p> {
                 };
                 self.ledger.admit_floor(sphere, on_sphere, row.line)
             }
-            Found::Spheres([one, other]) if one == other && row.force.magnitude() == 0.0 => Ok(()),
+            Found::Spheres([one, other]) if one == other && magnitude(row.force) == 0.0 => Ok(()),
             Found::Spheres(ids) => match place {
                 Place::Centres(_) => {
                     let mut measured = self.places.on_first(force, ids)?;
@@ -107,11 +109,33 @@ impl<'p> Gathering<'p> {
     }
 
     fn all_fit(&self) -> bool {
-        let mut kept = self.kept.iter();
-        kept.all(|row| {
-            row.force.magnitude() == 0.0 || self.places.find(&row.place, self.within).is_ok()
+        self.kept.iter().all(|row| {
+            let place = row.place();
+            magnitude(row.force) == 0.0
+                || place.is_some_and(|place| self.places.find(&place, self.within).is_ok())
         })
     }
+
+    /// Stores a row with the positions of its spheres.
+    pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
+        if self.is_own {
+            return self.give(row, &Frame::OWN);
+        }
+        self.kept.push(row)?;
+        if self.kept.len() == ENOUGH && self.all_fit() {
+            self.is_own = true;
+            for row in core::mem::take(&mut self.kept) {
+                self.give(&row, &Frame::OWN)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns the position of a row.
+fn place_of(row: &Contact) -> Result<Place, Error> {
+    let place = row.place();
+    place.ok_or_else(|| bug("a table is read by numbers, or by place"))
 }
 
 /// Returns the force on a bottom sphere at its contact with the floor. There, a vector may be the force on the floor.
@@ -126,36 +150,4 @@ fn upwards(force: Force) -> Force {
             vector
         }
     })
-}
-
-impl Sink for Gathering<'_> {
-    fn begin_step(&mut self) {
-        self.kept.clear();
-        self.is_own = false;
-        self.ledger.begin_step();
-    }
-
-    fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
-        let row = Row {
-            place: entry.place()?,
-            force: entry.force,
-            tangential: entry.tangential,
-            line,
-        };
-        if self.is_own {
-            return self.give(&row, &Frame::OWN);
-        }
-        self.kept.push(&row);
-        if self.kept.len() == ENOUGH && self.all_fit() {
-            self.is_own = true;
-            for row in core::mem::take(&mut self.kept).iter() {
-                self.give(&row, &Frame::OWN)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn pass_over(&mut self) {
-        self.ledger.pass_over();
-    }
 }

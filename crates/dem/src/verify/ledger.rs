@@ -2,17 +2,21 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::entry::{Entry, Force, Sink};
+use contact_tables::{Contact, Force, Spheres};
+
 use super::floor::{Floor, Upward};
 use super::friction::FrictionTally;
 use super::listed::{Forces, Listed, Order};
-use super::measured::{MAX_ENTRIES, Measured, opposite, relative};
+use super::measured::{
+    MAX_ENTRIES, Measured, magnitude, opposite, refuse_infinite, relative, whole,
+};
 use super::refusal::{Fault, Refusal};
 use super::slots::Slots;
 use super::soft;
 use super::tally::{Judged, Tally};
 use super::unbalanced::{Balance, Directions, Unbalanced};
-use crate::{Each, NumberedContact, NumberedPile};
+use crate::error::bug;
+use crate::{Each, Error, NumberedContact, NumberedPile};
 use cannonpile::Packing;
 use cannonpile::engine::refuse_beyond_memory;
 
@@ -46,7 +50,6 @@ pub(super) struct Ledger<'p> {
     /// The number of rows that list a pair of spheres a second time, and a contact with the floor.
     repeated: [u64; 2],
     lines: Lines,
-    walls: u64,
     /// On a rough floor, the directions of the contacts.
     rough: Option<Directions>,
     /// The spheres above the bottom layer that touch the floor, with their forces.
@@ -82,7 +85,6 @@ impl<'p> Ledger<'p> {
             floor: Floor::default(),
             repeated: [0; 2],
             lines: Lines::default(),
-            walls: 0,
             rough: None,
             fallen: Vec::new(),
             numbered,
@@ -108,8 +110,8 @@ impl<'p> Ledger<'p> {
     }
 
     /// Returns the number of rows that are contacts with walls and are not judged.
-    pub(super) fn walls(&self) -> u64 {
-        self.walls + self.floor.unjudged()
+    pub(super) fn unjudged_walls(&self) -> u64 {
+        self.floor.unjudged()
     }
 
     /// Stores the measurement of a line. A number outside the pile is that of a wall, if the other sphere is at the
@@ -141,7 +143,7 @@ impl<'p> Ledger<'p> {
         if !self.is_at_bottom(sphere) {
             return Err(Fault::of_bug("the floor touches bottom spheres only"));
         }
-        on_sphere.refuse_infinite()?;
+        refuse_infinite(on_sphere)?;
         let is_repeated =
             self.floor
                 .add_below(sphere, Upward::of(on_sphere, self.rough.is_some()), line);
@@ -157,13 +159,13 @@ impl<'p> Ledger<'p> {
         let [first, second] = measured.ids;
         let spheres = 1..=self.spheres;
         if !spheres.contains(&first) || !spheres.contains(&second) {
-            let force = Force::of(measured).with_tangential(measured.tangential);
+            let force = whole(measured.on_first(), measured.tangential);
             return self.admit_wall([first.into(), second.into()], force, line);
         }
         if first == second {
             return Err(Fault::OneSphere { id: first });
         }
-        Force::of(measured).refuse_infinite()?;
+        refuse_infinite(measured.on_first())?;
         let tangential = measured.tangential.into_iter().flatten();
         if let Some(value) = tangential.into_iter().find(|x| !x.is_finite()) {
             let column = "a tangential force";
@@ -198,7 +200,7 @@ impl<'p> Ledger<'p> {
         let Some(sphere) = sphere.filter(|sphere| self.is_at_bottom(*sphere)) else {
             return no_sphere(wall);
         };
-        on_first.refuse_infinite()?;
+        refuse_infinite(on_first)?;
         let limit = self.limit();
         if self.floor.len() >= limit {
             return Err(Fault::TooMany { limit });
@@ -279,11 +281,6 @@ impl<'p> Ledger<'p> {
     /// Returns the largest number of pairs without a contact.
     fn limit(&self) -> u64 {
         self.spheres.saturating_mul(PAIRS_A_SPHERE).min(MAX_ENTRIES)
-    }
-
-    fn forget_floor(&mut self) {
-        self.floor = Floor::default();
-        self.fallen.clear();
     }
 
     /// Returns whether a row was the contact of a bottom sphere with the floor or with a wall.
@@ -407,31 +404,25 @@ impl<'p> Ledger<'p> {
     }
 }
 
-impl Sink for Ledger<'_> {
-    fn begin_step(&mut self) {
-        self.listed.fill(Listed::Never);
-        self.forces.clear_vectors();
-        self.seconds = Forces::default();
-        self.strays.clear();
-        self.forget_floor();
-        self.repeated = [0; 2];
-        self.lines = Lines::default();
-        self.walls = 0;
-    }
-
-    fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
-        let ids = entry.numbers()?;
+impl Ledger<'_> {
+    /// Stores a row with the numbers of its spheres.
+    pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
+        let ids = numbers(row)?;
         let admitted = if let [Ok(one), Ok(other)] = ids.each(u64::try_from) {
-            self.admit(&entry.between([one, other]), line)
+            self.admit(&Measured::of([one, other], row), row.line)
         } else {
-            let force = entry.force.with_tangential(entry.tangential);
-            self.admit_wall(ids.each(Into::into), force, line)
+            let force = whole(row.force, row.tangential);
+            self.admit_wall(ids.each(Into::into), force, row.line)
         };
-        admitted.map_err(|fault| fault.at(line))
+        admitted.map_err(|fault| fault.at(row.line))
     }
+}
 
-    fn pass_over(&mut self) {
-        self.walls += 1;
+/// Returns the numbers of the spheres of a row.
+fn numbers(row: &Contact) -> Result<[i64; 2], Error> {
+    match row.spheres {
+        Spheres::Numbers(ids) => Ok(ids),
+        Spheres::Places(_) => Err(bug("a table is read by numbers, or by place")),
     }
 }
 
@@ -466,34 +457,26 @@ impl<'l, 'p> FloorRows<'l, 'p> {
     }
 }
 
-impl Sink for FloorRows<'_, '_> {
-    fn begin_step(&mut self) {
-        self.ledger.forget_floor();
-        self.seen.clear();
-    }
-
-    fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
-        let (ids, ledger) = (entry.numbers()?, &mut *self.ledger);
+impl FloorRows<'_, '_> {
+    /// Stores the force of the floor on the first sphere of a row.
+    pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
+        let (ids, ledger) = (numbers(row)?, &mut *self.ledger);
         if !self.seen.insert(ids[0]) {
             let id = ids[0].unsigned_abs();
-            return Err(Fault::SphereTwice { id }.at(line));
+            return Err(Fault::SphereTwice { id }.at(row.line));
         }
         let sphere = u64::try_from(ids[0]).ok();
         let above = sphere.filter(|sphere| (1..ledger.first_on_floor).contains(sphere));
-        let force = entry.force.with_tangential(entry.tangential);
+        let force = whole(row.force, row.tangential);
         let Some(sphere) = above else {
-            let admitted = ledger.admit_wall(ids.each(Into::into), force, line);
-            return admitted.map_err(|fault| fault.at(line));
+            let admitted = ledger.admit_wall(ids.each(Into::into), force, row.line);
+            return admitted.map_err(|fault| fault.at(row.line));
         };
         // Codes list all spheres, also those that do not touch the floor.
-        if force.magnitude() > 0.0 {
-            ledger.fallen.push((sphere, force.magnitude()));
+        if magnitude(force) > 0.0 {
+            ledger.fallen.push((sphere, magnitude(force)));
         }
         Ok(())
-    }
-
-    fn pass_over(&mut self) {
-        self.ledger.pass_over();
     }
 }
 

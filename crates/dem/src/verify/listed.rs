@@ -76,12 +76,6 @@ impl Forces {
         Ok(())
     }
 
-    /// Forgets all vectors.
-    pub(super) fn clear_vectors(&mut self) {
-        self.vectors.clear();
-        self.tangentials.clear();
-    }
-
     /// Returns the stored force of a contact between two spheres.
     pub(super) fn get(&self, slot: usize, ids: [u64; 2]) -> Option<Measured> {
         let at = |vectors: &[[f64; 3]]| {

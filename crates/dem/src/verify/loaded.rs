@@ -1,6 +1,7 @@
 //! The contacts of a pile that carry a force.
 
-use super::entry::Place;
+use contact_tables::Place;
+
 use super::ledger::Ledger;
 use super::places::Places;
 use super::refusal::Refusal;

@@ -1,5 +1,8 @@
 //! The measured force between two spheres.
 
+use contact_tables::{Contact, Force};
+
+use super::refusal::Fault;
 use crate::Each;
 use crate::vector::plus;
 
@@ -131,6 +134,31 @@ impl Measured {
         }
     }
 
+    /// Returns the force of a row between two numbered spheres. A vector acts on the first.
+    pub(super) fn of(ids: [u64; 2], row: &Contact) -> Self {
+        Self {
+            tangential: row.tangential,
+            ..Self::between(ids, row.force)
+        }
+    }
+
+    /// Returns a force between two numbered spheres. A vector acts on the first.
+    pub(super) fn between(ids: [u64; 2], force: Force) -> Self {
+        match force {
+            Force::Along(force) => Self::new(ids, force),
+            Force::Vector(vector) => Self::of_vector(ids, vector),
+            Force::Both(force, vector) => Self::new(ids, force).with_vector(vector),
+        }
+    }
+
+    /// Returns the force on the first sphere.
+    pub(super) fn on_first(&self) -> Force {
+        match self.vector {
+            Some(vector) => Force::Both(self.force, vector),
+            None => Force::Along(self.force),
+        }
+    }
+
     /// Returns the greater of |f − g| and |**F** − **G**|, for another measurement of the same pair.
     pub(super) fn difference(&self, other: &Self) -> f64 {
         let vectors = [
@@ -165,6 +193,37 @@ impl Measured {
         let vectors = [self.vector, self.tangential].into_iter().flatten();
         vectors.map(norm).fold(self.force.abs(), f64::max)
     }
+}
+
+/// Returns the whole force of a contact with a floor or a wall: the sum of the normal and the tangential vector.
+pub(super) fn whole(force: Force, tangential: Option<[f64; 3]>) -> Force {
+    match tangential {
+        Some(tangential) => force.map(|normal| plus(normal, tangential)),
+        None => force,
+    }
+}
+
+/// Refuses a force that is infinite or NaN.
+pub(super) fn refuse_infinite(force: Force) -> Result<(), Fault> {
+    let (along, vector) = force.parts();
+    let [x, y, z] = vector.unwrap_or_default();
+    let numbers = [
+        ("force", along.unwrap_or(0.0)),
+        ("fx", x),
+        ("fy", y),
+        ("fz", z),
+    ];
+    match numbers.into_iter().find(|(_, x)| !x.is_finite()) {
+        Some((column, value)) => Err(Fault::NotFinite { column, value }),
+        None => Ok(()),
+    }
+}
+
+/// Returns the largest absolute value among the magnitude and the components of the vector.
+pub(super) fn magnitude(force: Force) -> f64 {
+    let (along, vector) = force.parts();
+    let numbers = vector.into_iter().flatten().chain(along);
+    numbers.fold(0.0, |most, x| most.max(x.abs()))
 }
 
 /// Returns how many numbers exceed a limit, in a list in decreasing order.

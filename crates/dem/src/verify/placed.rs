@@ -1,13 +1,9 @@
 //! The measured force of a contact that is known by its position.
 
-use super::comparison::{Comparison, of_entry};
-use super::entry::{Entry, Force, Place, Sink, Spheres};
-use super::frame::Frame;
-use super::gathering::Gathering;
-use super::ledger::Ledger;
-use super::read::checked_within;
-use super::refusal::{Fault, Refusal};
-use cannonpile::{Interrupt, Packing};
+use contact_tables::{Contact, Force, Place, Rows, Spheres};
+
+use super::measured::refuse_infinite;
+use super::refusal::Fault;
 
 /// A measured force between two spheres that are known by position.
 ///
@@ -20,8 +16,8 @@ use cannonpile::{Interrupt, Packing};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    place: Place,
-    force: Force,
+    pub(super) place: Place,
+    pub(super) force: Force,
 }
 
 impl Placed {
@@ -66,61 +62,27 @@ impl Placed {
         Self { place, force }
     }
 
+    /// Returns the measurements in the rows of a table.
+    pub(super) fn all(rows: &Rows) -> impl Iterator<Item = Self> {
+        rows.iter().filter_map(|row| {
+            let (place, force) = (row.place()?, row.force);
+            Some(Self { place, force })
+        })
+    }
+
     /// Returns the measurement as a row of a table, if all its numbers are finite.
-    fn entry(&self) -> Result<Entry, Fault> {
+    pub(super) fn row(&self, line: u64) -> Result<Contact, Fault> {
         let mut coordinates = self.place.points().iter().flatten().copied();
         if let Some(value) = coordinates.find(|x| !x.is_finite()) {
             let column = "a coordinate";
             return Err(Fault::NotFinite { column, value });
         }
-        self.force.refuse_infinite()?;
-        Ok(Entry {
+        refuse_infinite(self.force)?;
+        Ok(Contact {
             spheres: Spheres::Places(self.place),
             force: self.force,
             tangential: None,
+            line,
         })
-    }
-}
-
-impl Comparison {
-    /// Compares measured forces with those of a packing, and matches contacts by position. Each sphere must be closer
-    /// to its exact position than `within` times the radius. Also returns the frame of the positions, if it differs
-    /// from that of the packing.
-    ///
-    /// # Errors
-    /// Those of [`new`](Self::new). [`Refusal::Within`] unless 0 < `within` < 1/2. [`Refusal::Elsewhere`] if no frame
-    /// matches the positions to the pile. [`Refusal::Entry`] for a force at a position without a contact.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::{Comparison, Force, Placed};
-    /// use cannonpile::{Packing, Pile};
-    ///
-    /// let pile = Pile::discs(2)?;
-    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
-    /// // These positions are eight metres higher than in the pile.
-    /// let measured = [-0.6, 0.6].map(|x| Placed::at([x, 0.0, 8.8], Force::Along(0.625)));
-    /// let (comparison, frame) = Comparison::of_places(&packing, measured, 0.1)?;
-    /// assert_eq!(comparison.matched(), 2);
-    /// assert_eq!(frame.unwrap().shift, [0.0, 0.0, -8.0]);
-    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
-    /// ```
-    pub fn of_places(
-        packing: &Packing<'_>,
-        measured: impl IntoIterator<Item = Placed>,
-        within: f64,
-    ) -> Result<(Self, Option<Frame>), Refusal> {
-        let within = checked_within(within)?;
-        let mut gathering = Gathering::new(Ledger::new(packing)?, within)?;
-        for (entry, placed) in (1..).zip(measured) {
-            Interrupt::check()?;
-            let row = placed.entry().map_err(|fault| fault.at(entry));
-            row.and_then(|row| gathering.take(&row, entry))
-                .map_err(of_entry)?;
-        }
-        let (ledger, frame) = gathering.settle().map_err(of_entry)?;
-        let (judged, _) = ledger.judge().map_err(of_entry)?;
-        let frame = Some(frame).filter(|frame| *frame != Frame::OWN);
-        Ok((Self::of(judged), frame))
     }
 }

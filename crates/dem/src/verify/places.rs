@@ -1,6 +1,7 @@
 //! The spheres of a pile, found by position.
 
-use super::entry::{Force, Place};
+use contact_tables::{Force, Place};
+
 use super::measured::{MAX_ENTRIES, Measured, norm};
 use super::refusal::{Fault, Refusal};
 use crate::NumberedPile;
@@ -178,7 +179,7 @@ impl Places {
                     ..Measured::of_vector(ids, vector)
                 }
             }
-            Force::Along(_) | Force::Both(..) => force.between(ids),
+            Force::Along(_) | Force::Both(..) => Measured::between(ids, force),
         })
     }
 
@@ -187,7 +188,7 @@ impl Places {
     /// contact.
     pub(super) fn on_either(&self, force: Force, ids: [u64; 2]) -> Result<Measured, Error> {
         let (force, vector, is_length) = match force {
-            Force::Along(_) => return Ok(force.between(ids)),
+            Force::Along(_) => return Ok(Measured::between(ids, force)),
             Force::Vector(vector) => (norm(vector), vector, true),
             Force::Both(force, vector) => (force, vector, false),
         };

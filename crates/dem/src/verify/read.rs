@@ -1,25 +1,23 @@
 //! Files of any supported format.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::PathBuf;
 
-use super::comparison::Comparison;
-use super::entry::Sink;
-use super::format::{
-    Columns, Counted, Dialect, DialectOptions, Format, Identity, Needs, Preset, RowCounts, Source,
-    Steps, TextEncoding, dump, is_same_step, text,
+use contact_tables::{
+    Columns, Contact, Contacts, Dialect, DialectOptions, FileKind, Format, Identity, Preset,
+    RowCounts, is_same_step,
 };
+
+use super::comparison::{Comparison, of_entry};
 use super::frame::Frame;
 use super::gathering::Gathering;
-use super::kind::FileKind;
 use super::ledger::{FloorRows, Ledger};
+use super::placed::Placed;
 use super::reading::Reading;
 use super::refusal::Refusal;
 use super::unbalanced::Unbalanced;
-use super::vtk;
 use crate::scene::Floor;
-use cannonpile::Packing;
+use cannonpile::{Interrupt, Packing};
 
 /// Reads measured forces from a file of any kind, without a pile to compare them with.
 ///
@@ -36,7 +34,7 @@ use cannonpile::Packing;
 /// ```
 pub fn read(input: impl Read) -> Result<Reading, Refusal> {
     let mut reading = Reading::default();
-    Reader::new().read(input, &mut reading)?;
+    read_each(input, &Format::default(), |row| reading.take(row))?;
     Ok(reading)
 }
 
@@ -63,10 +61,6 @@ pub fn read(input: impl Read) -> Result<Reading, Refusal> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reader {
     format: Format,
-    /// The step that is read, if it is not the last.
-    step: Option<String>,
-    /// The folder of the file, where the files are that it names.
-    folder: Option<PathBuf>,
     /// The largest distance of a sphere from its exact position, in radii, if contacts are matched by position.
     within: Option<f64>,
     floor: Floor,
@@ -143,20 +137,10 @@ impl Reader {
     /// ```
     #[must_use]
     pub fn of(preset: Preset) -> Self {
-        let reader = Self {
-            format: Format {
-                columns: preset.columns(),
-                ..Format::default()
-            },
-            step: None,
-            folder: None,
-            within: None,
+        Self {
+            format: preset.into(),
+            within: preset.is_by_place().then_some(Self::WITHIN),
             floor: Floor::Glued,
-        };
-        if preset.is_by_place() {
-            reader.matched_within(Self::WITHIN)
-        } else {
-            reader
         }
     }
 
@@ -222,11 +206,9 @@ impl Reader {
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
-    pub fn with_step(self, step: String) -> Self {
-        Self {
-            step: Some(step),
-            ..self
-        }
+    pub fn with_step(mut self, step: String) -> Self {
+        self.format.step = Some(step);
+        self
     }
 
     /// Returns this reader for tables with the positions of contacts: both centres, or the contact point. Each sphere
@@ -244,14 +226,10 @@ impl Reader {
     /// assert!(Reader::new().by_place(0.1).is_ok());
     /// assert!(Reader::new().by_place(1.0).is_err());
     /// ```
-    pub fn by_place(self, within: f64) -> Result<Self, Refusal> {
-        Ok(self.matched_within(checked_within(within)?))
-    }
-
-    fn matched_within(mut self, within: f64) -> Self {
-        self.within = Some(within);
-        self.format.needs.identity = Identity::Places;
-        self
+    pub fn by_place(mut self, within: f64) -> Result<Self, Refusal> {
+        self.within = Some(checked_within(within)?);
+        self.format.identity = Identity::Places;
+        Ok(self)
     }
 
     /// Returns this reader for tables with the numbers of the spheres.
@@ -266,7 +244,7 @@ impl Reader {
     #[must_use]
     pub fn by_numbers(mut self) -> Self {
         self.within = None;
-        self.format.needs.identity = Identity::Numbers;
+        self.format.identity = Identity::Numbers;
         self
     }
 
@@ -290,12 +268,11 @@ impl Reader {
     /// ```
     #[must_use]
     pub fn on_floor(mut self, floor: Floor) -> Self {
-        self.format.needs.tangential = floor == Floor::Rough;
+        self.format.tangential = floor == Floor::Rough;
         Self { floor, ..self }
     }
 
-    /// Returns this reader for a file in this folder. Files of ParaView such as `.pvtp` and `.pvd` name others beside
-    /// them.
+    /// Returns this reader for a file in this folder. Files of ParaView (`.pvtp`, `.pvtu`) name others beside them.
     ///
     /// # Examples
     /// ```
@@ -311,11 +288,9 @@ impl Reader {
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]
-    pub fn in_folder(self, folder: PathBuf) -> Self {
-        Self {
-            folder: Some(folder),
-            ..self
-        }
+    pub fn in_folder(mut self, folder: PathBuf) -> Self {
+        self.format.folder = Some(folder);
+        self
     }
 
     /// Reads a file, and compares it with the exact forces of a packing. The first bytes determine its
@@ -329,7 +304,8 @@ impl Reader {
     /// tangential forces, and 48 for each sphere. It is twice as much if pairs
     /// are in two rows with different forces. Matching by position takes about 60 more bytes for each sphere. If the
     /// frame differs from that of the scene, it also takes eight bytes for each contact and for each number of a row. A
-    /// table is read line by line, whatever its length, but a VTK file is kept in memory as a whole.
+    /// text is read line by line, whatever its length. Of a dump, and of the last of several steps, the rows are kept: eight
+    /// bytes for each number that is read. A VTK file is kept as a whole.
     ///
     /// # Errors
     /// * [`Refusal::Kind`] for a file of another kind, such as a spreadsheet. [`Refusal::NoRows`] if no row is a contact of
@@ -404,36 +380,38 @@ impl Reader {
             Floor::Rough => Ledger::on_rough_floor(packing)?,
         };
         let mut frame = None;
-        let found;
-        if let Some(within) = self.within {
+        let format = &self.format;
+        let read = if let Some(within) = self.within {
             let mut gathering = Gathering::new(ledger, within)?;
-            found = self.read(input, &mut gathering)?;
+            let read = read_each(input, format, |row| gathering.take(row))?;
             let (filled, fit) = gathering.settle()?;
             frame = Some(fit).filter(|frame| *frame != Frame::OWN);
             ledger = filled;
+            read
         } else {
-            found = self.read(input, &mut ledger)?;
-        }
+            read_each(input, format, |row| ledger.take(row))?
+        };
         if let Some(floor) = floor {
-            let read = self.read_floor(floor, found.step.as_deref(), &mut ledger);
-            read.map_err(|refusal| Refusal::FloorTable(Box::new(refusal)))?;
+            let of_floor = self.read_floor(floor, read.step(), &mut ledger);
+            of_floor.map_err(|refusal| Refusal::FloorTable(Box::new(refusal)))?;
         }
-        let walls = ledger.walls();
+        let rows = read.rows().clone();
+        let walls = rows.other_kinds - rows.ghosts + ledger.unjudged_walls();
         let (judged, unbalanced) = ledger.judge()?;
         let comparison = Comparison::of(judged);
         let judged = comparison.matched() + comparison.floor();
         if comparison.contacts() > 0 && judged == 0 {
-            let reason = found.rows.reason(self.within.is_some());
+            let reason = self.why_none(&rows);
             return Err(Refusal::NoRows { reason });
         }
         Ok(Compared {
             comparison,
             unbalanced,
-            kind: found.kind,
-            dialect: found.dialect,
-            rows: found.rows,
-            steps: found.steps,
-            step: found.step,
+            kind: read.kind(),
+            dialect: read.dialect().cloned(),
+            rows,
+            steps: read.steps(),
+            step: read.step().map(str::to_owned),
             walls,
             frame,
         })
@@ -452,87 +430,103 @@ impl Reader {
         if ledger.has_floor() {
             return Err(Refusal::FloorTwice);
         }
-        let columns = Columns::default().with_first_id(self.format.columns.first_id());
-        let needs = Needs {
-            identity: Identity::OnFloor,
-            tangential: self.floor == Floor::Rough,
+        let format = Format {
+            columns: Columns::default().with_first_id(self.format.columns.first_id()),
+            identity: Identity::OneNumber,
+            dialect: DialectOptions::default(),
+            ..self.format.clone()
         };
-        let reader = Self {
-            format: Format {
-                columns,
-                needs,
-                dialect: DialectOptions::default(),
-            },
-            ..self.clone()
-        };
-        let found = reader.read(input, &mut FloorRows::new(ledger))?;
-        if let (Some(wanted), Some(found)) = (step, &found.step)
+        let mut rows = FloorRows::new(ledger);
+        let read = read_each(input, &format, |row| rows.take(row))?;
+        if let (Some(wanted), Some(found)) = (step, read.step())
             && !is_same_step(wanted, found)
         {
-            let (wanted, found) = (wanted.to_owned(), found.clone());
-            return Err(Refusal::NoStep { wanted, found });
+            let (wanted, found) = (wanted.to_owned(), found.to_owned());
+            return Err(contact_tables::Error::NoStep { wanted, found }.into());
         }
-        if found.rows.used == 0 {
-            let reason = found.rows.reason(false);
+        if read.rows().used == 0 {
+            let reason = read.rows().why_none();
             return Err(Refusal::NoRows { reason });
         }
         Ok(())
     }
 
-    /// Passes the rows of a file to a sink.
-    fn read(&self, input: impl Read, sink: &mut impl Sink) -> Result<Found, Refusal> {
-        let format = &self.format;
-        let encoding = format.dialect.encoding.map(TextEncoding::get);
-        let source = Source::open(input, encoding)?;
-        let kind = FileKind::of(&source.sample);
-        let wanted = self.step.as_deref();
-        let mut found = Steps::new(wanted);
-        let mut sink = Counted::new(sink);
-        let mut dialect = None;
-        let (steps, step) = match kind {
-            FileKind::Table => {
-                dialect = Some(text::read(source, format, &mut found, &mut sink)?);
-                found.close()?
-            }
-            FileKind::Dump => {
-                dump::read(source.all(), format, &mut found, &mut sink)?;
-                found.close()?
-            }
-            FileKind::VtkXml | FileKind::VtkLegacy => {
-                let folder = self.folder.as_deref();
-                let open = folder.map(|folder| {
-                    move |name: &str| {
-                        Source::open(File::open(folder.join(name))?, encoding)?.bytes()
-                    }
-                });
-                let open = open.as_ref().map(|open| open as vtk::Open<'_>);
-                vtk::read(&source.bytes()?, format, wanted, open, &mut sink)?
-            }
-            FileKind::Other { .. } => return Err(Refusal::Kind(kind)),
+    /// Returns why no contact was matched, with the likeliest remedy.
+    fn why_none(&self, rows: &RowCounts) -> String {
+        let read = match rows.used {
+            0 => return rows.why_none(),
+            1 => "1 row was read".to_owned(),
+            rows => format!("{rows} rows were read"),
         };
-        Ok(Found {
-            kind,
-            dialect,
-            rows: sink.rows,
-            steps,
-            step,
-        })
+        let remedy = if self.within.is_some() {
+            "is the table of this scene?"
+        } else {
+            "are the spheres numbered as in spheres.csv of the export? --first-id 0 counts from 0, and --match place \
+             finds contacts by position"
+        };
+        format!("{read}, but none is a contact of the scene: {remedy}")
     }
 }
 
-/// What was found in a file.
-struct Found {
-    kind: FileKind,
-    dialect: Option<Dialect>,
-    rows: RowCounts,
-    steps: u64,
-    step: Option<String>,
+/// Reads a file, and calls a function with each row.
+fn read_each<'r>(
+    input: impl Read + 'r,
+    format: &Format,
+    mut take: impl FnMut(&Contact) -> Result<(), Refusal>,
+) -> Result<Contacts<'r>, Refusal> {
+    let mut contacts = contact_tables::read(input, format)?;
+    for contact in contacts.by_ref() {
+        take(&contact?)?;
+    }
+    Ok(contacts)
 }
 
 /// Returns this fraction of the radius, if it is small enough to distinguish spheres.
-pub(super) fn checked_within(within: f64) -> Result<f64, Refusal> {
+fn checked_within(within: f64) -> Result<f64, Refusal> {
     if within > 0.0 && within < 0.5 {
         return Ok(within);
     }
     Err(Refusal::Within(within))
+}
+
+impl Comparison {
+    /// Compares measured forces with those of a packing, and matches contacts by position. Each sphere must be closer
+    /// to its exact position than `within` times the radius. Also returns the frame of the positions, if it differs
+    /// from that of the packing.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new). [`Refusal::Within`] unless 0 < `within` < 1/2. [`Refusal::Elsewhere`] if no frame
+    /// matches the positions to the pile. [`Refusal::Entry`] for a force at a position without a contact.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Comparison, Force, Placed};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// // These positions are eight metres higher than in the pile.
+    /// let measured = [-0.6, 0.6].map(|x| Placed::at([x, 0.0, 8.8], Force::Along(0.625)));
+    /// let (comparison, frame) = Comparison::of_places(&packing, measured, 0.1)?;
+    /// assert_eq!(comparison.matched(), 2);
+    /// assert_eq!(frame.unwrap().shift, [0.0, 0.0, -8.0]);
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    pub fn of_places(
+        packing: &Packing<'_>,
+        measured: impl IntoIterator<Item = Placed>,
+        within: f64,
+    ) -> Result<(Self, Option<Frame>), Refusal> {
+        let within = checked_within(within)?;
+        let mut gathering = Gathering::new(Ledger::new(packing)?, within)?;
+        for (entry, placed) in (1..).zip(measured) {
+            Interrupt::check()?;
+            let row = placed.row(entry).map_err(|fault| fault.at(entry));
+            row.and_then(|row| gathering.take(&row)).map_err(of_entry)?;
+        }
+        let (ledger, frame) = gathering.settle().map_err(of_entry)?;
+        let (judged, _) = ledger.judge().map_err(of_entry)?;
+        let frame = Some(frame).filter(|frame| *frame != Frame::OWN);
+        Ok((Self::of(judged), frame))
+    }
 }

@@ -1,8 +1,11 @@
 //! The measured forces in a file, without a pile.
 
-use super::entry::{Entry, Sink};
+use contact_tables::{Contact, Spheres};
+
 use super::measured::{MAX_ENTRIES, Measured};
 use super::refusal::{Fault, Refusal};
+use crate::Each;
+use crate::error::bug;
 
 /// Measured forces read from a file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,27 +29,41 @@ impl Reading {
     pub fn entries(&self) -> &[Measured] {
         &self.entries
     }
-}
 
-impl Sink for Reading {
-    fn begin_step(&mut self) {
-        self.entries.clear();
-    }
-
-    fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
+    /// Appends a row.
+    pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
         if self.entries.len() as u64 >= MAX_ENTRIES {
             let limit = MAX_ENTRIES;
-            return Err(Fault::TooMany { limit }.at(line));
+            return Err(Fault::TooMany { limit }.at(row.line));
         }
-        let measured = entry.named().map_err(|fault| fault.at(line))?;
+        let measured = Measured::of(numbers(row)?, row);
         // The length of a vector may overflow.
         if !measured.force.is_finite() {
             let (column, value) = ("force", measured.force);
-            return Err(Fault::NotFinite { column, value }.at(line));
+            return Err(Fault::NotFinite { column, value }.at(row.line));
         }
         self.entries.push(measured);
         Ok(())
     }
+}
 
-    fn pass_over(&mut self) {}
+/// Returns the numbers of the two spheres of a row, if none is negative.
+fn numbers(row: &Contact) -> Result<[u64; 2], Refusal> {
+    let Spheres::Numbers(ids) = row.spheres else {
+        return Err(bug("a table is read by numbers").into());
+    };
+    match ids.each(u64::try_from) {
+        [Ok(one), Ok(other)] => Ok([one, other]),
+        [first, _] => {
+            let (column, id) = match (first, ids) {
+                (Err(_), [id, _]) => ("id1", id),
+                (Ok(_), [_, id]) => ("id2", id),
+            };
+            let (line, reason) = (
+                row.line,
+                format!("{column} '{id}' is not a number of at least 0"),
+            );
+            Err(contact_tables::Error::Line { line, reason }.into())
+        }
+    }
 }

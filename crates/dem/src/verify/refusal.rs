@@ -3,7 +3,6 @@
 use core::fmt;
 use std::io;
 
-use super::kind::FileKind;
 use crate::error::bug;
 use crate::{Each, Error};
 
@@ -19,7 +18,9 @@ use crate::{Each, Error};
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// A fault in a line of a file.
+    /// The file could not be read.
+    Table(contact_tables::Error),
+    /// A row of a file does not match the pile.
     Line {
         /// The line, counted from 1.
         line: u64,
@@ -46,19 +47,10 @@ pub enum Refusal {
     },
     /// A distance, in radii, that is not between 0 and 1/2.
     Within(f64),
-    /// A file of a kind that is not read.
-    Kind(FileKind),
     /// No row was read, or none was of the kind that is asked for.
     NoRows {
         /// The reason, with a remedy.
         reason: String,
-    },
-    /// The step that the user asked for is not in the file.
-    NoStep {
-        /// The step.
-        wanted: String,
-        /// The steps that were found.
-        found: String,
     },
     /// The table with the forces of the floor was refused.
     FloorTable(Box<Refusal>),
@@ -66,80 +58,12 @@ pub enum Refusal {
     FloorTwice,
     /// There is a table of the floor, but contacts are matched by position.
     FloorByPlace,
-    /// A VTK file whose contacts cannot be read, or XML of another kind.
-    Vtk(String),
-    /// The file could not be read.
-    Io(io::Error),
 }
 
-/// A fault in an entry, or in the file around it.
+/// A fault in a row of a file, or in an entry of a list.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {
-    /// The table is empty.
-    Empty,
-    /// A necessary column is missing.
-    NoColumn {
-        /// The name of the column.
-        column: &'static str,
-        /// The columns that were found.
-        found: String,
-    },
-    /// A column that the user named is missing.
-    NoNamedColumn {
-        /// The quantity of the column.
-        column: &'static str,
-        /// The name that the user gave.
-        name: String,
-        /// The columns that were found.
-        found: String,
-    },
-    /// The table has no header, and the columns were not given by number.
-    NoHeader {
-        /// The number of columns.
-        columns: usize,
-    },
-    /// A numbered column is missing.
-    NoNumberedColumn {
-        /// The quantity of the column.
-        column: &'static str,
-        /// The number that the user gave.
-        number: usize,
-        /// The number of columns.
-        columns: usize,
-        /// Whether the table has a header.
-        has_names: bool,
-    },
-    /// Two columns match one quantity.
-    TwoColumns {
-        /// The quantity.
-        column: &'static str,
-        /// The first column.
-        first: String,
-        /// The second column.
-        second: String,
-    },
-    /// A line has another number of cells than the header, or than the rows of a table without header.
-    Fields {
-        /// The number of columns.
-        columns: usize,
-        /// The number of cells in the line.
-        fields: usize,
-        /// Whether the table has a header.
-        has_names: bool,
-    },
-    /// A step occurs again after another step.
-    StepAgain {
-        /// The step.
-        step: String,
-    },
-    /// A field does not match the quantity of its column.
-    Field {
-        /// The quantity.
-        column: &'static str,
-        /// The field, shortened if it is long, with the expected form.
-        error: Box<Error>,
-    },
     /// A number is infinite or NaN.
     NotFinite {
         /// The quantity.
@@ -182,37 +106,6 @@ pub enum Fault {
         /// The distance of the nearest sphere from its exact position, in radii.
         nearest: f64,
     },
-    /// A quoted cell does not end on its line, and there are numbers behind its quote.
-    Quote,
-    /// All commas of numbers may be decimal signs or separate thousands.
-    Thousands {
-        /// The first such number, in quotes.
-        number: String,
-    },
-    /// In rows without a header, numbers may be cut in two at their decimal commas.
-    CutNumber {
-        /// The first such number, in quotes.
-        number: String,
-    },
-    /// A line is too long for a row of a table.
-    LongLine {
-        /// The largest accepted length, in bytes.
-        limit: usize,
-    },
-    /// A line of a dump differs from the expected one.
-    Dump {
-        /// The line, with the expected form.
-        error: Box<Error>,
-    },
-    /// A snapshot ends before its last announced entry.
-    Truncated {
-        /// The announced number of entries.
-        announced: u64,
-        /// The number of entries found.
-        found: u64,
-    },
-    /// A dump ends within a line or within its header.
-    Cut,
     /// The file has too many entries.
     TooMany {
         /// The largest accepted number of entries.
@@ -228,6 +121,7 @@ pub enum Fault {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Table(error) => error.fmt(f),
             Self::Line {
                 line,
                 fault: Fault::Twice {
@@ -253,18 +147,7 @@ impl fmt::Display for Refusal {
                 f,
                 "{share} radii are not between 0 and 0.5: 0.1 is usual"
             ),
-            Self::Kind(FileKind::Other { is, remedy }) => write!(f, "this is {is}: {remedy}"),
-            Self::Kind(kind) => write!(f, "this is {kind}"),
-            Self::NoStep { wanted, found } => write!(
-                f,
-                "no step {wanted}: {}",
-                if found.is_empty() {
-                    "the file has no steps, so leave out --step, or name their column by step=COLUMN".to_owned()
-                } else {
-                    format!("the steps are {found}")
-                }
-            ),
-            Self::NoRows { reason } | Self::Vtk(reason) => f.write_str(reason),
+            Self::NoRows { reason } => f.write_str(reason),
             Self::FloorTable(refusal) => write!(f, "table of the floor: {refusal}"),
             Self::FloorByPlace => f.write_str(
                 "its rows have the numbers of spheres: match contacts by numbers, or leave out this table",
@@ -272,7 +155,6 @@ impl fmt::Display for Refusal {
             Self::FloorTwice => f.write_str(
                 "both tables list contacts with the floor: leave out this one, or remove the contacts from the other",
             ),
-            Self::Io(error) => error.fmt(f),
         }
     }
 }
@@ -280,15 +162,6 @@ impl fmt::Display for Refusal {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoColumn { .. }
-            | Self::NoNamedColumn { .. }
-            | Self::NoHeader { .. }
-            | Self::NoNumberedColumn { .. }
-            | Self::TwoColumns { .. }
-            | Self::Fields { .. } => self.fmt_columns(f),
-            Self::Empty => f.write_str(
-                "the table is empty: begin with a header such as id1,id2,force, or with ITEM: TIMESTEP",
-            ),
             Self::NoSphereAt {
                 point: [x, y, z],
                 within,
@@ -297,13 +170,11 @@ impl fmt::Display for Fault {
                 f,
                 "no contact at ({x:.6}, {y:.6}, {z:.6}) m: the nearest sphere is {nearest:.4} R off, but only {within} R is allowed"
             ),
-            Self::StepAgain { step } => write!(
-                f,
-                "step {step} again, after another step: --step reads one of them"
-            ),
-            Self::Field { column, error } => write!(f, "{column} {error}"),
             Self::NotFinite { column, value } => {
-                write!(f, "{column} is {value}: forces and positions must be finite")
+                write!(
+                    f,
+                    "{column} is {value}: forces and positions must be finite"
+                )
             }
             Self::NoSuchSphere { id, first, spheres } => {
                 let first = i128::from(*first);
@@ -315,12 +186,17 @@ impl fmt::Display for Fault {
                 if *id >= 0 && *id == first - 1 {
                     write!(f, "; if the table counts from {id}, use --first-id {id}")?;
                 } else if *id > last {
-                    f.write_str("; does the table have more layers, or several numbers for one wall?")?;
+                    f.write_str(
+                        "; does the table have more layers, or several numbers for one wall?",
+                    )?;
                 }
                 Ok(())
             }
             Self::OneSphere { id } => {
-                write!(f, "sphere {id} is paired with itself: name two different spheres")
+                write!(
+                    f,
+                    "sphere {id} is paired with itself: name two different spheres"
+                )
             }
             Self::SphereTwice { id } => write!(
                 f,
@@ -337,106 +213,11 @@ impl fmt::Display for Fault {
                 ids: [a, b],
                 first: None,
             } => write!(f, "spheres {a} and {b} are already listed: {ONCE}{STEPS}"),
-            Self::Quote => f.write_str(
-                "a quote does not end on its line: close it, use --quote none, or begin the line with # if it is not a row",
-            ),
-            Self::Thousands { number } => write!(
-                f,
-                "the comma of {number} is a decimal sign or separates thousands: use --decimal comma, or leave out such commas"
-            ),
-            Self::CutNumber { number } => write!(
-                f,
-                "{number} is two cells or one number with a decimal comma: use --decimal point, or separate cells by semicolons"
-            ),
-            Self::LongLine { limit } => write!(
-                f,
-                "longer than {limit} bytes: is this a table with one contact per line?"
-            ),
-            Self::Dump { error } | Self::Bug { error } => error.fmt(f),
-            Self::Truncated { announced, found } => write!(
-                f,
-                "the snapshot ends after {found} of {announced} entries: it is not complete"
-            ),
-            Self::Cut => f.write_str("the dump ends here, within a line or a header: it is not complete"),
+            Self::Bug { error } => error.fmt(f),
             Self::TooMany { limit } => write!(
                 f,
                 "more than {limit} entries: leave out pairs that do not touch"
             ),
-        }
-    }
-}
-
-impl Fault {
-    /// Writes a fault in the columns of a table.
-    fn fmt_columns(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoColumn { column, found } if *column == "id" => write!(
-                f,
-                "no column id, only {found}: name the columns id, fx, fy and fz (in LAMMPS with dump_modify colname)"
-            ),
-            Self::NoColumn { column, found } => write!(
-                f,
-                "no column {column}, only {found}: name the columns id1, id2, force, and fx, fy, fz if there are vectors \
-                 (in LAMMPS with dump_modify colname)"
-            ),
-            Self::NoNamedColumn {
-                column,
-                name,
-                found,
-            } => write!(
-                f,
-                "no column {name} for {column}, only {found}: name one of these"
-            ),
-            Self::TwoColumns {
-                column,
-                first,
-                second,
-            } => write!(
-                f,
-                "two columns, {first} and {second}, for {column}: choose one with --columns {column}=#N"
-            ),
-            Self::NoHeader { columns } => write!(
-                f,
-                "there is no header above the {columns} columns: name them by number, such as id1=#1,id2=#2,force=#3"
-            ),
-            Self::NoNumberedColumn {
-                column,
-                number,
-                columns,
-                has_names,
-            } => {
-                let header = if *has_names {
-                    ""
-                } else {
-                    ", and there is no header"
-                };
-                write!(
-                    f,
-                    "no column #{number} for {column}: the rows have {columns} columns{header}; does the table have another form?"
-                )
-            }
-            Self::Fields {
-                columns,
-                fields,
-                has_names: false,
-            } => write!(
-                f,
-                "{fields} cells, but most rows have {columns}: give every column a value"
-            ),
-            Self::Fields {
-                columns, fields, ..
-            } if *fields == columns + 1 => write!(
-                f,
-                "{fields} cells, but the header has {columns}: does the header lack the name of the first column, as for \
-                 the row names of R, or does a cell contain the separator?"
-            ),
-            Self::Fields {
-                columns, fields, ..
-            } => write!(
-                f,
-                "{fields} cells, but the header has {columns}: give every column a value"
-            ),
-            _ => Ok(()),
         }
     }
 }
@@ -452,7 +233,7 @@ impl std::error::Error for Refusal {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Scene(error) => error.source(),
-            Self::Io(error) => error.source(),
+            Self::Table(error) => error.source(),
             _ => None,
         }
     }
@@ -470,9 +251,15 @@ impl From<cannonpile::Error> for Refusal {
     }
 }
 
+impl From<contact_tables::Error> for Refusal {
+    fn from(error: contact_tables::Error) -> Self {
+        Self::Table(error)
+    }
+}
+
 impl From<io::Error> for Refusal {
     fn from(error: io::Error) -> Self {
-        Self::Io(error)
+        Self::Table(error.into())
     }
 }
 

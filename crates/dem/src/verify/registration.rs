@@ -12,14 +12,15 @@
 
 use core::f64::consts::PI;
 
+use contact_tables::{Force, Place, Rows};
+
 use super::axes::Coordinate;
-use super::entry::{Force, Place};
 use super::frame::Frame;
 use super::loaded::{LoadedContacts, is_loaded};
-use super::measured::{distance, norm};
+use super::measured::{distance, magnitude, norm};
 use super::moments::Moments;
+use super::placed::Placed;
 use super::places::Found;
-use super::rows::{Row, Rows};
 use crate::vector::{cross, dot, minus, plus, unit};
 use crate::{Each, Error};
 use cannonpile::Interrupt;
@@ -172,7 +173,7 @@ pub(super) fn find(
 
 impl<'s> Search<'s> {
     fn new(rows: &'s Rows, pile: &'s LoadedContacts<'s, 's>, radius: f64, within: f64) -> Self {
-        let magnitudes = rows.iter().map(|row| row.force.magnitude());
+        let magnitudes = rows.iter().map(|row| magnitude(row.force));
         let mut search = Self {
             rows,
             pile,
@@ -181,29 +182,27 @@ impl<'s> Search<'s> {
             near: (radius / 2.0).max(within),
             greatest: magnitudes.fold(0.0, f64::max),
             count: 0,
-            by_centres: rows
-                .iter()
-                .all(|row| matches!(row.place, Place::Centres(_))),
+            by_centres: Placed::all(rows).all(|row| matches!(row.place, Place::Centres(_))),
         };
         search.count = search.loaded().count();
         search
     }
 
     /// Returns the rows with a force that may be contacts between spheres.
-    fn loaded(&self) -> impl Iterator<Item = Row> {
-        self.rows.iter().filter(|row| {
+    fn loaded(&self) -> impl Iterator<Item = Placed> {
+        Placed::all(self.rows).filter(|row| {
             let touches = match row.place {
                 Place::Centres([one, other]) => {
                     (distance(one, other) - 2.0 * self.radius).abs() <= 2.0 * self.within
                 }
                 Place::Point(_) => true,
             };
-            touches && is_loaded(row.force.magnitude(), self.greatest)
+            touches && is_loaded(magnitude(row.force), self.greatest)
         })
     }
 
     /// Returns an evenly spaced selection of rows.
-    fn spread(&self, most: usize) -> Vec<Row> {
+    fn spread(&self, most: usize) -> Vec<Placed> {
         let step = self.count.div_ceil(most).max(1);
         self.loaded().step_by(step).collect()
     }
@@ -217,7 +216,7 @@ impl<'s> Search<'s> {
         points.into_iter().flatten()
     }
 
-    fn judge(&self, sample: &[Row], frame: Frame, within: f64) -> Fit {
+    fn judge(&self, sample: &[Placed], frame: Frame, within: f64) -> Fit {
         let places = self.pile.places();
         let (mut found, mut off, mut forces) = (0, 0.0, Vec::new());
         for row in sample {
@@ -245,7 +244,7 @@ impl<'s> Search<'s> {
     }
 
     /// Fits the rotation and the shift of a frame to the matched positions of some rows.
-    fn fitted(&self, rows: &[Row], mut frame: Frame) -> Frame {
+    fn fitted(&self, rows: &[Placed], mut frame: Frame) -> Frame {
         for _ in 0..FITS {
             if let Some(moments) = self.moments(rows, &frame) {
                 frame = moments.fitted(&frame);
@@ -254,7 +253,7 @@ impl<'s> Search<'s> {
         frame
     }
 
-    fn moments(&self, rows: &[Row], frame: &Frame) -> Option<Moments> {
+    fn moments(&self, rows: &[Placed], frame: &Frame) -> Option<Moments> {
         let mut pairs = Vec::new();
         for row in rows {
             let place = row.place.map(|point| frame.place(point));
@@ -403,7 +402,7 @@ impl<'s> Search<'s> {
     }
 
     /// Fits a frame, and returns the simplest one that matches as many positions, and about as well.
-    fn simplest(&self, rows: &[Row], frame: Frame) -> Fit {
+    fn simplest(&self, rows: &[Placed], frame: Frame) -> Fit {
         let mut best = self.judge(rows, self.fitted(rows, frame), self.within);
         let (found, off) = (best.found, 2.0 * best.off + ROUNDED);
         let replace = |best: &mut Fit, frame| {

@@ -42,7 +42,6 @@ pub fn outcome(u: &mut Unstructured<'_>) -> Result<String, Failure> {
     let rows = rows(u)?;
     Ok(match read(u, &rows)?.0 {
         Ok(_) => "accepted".into(),
-        Err(Refusal::Line { .. }) => "refused for a line".into(),
         Err(_) => "refused".into(),
     })
 }

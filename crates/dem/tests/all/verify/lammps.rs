@@ -11,6 +11,7 @@
 
 use cannonpile::{Packing, Pile};
 use cannonpile_dem::verify::{self, Reader, Refusal};
+use contact_tables::Error;
 
 use super::{magnitudes, packing, ratio};
 
@@ -63,7 +64,7 @@ fn truncated_dumps_are_rejected() {
         let whole = cut == second || cut == DUMP.len();
         match verify::read(&DUMP.as_bytes()[..cut]) {
             Ok(_) => assert!(whole, "accepted {cut} bytes"),
-            Err(Refusal::Line { line, .. }) => {
+            Err(Refusal::Table(Error::Line { line, .. } | Error::NoColumn { line, .. })) => {
                 assert!(!whole, "refused {cut} bytes");
                 let lines = DUMP[..cut].lines().count().max(1);
                 let line = usize::try_from(line).unwrap();

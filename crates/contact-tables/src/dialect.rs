@@ -1,0 +1,234 @@
+//! The dialect of a text table: how it separates cells, writes numbers and marks comments.
+
+use core::fmt;
+use core::str::FromStr;
+
+use crate::cut::{Separator, cut};
+use crate::encoding::Encoding;
+use crate::error::Syntax;
+
+/// The parts of the dialect of a text table that the user gives. The first lines of the table decide the others.
+///
+/// # Examples
+/// ```
+/// use contact_tables::{DialectOptions, Format, Separator};
+///
+/// let dialect = DialectOptions { separator: Some(Separator::Char('+')), ..DialectOptions::default() };
+/// let format = Format { dialect, ..Format::default() };
+/// assert_eq!(contact_tables::read(&b"id1+id2+force\n1+2+0.5\n"[..], &format)?.count(), 1);
+/// # Ok::<(), contact_tables::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DialectOptions {
+    /// The encoding. A text that is not in UTF-8 is converted in memory.
+    pub encoding: Option<TextEncoding>,
+    /// The separator of cells.
+    pub separator: Option<Separator>,
+    /// The quote around a cell that contains separators, or none.
+    pub quote: Option<Mark<char>>,
+    /// The beginning of a line that is a comment, or none.
+    pub comment: Option<Mark<String>>,
+    /// True for decimal commas, false for decimal points.
+    pub decimal_comma: Option<bool>,
+    /// The number of lines before the table.
+    pub skip: Option<u64>,
+    /// True if the row below the header has units instead of numbers.
+    pub unit_row: Option<bool>,
+}
+
+/// A sign with a meaning, such as a quote, or the word `none`.
+///
+/// # Examples
+/// ```
+/// use contact_tables::Mark;
+///
+/// assert_eq!("//".parse::<Mark<String>>()?.get(), Some(&"//".to_owned()));
+/// assert_eq!("none".parse::<Mark<char>>()?.get(), None);
+/// // A quote is one character.
+/// assert!("ab".parse::<Mark<char>>().is_err());
+/// # Ok::<(), contact_tables::Syntax>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mark<T>(Option<T>);
+
+impl<T> Mark<T> {
+    /// Returns the sign.
+    ///
+    /// # Examples
+    /// ```
+    /// use contact_tables::Mark;
+    ///
+    /// assert_eq!("'".parse::<Mark<char>>()?.get(), Some(&'\''));
+    /// # Ok::<(), contact_tables::Syntax>(())
+    /// ```
+    #[must_use]
+    pub const fn get(&self) -> Option<&T> {
+        self.0.as_ref()
+    }
+}
+
+impl<T: FromStr> FromStr for Mark<T> {
+    type Err = Syntax;
+
+    fn from_str(text: &str) -> Result<Self, Syntax> {
+        let refused = || Syntax::new(text, "a sign such as # or \", or none");
+        match text {
+            "" => Err(refused()),
+            "none" => Ok(Self(None)),
+            sign => Ok(Self(Some(sign.parse().map_err(|_| refused())?))),
+        }
+    }
+}
+
+/// The readable encodings, and the remedy for all others.
+const READABLE: &str = "utf-8, utf-16le, utf-16be or windows-1252 (iconv converts a file to utf-8)";
+
+/// The encoding of a text: UTF-8, UTF-16 or Windows-1252, which contains Latin-1.
+///
+/// # Examples
+/// ```
+/// use contact_tables::TextEncoding;
+///
+/// assert_eq!("latin1".parse::<TextEncoding>()?.name(), "windows-1252");
+/// assert!("utf-12".parse::<TextEncoding>().is_err());
+/// # Ok::<(), contact_tables::Syntax>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextEncoding(Encoding);
+
+impl TextEncoding {
+    /// Returns the name of the encoding.
+    ///
+    /// # Examples
+    /// ```
+    /// use contact_tables::TextEncoding;
+    ///
+    /// assert_eq!("UTF8".parse::<TextEncoding>()?.name(), "UTF-8");
+    /// # Ok::<(), contact_tables::Syntax>(())
+    /// ```
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Encoding::Utf8 => "UTF-8",
+            Encoding::Utf16Le => "UTF-16LE",
+            Encoding::Utf16Be => "UTF-16BE",
+            Encoding::Windows1252 => "windows-1252",
+        }
+    }
+
+    pub(crate) fn get(self) -> Encoding {
+        self.0
+    }
+}
+
+impl FromStr for TextEncoding {
+    type Err = Syntax;
+
+    fn from_str(text: &str) -> Result<Self, Syntax> {
+        Ok(Self(match text.to_ascii_lowercase().as_str() {
+            "utf-8" | "utf8" => Encoding::Utf8,
+            "utf-16" | "utf-16le" => Encoding::Utf16Le,
+            "utf-16be" => Encoding::Utf16Be,
+            "windows-1252" | "cp1252" | "iso-8859-1" | "latin1" | "ascii" => Encoding::Windows1252,
+            _ => return Err(Syntax::new(text, READABLE)),
+        }))
+    }
+}
+
+/// The dialect of a text table.
+///
+/// # Examples
+/// ```
+/// let table = "measured\nid1;id2;force\n-;-;N\n1;2;0,4622\n1;3;0,4622\n";
+/// let contacts = contact_tables::read(table.as_bytes(), &Default::default())?;
+/// assert_eq!(
+///     contacts.dialect().unwrap().to_string(),
+///     "cells between semicolons, decimal commas, header on line 2, rows from line 4",
+/// );
+/// # Ok::<(), contact_tables::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Dialect {
+    /// The separator of cells.
+    pub separator: Separator,
+    /// The quote around a cell that contains separators.
+    pub quote: Option<char>,
+    /// The signs at the beginning of a comment.
+    pub comments: Vec<String>,
+    /// True if decimal fractions begin with a comma.
+    pub decimal_comma: bool,
+    /// The line of the header, if there is one.
+    pub header: Option<u64>,
+    /// The line of the first row.
+    pub first_row: u64,
+}
+
+impl fmt::Display for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "cells between {}", self.separator)?;
+        if self.decimal_comma {
+            f.write_str(", decimal commas")?;
+        }
+        match self.header {
+            Some(line) => write!(f, ", header on line {line}")?,
+            None => f.write_str(", no header")?,
+        }
+        write!(f, ", rows from line {}", self.first_row)
+    }
+}
+
+impl Dialect {
+    /// Returns the text after the sign of a comment, if the line begins with one.
+    pub(crate) fn comment<'l>(&self, line: &'l str) -> Option<&'l str> {
+        comment(line, &self.comments)
+    }
+
+    /// Cuts a line into its cells, and returns the position of the first cell whose quote does not end on the line.
+    pub(crate) fn cut<'l>(&self, line: &'l str) -> (Vec<&'l str>, Option<usize>) {
+        let line = uncommented(line, &self.comments);
+        cut(line, self.separator, self.quote)
+    }
+
+    /// Returns the text of a row before a comment on the same line.
+    pub(crate) fn before_comment<'l>(&self, line: &'l str) -> Option<&'l str> {
+        Some(behind_row(line, &self.comments)?.0)
+    }
+}
+
+/// Splits a line at a comment behind a row, which begins after a blank.
+pub(crate) fn behind_row<'l>(line: &'l str, signs: &[String]) -> Option<(&'l str, &'l str)> {
+    let starts = signs
+        .iter()
+        .flat_map(|sign| line.match_indices(sign.as_str()));
+    let parts = starts.filter_map(|(place, _)| line.split_at_checked(place));
+    let is_behind =
+        |(row, _): &(&str, &str)| row.ends_with(char::is_whitespace) && !row.trim().is_empty();
+    parts.filter(is_behind).min_by_key(|(row, _)| row.len())
+}
+
+/// Returns a line to be read. If no line is a comment, rows may still begin with the sign of one.
+pub(crate) fn uncommented<'l>(line: &'l str, comments: &[String]) -> &'l str {
+    if comments.is_empty() {
+        bare(line)
+    } else {
+        line
+    }
+}
+
+/// Returns the text after the sign of a comment, if the line begins with one.
+pub(crate) fn comment<'l>(line: &'l str, signs: &[String]) -> Option<&'l str> {
+    let line = line.trim_start();
+    let sign = signs.iter().find(|sign| line.starts_with(*sign))?;
+    Some(line.trim_start_matches(sign.as_str()).trim())
+}
+
+/// Returns a line without the sign of a comment. An empty first cell remains.
+pub(crate) fn bare(line: &str) -> &str {
+    let text = line.trim_start();
+    if text.starts_with('#') {
+        text.trim_start_matches('#')
+    } else {
+        line
+    }
+}

@@ -1,0 +1,94 @@
+//! The rows and steps of a file: which step is read.
+
+use std::collections::BTreeSet;
+
+use crate::counts::RowCounts;
+use crate::error::{Error, Fault, shortened};
+use crate::number::number;
+
+/// The rows and steps that were found so far.
+pub(crate) struct Steps {
+    pub(crate) rows: RowCounts,
+    /// The step that the user asked for.
+    wanted: Option<String>,
+    seen: BTreeSet<String>,
+    current: Option<String>,
+    has_begun: bool,
+}
+
+impl Steps {
+    pub(crate) fn new(wanted: Option<String>) -> Self {
+        Self {
+            rows: RowCounts::default(),
+            wanted,
+            seen: BTreeSet::new(),
+            current: None,
+            has_begun: false,
+        }
+    }
+
+    /// Returns whether the next row, which is of this step, is read. The last step is read, unless another is wanted. A
+    /// later step discards the rows of the earlier ones.
+    pub(crate) fn reads(&mut self, step: &str) -> Result<bool, Fault> {
+        if self.current.as_deref() == Some(step) {
+            return Ok(true);
+        }
+        let is_new = !self.seen.contains(step);
+        if is_new {
+            self.seen.insert(step.to_owned());
+        }
+        if let Some(wanted) = &self.wanted {
+            if !is_same_step(wanted, step) {
+                return Ok(false);
+            }
+        } else if !is_new {
+            return Err(Fault::new(format!(
+                "step {} again, after another step: --step reads one of them",
+                shortened(&[step])
+            )));
+        }
+        let before = self.current.replace(step.to_owned());
+        // Two spellings of the wanted step are one step.
+        if self.wanted.is_none() || before.is_none() {
+            self.has_begun = true;
+            self.rows.begin_step();
+        }
+        Ok(true)
+    }
+
+    /// Returns whether a step has begun since the last call, so that earlier rows are discarded.
+    pub(crate) fn has_begun(&mut self) -> bool {
+        core::mem::take(&mut self.has_begun)
+    }
+
+    /// Refuses a file in which the wanted step was not found.
+    pub(crate) fn close(&self) -> Result<(), Error> {
+        match (&self.wanted, &self.current) {
+            (Some(wanted), None) => {
+                let seen: Vec<&str> = self.seen.iter().map(String::as_str).collect();
+                Err(Error::NoStep {
+                    wanted: shortened(&[wanted]),
+                    found: shortened(&seen),
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns the number of steps, and the step that was read.
+    pub(crate) fn found(&self) -> (u64, Option<&str>) {
+        (self.seen.len() as u64, self.current.as_deref())
+    }
+}
+
+/// Returns whether two steps are the same, as text or as numbers.
+///
+/// # Examples
+/// ```
+/// assert!(contact_tables::is_same_step("1e3", "1000"));
+/// ```
+#[must_use]
+pub fn is_same_step(one: &str, other: &str) -> bool {
+    let value = |text: &str| number(text, text.contains(','));
+    one == other || value(one).is_some_and(|one| value(other) == Some(one))
+}
