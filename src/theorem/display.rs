@@ -33,20 +33,14 @@ pub struct Listing<'a, F: 'static = super::Formulas> {
 
 impl<F> fmt::Display for Listing<'_, F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Theorem {
-            name,
-            statement,
-            hypotheses,
-            method,
-            symbols,
-            ..
-        } = self.theorem;
+        let theorem = self.theorem;
+        let (name, method) = (theorem.name, theorem.method.name());
         let verdict = if self.proof.holds() { "holds" } else { "FAILS" };
-        writeln!(f, "{name}: {verdict} ({})", method.name())?;
-        write_wrapped(f, statement)?;
+        writeln!(f, "{name}: {verdict} ({method})")?;
+        write_wrapped(f, theorem.statement)?;
         if self.whole {
-            writeln!(f, "  for      {hypotheses}")?;
-            writeln!(f, "  symbols  {symbols}")?;
+            writeln!(f, "  for      {}", theorem.hypotheses)?;
+            writeln!(f, "  symbols  {}", theorem.symbols)?;
         }
         for step in &self.proof.steps {
             if self.whole {

@@ -74,13 +74,8 @@ impl Setting {
 
     /// Returns the forces from above on a sphere, from the number of spheres above on each line.
     #[must_use]
-    pub fn received(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
-        let [w_a, w_b, w_c] = &self.increments;
-        [
-            (f.force)(a.clone(), w_a),
-            (f.force)(b.clone(), w_b),
-            (f.force)(c.clone(), w_c),
-        ]
+    pub fn received(&self, f: &Formulas, counts: &[P; 3]) -> [P; 3] {
+        on_lines(f.force, counts.clone(), &self.increments)
     }
 
     /// Returns the forces that a sphere transmits below, from the forces from above.
@@ -127,13 +122,12 @@ impl Setting {
 
 /// Returns the forces that a sphere transmits along its three lines, from the received forces and its increments.
 #[must_use]
-pub fn transmitted(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
-    let [own_a, own_b, own_c] = own;
-    [
-        (f.transmitted)(a, own_a),
-        (f.transmitted)(b, own_b),
-        (f.transmitted)(c, own_c),
-    ]
+pub fn transmitted(f: &Formulas, forces: [P; 3], own: &[P; 3]) -> [P; 3] {
+    on_lines(f.transmitted, forces, own)
+}
+
+fn on_lines(formula: fn(P, &P) -> P, [a, b, c]: [P; 3], [x, y, z]: &[P; 3]) -> [P; 3] {
+    [formula(a, x), formula(b, y), formula(c, z)]
 }
 
 /// Returns the cross product, with one factor for each component from the units of the vectors.

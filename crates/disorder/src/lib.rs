@@ -34,7 +34,7 @@
 //! | moments of the response to a load, and its waves | [`Moments`], [`Wave`] |
 //! | enumeration and samples | [`Ensemble`], [`Choice`], [`Samples`], [`Shard`] |
 //! | the result of a run, and its file | [`Tally`], [`WithFaults`], [`Distribution`], [`Histogram`], [`ForceKind`], [`Extreme`]; [`TallyRecord`], [`Unmergeable`] |
-//! | the formulas, and their proofs | [`formula`], [`theorem`] |
+//! | the formulas, which `cannonpile-proof` proves | [`formula`] |
 //! | errors | [`Error`] |
 //!
 //! # Guarantees
@@ -66,7 +66,6 @@ mod number;
 mod piles;
 mod place;
 mod stackings;
-pub mod theorem;
 mod transfer;
 mod width;
 

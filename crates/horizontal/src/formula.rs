@@ -1,9 +1,9 @@
 //! Formulas of horizontal contacts at a = R: the drop and the compression of a contact under a virtual displacement,
 //! and closed forms for straight piles.
 //!
-//! All functions are generic over the scalar, and [`theorem`](crate::theorem) proves statements about them. The crate
-//! `cannonpile` contains the balance of a sphere with horizontal contacts: [`pushed`](cannonpile::formula::pushed)
-//! and [`beside`](cannonpile::formula::beside).
+//! All functions are generic over the scalar. The crate `cannonpile-proof` evaluates them on polynomials, and so proves
+//! statements about them. The crate `cannonpile` contains the balance of a sphere with horizontal contacts:
+//! [`pushed`](cannonpile::formula::pushed) and [`beside`](cannonpile::formula::beside).
 
 use cannonpile::formula::force;
 use cannonpile::lattice::{Direction, Sign, count};

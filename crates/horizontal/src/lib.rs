@@ -49,7 +49,6 @@
 //! | [`certificate`] | the claims, the checker, and certificates as JSON files |
 //! | [`census`] | every stable stacking, each with its certificate |
 //! | [`formula`] | closed forms, and the terms of the virtual-work identity, generic over the scalar |
-//! | [`theorem`] | theorems for piles of every size, proved by running the formulas on polynomials |
 //! | [`Error`] | the errors of this crate |
 //!
 //! Private modules: `stand` decides stability, `bounds` and `base` compute the bounds, `elastic` and `springs` the
@@ -71,7 +70,7 @@
 //! # Guarantees
 //! * Every number is exact. A solution that a float solver suggested, or a bound that no theorem covers, is returned only
 //!   if [`Certificate::check`](certificate::Certificate::check) accepts it. The other results are exact forces without
-//!   horizontal contacts, or formulas that [`theorem`] proves.
+//!   horizontal contacts, or formulas that the crate `cannonpile-proof` proves for piles of every size.
 //! * A program that is too large is an error, which names its size. For a straight pile the result is an outer bound,
 //!   marked as such ([`attained`](NormalBound::attained)).
 //! * No function panics on any input. The crate contains no `unsafe`.
@@ -98,7 +97,6 @@ mod stability;
 mod stand;
 mod straight;
 mod symmetry;
-pub mod theorem;
 mod upper;
 
 use core::num::NonZeroI64;
@@ -114,7 +112,6 @@ pub use stability::{margin, stability};
 pub use stand::equilibrium;
 
 const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
-const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

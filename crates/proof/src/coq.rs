@@ -89,8 +89,6 @@ pub fn files() -> Result<Vec<ProofFile>, Error> {
 
 /// Returns the files for the given formulas. Coq rejects the proofs if a formula is wrong.
 ///
-/// The formulas of the crate `cannonpile` are those of [`Formulas::horizontal`].
-///
 /// # Errors
 /// Returns only [`Bug`](cannonpile::Error::Bug), for a violated internal invariant.
 ///
@@ -99,7 +97,7 @@ pub fn files() -> Result<Vec<ProofFile>, Error> {
 /// use cannonpile_proof::Formulas;
 ///
 /// let mut wrong = Formulas::LIBRARY;
-/// wrong.horizontal.core.force = |n, increment| n + increment;
+/// wrong.core.force = |n, increment| n + increment;
 /// let files = cannonpile_proof::files_of(&wrong)?;
 /// assert!(files[1].text().contains("Q :=\n  n + increment.\n"));
 /// # Ok::<(), cannonpile_proof::Error>(())

@@ -1,8 +1,8 @@
 //! The theorems of cannonpile with their proofs, and their export to the proof assistant Coq.
 //!
-//! [`cannonpile::theorem`] proves the paper's results with polynomials. This crate proves further theorems about the
-//! same formulas: on discs and other dimensions, on stackings, on loads and leaning gravity, and on a rough floor.
-//! [`all`] lists the theorems of all crates.
+//! [`cannonpile::theorem`] proves the paper's results with polynomials. This crate proves all other theorems: on discs and
+//! other dimensions, stackings, loads and leaning gravity, a rough floor, horizontal contacts, and random stackings.
+//! [`all`] lists them together.
 //!
 //! This crate also exports the formulas to Coq. It runs [`Formulas::LIBRARY`] on [`Expression`]s, which record each
 //! operation, and turns every record into a definition. The theorems in the folder `coq` are about these definitions,
@@ -29,8 +29,8 @@
 //! | item | contents |
 //! |---|---|
 //! | [`Expression`], [`Operation`] | a scalar that records the operations on it |
-//! | [`Formulas`] | the formulas in the theorems of all crates |
-//! | [`Theorem`], [`all`], [`find`] | the theorems of all crates, each with its names in Coq |
+//! | [`Formulas`] | the formulas in the theorems |
+//! | [`Theorem`], [`all`], [`find`] | all theorems, each with its names in Coq |
 //! | [`Listing`] | a theorem and its proof as text |
 //! | [`files`], [`files_of`], [`ProofFile`] | the files for Coq |
 //! | [`commands`] | the shell commands that check them |

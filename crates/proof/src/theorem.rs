@@ -1,12 +1,14 @@
-//! The theorems of all crates, in one list, and the theorems of this crate.
-//!
-//! The crates of horizontal contacts and of random stackings prove their own formulas. The core proves the paper's
-//! results. This crate proves all other theorems about the formulas of the core.
+//! All theorems in one list: the paper's, which the core proves, and those of this crate.
 
+mod bounds;
 mod dimensions;
+mod disorder;
 mod friction;
+mod horizontal;
 mod loads;
 mod stackings;
+mod steps;
+mod terms;
 
 use core::fmt;
 
@@ -34,12 +36,11 @@ pub struct Theorem {
     source: Source,
 }
 
-/// A theorem, by the crate of its formulas.
+/// A theorem, by the crate that proves it.
 #[derive(Clone, Copy, Debug)]
 enum Source {
     Core(&'static theorem::Theorem),
-    Horizontal(&'static theorem::Theorem<cannonpile_horizontal::theorem::Formulas>),
-    Disorder(&'static theorem::Theorem<cannonpile_disorder::theorem::Formulas>),
+    Own(&'static theorem::Theorem<Formulas>),
 }
 
 impl Theorem {
@@ -74,36 +75,37 @@ impl Theorem {
     /// use cannonpile_proof::Formulas;
     ///
     /// let mut wrong: Formulas = Formulas::LIBRARY;
-    /// wrong.horizontal.least_on_corner = |k| k.clone() + k;
+    /// wrong.least_on_corner = |k| k.clone() + k;
     /// assert!(!cannonpile_proof::find("corner-least").unwrap().prove_for(&wrong).holds());
     /// ```
     #[must_use]
     pub fn prove_for(&self, formulas: &Formulas) -> Proof {
         match self.source {
-            Source::Core(theorem) => theorem.prove_for(&formulas.horizontal.core),
-            Source::Horizontal(theorem) => theorem.prove_for(&formulas.horizontal),
-            Source::Disorder(theorem) => theorem.prove_for(&formulas.disorder),
+            Source::Core(theorem) => theorem.prove_for(&formulas.core),
+            Source::Own(theorem) => theorem.prove_for(formulas),
         }
     }
 }
 
-/// Returns the theorems of this crate. They are about the formulas of the core.
+/// Returns the theorems of this crate.
 ///
 /// Only tests call this function. Other callers use [`all`], which includes these theorems.
 #[doc(hidden)]
-pub fn own() -> impl Iterator<Item = &'static theorem::Theorem> {
+pub fn own() -> impl Iterator<Item = &'static theorem::Theorem<Formulas>> {
     [
         dimensions::THEOREMS,
         stackings::THEOREMS,
         loads::THEOREMS,
         friction::THEOREMS,
+        horizontal::THEOREMS,
+        bounds::THEOREMS,
+        disorder::THEOREMS,
     ]
     .into_iter()
     .flatten()
 }
 
-/// Returns all theorems in reading order: those of the core, of this crate, of horizontal contacts and of random
-/// stackings.
+/// Returns all theorems in reading order: those of the core, then those of this crate.
 ///
 /// # Examples
 /// ```
@@ -113,13 +115,8 @@ pub fn own() -> impl Iterator<Item = &'static theorem::Theorem> {
 /// assert!(weight.coq.contains(&"Floor.the_weight_arrives"));
 /// ```
 pub fn all() -> impl Iterator<Item = Theorem> {
-    let core = theorem::all().chain(own());
-    let core = core.map(|found| Theorem::new(found, Source::Core(found)));
-    let horizontal = cannonpile_horizontal::theorem::all();
-    let horizontal = horizontal.map(|found| Theorem::new(found, Source::Horizontal(found)));
-    let disorder = cannonpile_disorder::theorem::all();
-    let disorder = disorder.map(|found| Theorem::new(found, Source::Disorder(found)));
-    core.chain(horizontal).chain(disorder)
+    let core = theorem::all().map(|found| Theorem::new(found, Source::Core(found)));
+    core.chain(own().map(|found| Theorem::new(found, Source::Own(found))))
 }
 
 /// Returns the theorem with a given name.
@@ -165,13 +162,7 @@ impl fmt::Display for Listing<'_> {
                 whole,
             })
             .fmt(f),
-            Source::Horizontal(theorem) => (theorem::Listing {
-                theorem,
-                proof,
-                whole,
-            })
-            .fmt(f),
-            Source::Disorder(theorem) => (theorem::Listing {
+            Source::Own(theorem) => (theorem::Listing {
                 theorem,
                 proof,
                 whole,

@@ -39,5 +39,3 @@ mod ensemble {
         ensemble.run_judged(choice, shard, &|_| {}, &judge)
     }
 }
-
-mod theorem;

@@ -11,7 +11,6 @@ mod near_ties;
 mod rounded;
 mod stability;
 mod states;
-mod theorem;
 
 /// Returns all stackings with the given number of steps that begin with +.
 fn stackings(steps: usize) -> impl Iterator<Item = String> {

@@ -1,8 +1,7 @@
 //! The response to a load, and its mean over random stackings.
 
-use cannonpile_disorder::theorem::Formulas;
-
-use super::{E, of_numbers, symbol};
+use super::parts::{E, of_numbers, symbol};
+use crate::Formulas;
 use crate::definition::{Definition, Value};
 
 pub(super) fn disorder(f: &Formulas<E>) -> Vec<Definition> {

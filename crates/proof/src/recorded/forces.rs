@@ -4,7 +4,7 @@ use cannonpile::geometry::{Load, Vector};
 use cannonpile::lattice::Sign;
 use cannonpile::theorem::Formulas;
 
-use super::{E, SIGNS, by_cases, of_numbers, plain, symbol};
+use super::parts::{E, SIGNS, by_cases, of_numbers, plain, symbol};
 use crate::definition::{CaseValue, Definition, Kind, Value};
 
 pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {

@@ -1,9 +1,9 @@
 //! Horizontal contacts.
 
 use cannonpile::lattice::Direction;
-use cannonpile_horizontal::theorem::Formulas;
 
-use super::{E, SIGNS, by_cases, of_numbers, plain, symbol};
+use super::parts::{E, SIGNS, by_cases, of_numbers, plain, symbol};
+use crate::Formulas;
 use crate::definition::{CaseValue, Definition, Kind, Value};
 
 /// Returns the formulas of a sphere with horizontal contacts: its balance, drops and compressions.

@@ -2,8 +2,10 @@
 
 use cannonpile::scalar::Symbol;
 use cannonpile::theorem::setting::{P, Setting, equations, int, last_layer, nothing_left, symbol};
-use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
+use cannonpile::theorem::{Formulas, ProofKind, Step};
 use num_traits::{One, Zero};
+
+use super::terms::Theorem;
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
@@ -14,7 +16,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "0 ≤ i ≤ k, j = 0, s = 0",
         method: ProofKind::Sum,
         symbols: "L, i, k",
-        derive: discs,
+        derive: |f| discs(&f.core),
     },
     Theorem {
         name: "dimensions",
@@ -27,7 +29,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "n_m ≥ 0, L ≥ 1; any g_1 … g_d",
         method: ProofKind::Sum,
         symbols: "L, k, n_1 … n_d, g_1 … g_d",
-        derive: dimensions,
+        derive: |f| dimensions(&f.core),
     },
 ];
 

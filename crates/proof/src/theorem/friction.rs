@@ -5,8 +5,10 @@ use cannonpile::geometry::Vector;
 use cannonpile::theorem::setting::{
     P, Setting, by_component, cross, equations, half, int, nothing_left, symbol,
 };
-use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
+use cannonpile::theorem::{Formulas, ProofKind, Step};
 use num_traits::{One, Zero};
+
+use super::terms::Theorem;
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
@@ -20,7 +22,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "0 < s < 1, 0 < t < 1",
         method: ProofKind::Identity,
         symbols: "s, t, N",
-        derive: contact,
+        derive: |f| contact(&f.core),
     },
     Theorem {
         name: "rough-floor",
@@ -33,7 +35,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "0 < s < 1, 0 < t < 1 for t = tan(θ/2); any vertical loads n, any g_1, g_2, g_3",
         method: ProofKind::Identity,
         symbols: "s, t, n, g_1, g_2, g_3",
-        derive: rough_floor,
+        derive: |f| rough_floor(&f.core),
     },
     Theorem {
         name: "rough-unique",
@@ -48,7 +50,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "0 < s < 1, any finite upper layer",
         method: ProofKind::Identity,
         symbols: "s, κ, λ_1, λ_2, λ_3, λ_4, λ_5, λ_6",
-        derive: unique,
+        derive: |f| unique(&f.core),
     },
 ];
 

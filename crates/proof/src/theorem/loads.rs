@@ -7,8 +7,10 @@ use cannonpile::theorem::setting::{
     P, Setting, above, above_floor, by_component, by_line, cross, equations, half, int,
     nothing_left, sum_over_base, sum_over_pile, symbol, transmitted,
 };
-use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
+use cannonpile::theorem::{Formulas, ProofKind, Step};
 use num_traits::{One, Zero};
+
+use super::terms::{SIGNS, Theorem};
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
@@ -23,7 +25,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "0 < s < 1, at sign changes s = 1/2; any g_1, g_2, g_3, n, w, X, Y",
         method: ProofKind::Identity,
         symbols: "s, n, w, X, Y, g_1, g_2, g_3",
-        derive: load,
+        derive: |f| load(&f.core),
     },
     Theorem {
         name: "tilt",
@@ -39,7 +41,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "0 < s < 1, weights of mg, + steps",
         method: ProofKind::Identity,
         symbols: "i, j, k, n, s, x, y",
-        derive: tilt,
+        derive: |f| tilt(&f.core),
     },
     Theorem {
         name: "tilt-total",
@@ -50,11 +52,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "L ≥ 1, 0 < s < 1",
         method: ProofKind::Sum,
         symbols: "L, s, x, y",
-        derive: tilt_total,
+        derive: |f| tilt_total(&f.core),
     },
 ];
-
-const SIGNS: [(&str, Sign); 2] = [("+", Sign::Plus), ("−", Sign::Minus)];
 
 /// Returns the horizontal part of a load on a sphere of weight `weight`, in the unit and the basis of the forces.
 fn horizontal(load: &Load<P>, weight: &P) -> Vector<P> {

@@ -1,18 +1,16 @@
 //! Theorems on stackings and regions of any kind: runs, sign changes, point loads.
 
-use core::num::NonZeroI64;
-
 use cannonpile::each::Each;
-use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Sign};
 use cannonpile::scalar::{Algebra, Symbol};
 use cannonpile::theorem::setting::{
     P, Setting, by_line, equations, int, nothing_left, symbol, transmitted,
 };
-use cannonpile::theorem::{Formulas, ProofKind, Step, Theorem};
+use cannonpile::theorem::{Formulas, ProofKind, Step};
 use num_traits::{One, Zero};
 
-const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
+use super::steps::{Complex, complex, dot, steps_down};
+use super::terms::{SIGNS, THREE, Theorem, symbols, transferred};
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
@@ -29,7 +27,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "(i, j) within the bounds, m ≥ 0, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j",
         method: ProofKind::Induction,
         symbols: "i, j, k, m, x_0, x_1, y_0, y_1, s_0, s_1",
-        derive: region_counts,
+        derive: |f| region_counts(&f.core),
     },
     Theorem {
         name: "run",
@@ -40,7 +38,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "m ≥ 0",
         method: ProofKind::Induction,
         symbols: "f, m, e, s",
-        derive: run,
+        derive: |f| run(&f.core),
     },
     Theorem {
         name: "tripled-half-turn",
@@ -49,7 +47,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "any forces",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
-        derive: tripled,
+        derive: |f| tripled(&f.core),
     },
     Theorem {
         name: "change-of-sign",
@@ -59,7 +57,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "s = 1/2; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, n",
-        derive: change_of_sign,
+        derive: |f| change_of_sign(&f.core),
     },
     Theorem {
         name: "edge",
@@ -73,7 +71,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "f ≥ 0, m ≥ 1, p ≥ 0, weights of mg",
         method: ProofKind::Identity,
         symbols: "f, i, j, m, p, x_0, x_1, y_0, y_1, s_0, s_1",
-        derive: edge,
+        derive: |f| edge(&f.core),
     },
     Theorem {
         name: "point-load",
@@ -89,11 +87,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
         hypotheses: "s = 1/2",
         method: ProofKind::Induction,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3, x, y",
-        derive: point_load,
+        derive: |f| point_load(&f.core),
     },
 ];
-
-const SIGNS: [(&str, Sign); 2] = [("+", Sign::Plus), ("−", Sign::Minus)];
 
 /// Returns the distances of a site from the bounds x₁, y₁, s₁, x₀, y₀, s₀.
 fn distances(i: &P, j: &P, lower: &[P; 3], upper: &[P; 3]) -> [P; 6] {
@@ -123,9 +119,9 @@ const fn arguments(sign: Sign, direction: Direction) -> [usize; 3] {
 
 fn region_counts(f: &Formulas) -> Vec<Step> {
     const NAMES: [&str; 6] = ["x₁−i", "y₁−j", "s₁−i−j", "i−x₀", "j−y₀", "i+j−s₀"];
-    let [i, j, m] = ["i", "j", "m"].each(symbol);
-    let lower = ["x_0", "y_0", "s_0"].each(symbol);
-    let upper = ["x_1", "y_1", "s_1"].each(symbol);
+    let [i, j, m] = symbols(["i", "j", "m"]);
+    let lower = symbols(["x_0", "y_0", "s_0"]);
+    let upper = symbols(["x_1", "y_1", "s_1"]);
     let here = distances(&i, &j, &lower, &upper);
     let mut steps = Vec::new();
     for (name, sign) in SIGNS {
@@ -203,7 +199,7 @@ fn run(f: &Formulas) -> Vec<Step> {
 }
 
 fn tripled(f: &Formulas) -> Vec<Step> {
-    let g = ["g_1", "g_2", "g_3"].each(symbol);
+    let g = symbols(["g_1", "g_2", "g_3"]);
     let ways = [
         ("2(g_1+g_2+g_3) − 3g = 3Gg", (f.tripled_half_turn)(&g)),
         ("(2(g_2+g_3) − g_1, …) = 3Gg", (f.tripled_apart)(&g)),
@@ -218,7 +214,7 @@ fn tripled(f: &Formulas) -> Vec<Step> {
 
 fn change_of_sign(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
-    let g = ["g_1", "g_2", "g_3"].each(symbol);
+    let g = symbols(["g_1", "g_2", "g_3"]);
     let (own, weight) = setting.loaded(f, &symbol("n"));
     let to_below = transmitted(f, (f.half_turn)(&g), &own);
     let (plus, minus) = (setting.directions.clone(), setting.turned_directions(f));
@@ -234,9 +230,9 @@ fn change_of_sign(f: &Formulas) -> Vec<Step> {
 }
 
 fn edge(f: &Formulas) -> Vec<Step> {
-    let [i, j, m] = ["i", "j", "m"].each(symbol);
-    let lower @ [x0, y0, s0] = &["x_0", "y_0", "s_0"].each(symbol);
-    let upper @ [x1, y1, s1] = &["x_1", "y_1", "s_1"].each(symbol);
+    let [i, j, m] = symbols(["i", "j", "m"]);
+    let lower @ [x0, y0, s0] = &symbols(["x_0", "y_0", "s_0"]);
+    let upper @ [x1, y1, s1] = &symbols(["x_1", "y_1", "s_1"]);
     let mut steps = Vec::new();
     for (name, sign) in SIGNS {
         let (sum, column, row) = match sign {
@@ -297,17 +293,8 @@ fn sum(forces: &[P; 3], of: impl Fn(usize) -> P) -> P {
     terms.fold(P::zero(), |sum, term| sum + &term)
 }
 
-/// Returns the scalar product of two horizontal vectors, in ρ².
-fn dot(a: &Vector<P>, b: &Vector<P>) -> P {
-    a.x.clone() * &b.x + &(int(3) * &(a.y.clone() * &b.y))
-}
-
-fn horizontal([x, y]: [P; 2]) -> Vector<P> {
-    Vector { x, y, z: P::zero() }
-}
-
 /// Returns the steps for the contacts below a loaded sphere. The load is W = 3, so each v is a third of an increment.
-fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<Step> {
+fn first_layer(increments: &[P; 3], name: &str, down: &[Complex; 3]) -> Vec<Step> {
     let third = P::one().div_int(THREE);
     let v = increments.clone().each(|w| w.div_int(THREE));
     let at = |claim: &str| format!("first layer, {name}: {claim}");
@@ -322,32 +309,17 @@ fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<St
 
 fn point_load(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
-    // The horizontal step of a contact, from a sphere to the next one down its line.
-    let steps_under = |directions: &[Vector<P>; 3]| -> [Vector<P>; 3] {
-        [0, 1, 2].each(|line| {
-            let mut one = [P::zero(), P::zero(), P::zero()];
-            one[line] = P::one();
-            let Vector { x, y, .. } = (f.position)(&one, directions);
-            horizontal([x, y])
-        })
-    };
-    let signs = [
-        ("+", steps_under(&setting.directions)),
-        ("−", steps_under(&setting.turned_directions(f))),
-    ];
+    let [plus, minus] = steps_down(f);
+    let signs = [("+", plus), ("−", minus)];
     let mut steps = Vec::new();
     for (name, down) in &signs {
         steps.extend(first_layer(&setting.increments, name, down));
     }
-    let g = ["g_1", "g_2", "g_3"].each(symbol);
-    let r = horizontal(["x", "y"].each(symbol));
+    let g = symbols(["g_1", "g_2", "g_3"]);
+    let r = complex(symbol("x"), symbol("y"));
     for (above, from) in &signs {
         for (below, to) in &signs {
-            let passed = if above == below {
-                g.clone()
-            } else {
-                (f.half_turn)(&g)
-            };
+            let passed = transferred(f, above != below, &g);
             let (whole, c) = (sum(&g, |_| P::one()), sum(&g, |line| dot(&r, &from[line])));
             let lower = |line: usize| r.clone() + &to[line];
             let at = |claim: &str| format!("{above} above, {below} below: {claim}");
@@ -370,7 +342,7 @@ fn point_load(f: &Formulas) -> Vec<Step> {
             steps.extend(claims.into_iter().skip(kept));
         }
     }
-    let h = ["h_1", "h_2", "h_3"].each(symbol);
+    let h = symbols(["h_1", "h_2", "h_3"]);
     let both = transmitted(f, g.clone(), &h);
     let turned = transmitted(f, (f.half_turn)(&g), &(f.half_turn)(&h));
     let claim = "G(g+h) = Gg + Gh, for two loads";

@@ -1,4 +1,4 @@
-//! Tests of the files for Coq, and of the list of theorems of all crates.
+//! Tests of the files for Coq, and of the list of theorems.
 //!
 //! Random tests are in `tests/properties.rs`. Coq itself checks the folder `coq`.
 

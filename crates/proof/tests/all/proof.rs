@@ -77,7 +77,7 @@ fn formulas_are_exported_as_executed() {
     }
     assert!(all.len() >= 40, "{all:?}");
     let mut wrong = Formulas::LIBRARY;
-    wrong.horizontal.core.transmitted = |received, own| received - own;
+    wrong.core.transmitted = |received, own| received - own;
     assert_ne!(written(&wrong), text);
 }
 

@@ -1,5 +1,6 @@
 //! The theorems of all crates, in one list, and the theorems of this crate.
 
+mod faults;
 mod numbers;
 mod own;
 
@@ -21,32 +22,26 @@ fn names_are_unique_and_found() {
     assert!(cannonpile_proof::find("").is_none());
 }
 
-/// The list contains the theorems of the core, of this crate, of horizontal contacts and of random stackings, in this
-/// order.
+/// The list contains the theorems of the core and of this crate, in this order.
 #[test]
 fn list_is_complete_and_ordered() {
-    let core = theorem::all().chain(cannonpile_proof::own());
-    let core = core.map(|found| (found.name, found.prove()));
-    let horizontal = cannonpile_horizontal::theorem::all();
-    let horizontal = horizontal.map(|found| (found.name, found.prove()));
-    let disorder = cannonpile_disorder::theorem::all();
-    let disorder = disorder.map(|found| (found.name, found.prove()));
-    let expected: Vec<_> = core.chain(horizontal).chain(disorder).collect();
+    let core = theorem::all().map(|found| (found.name, found.prove()));
+    let own = cannonpile_proof::own().map(|found| (found.name, found.prove()));
+    let expected: Vec<_> = core.chain(own).collect();
     assert_eq!(expected.len(), 58);
     let listed = cannonpile_proof::all().map(|found| (found.name, found.prove()));
     assert!(listed.eq(expected));
 }
 
-/// One mutant for each crate, and a theorem that rejects only this one of the three. The theorems of the core use
-/// `horizontal.core`.
+/// One mutant for each crate, and a theorem that rejects only this one of the three.
 #[test]
 fn wrong_formulas_are_rejected() {
     let mut core: Formulas = Formulas::LIBRARY;
-    core.horizontal.core.transmitted = |received, own| received - own;
+    core.core.transmitted = |received, own| received - own;
     let mut horizontal: Formulas = Formulas::LIBRARY;
-    horizontal.horizontal.least_on_corner = |k| k.clone() + k;
+    horizontal.least_on_corner = |k| k.clone() + k;
     let mut disorder: Formulas = Formulas::LIBRARY;
-    disorder.disorder.registry_excess = |x, _, _| x.clone();
+    disorder.registry_excess = |x, _, _| x.clone();
     let crates = [
         (core, "action-reaction"),
         (horizontal, "corner-least"),
@@ -69,7 +64,7 @@ fn wrong_formulas_are_rejected() {
     }
 }
 
-/// Each crate tests the mutants of the core on its own theorems. Here all listed theorems that reject a mutant are
+/// The core and this crate test the mutants of the core on their own theorems. Here all listed theorems that reject a mutant are
 /// found, in the order of the list.
 #[test]
 fn mutants_list_rejecting_theorems() {

@@ -14,8 +14,6 @@ pub use attempts::Attempts;
 pub use faults::{Fault, of_the_core, over, sum, swapped, twice};
 pub use numbers::{evaluated, sides_agree_at_every_point, value};
 
-use std::collections::BTreeSet;
-
 use cannonpile::theorem::{Library, ProofKind, Theorem};
 
 /// Panics unless each of these theorems holds.
@@ -27,12 +25,6 @@ pub fn hold<F: Library>(theorems: &[&Theorem<F>]) {
         }
         assert!(proof.holds(), "{} has no steps", theorem.name);
     }
-}
-
-/// Panics unless all names of these theorems are different.
-pub fn have_unique_names<F>(theorems: &[&Theorem<F>]) {
-    let names: BTreeSet<_> = theorems.iter().map(|theorem| theorem.name).collect();
-    assert_eq!(names.len(), theorems.len());
 }
 
 /// Panics unless each statement names its method and its subject. `subjects` lists the subject of each theorem by name.

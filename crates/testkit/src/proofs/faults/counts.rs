@@ -5,7 +5,7 @@ use cannonpile::scalar::Ring;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
 
-use super::{Fault, P, RIGHT, faults, over, swapped, twice};
+use super::parts::{Fault, P, RIGHT, faults, over, swapped, twice};
 
 /// L − 1.
 fn one_less(l: &P) -> P {

@@ -4,7 +4,7 @@ use cannonpile::geometry::Vector;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
 
-use super::{Fault, P, RIGHT, faults, sum, twice};
+use super::parts::{Fault, P, RIGHT, faults, sum, twice};
 
 /// The force on the floor with one changed component.
 macro_rules! force {

@@ -4,7 +4,7 @@ use cannonpile::geometry::Vector;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
 
-use super::{Fault, P, RIGHT, faults, over, sum, twice};
+use super::parts::{Fault, P, RIGHT, faults, over, sum, twice};
 
 pub(super) fn faults() -> Vec<Fault> {
     faults! {

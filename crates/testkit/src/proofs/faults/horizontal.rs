@@ -3,7 +3,7 @@
 use cannonpile::theorem::Formulas;
 use num_traits::Zero;
 
-use super::{Fault, P, RIGHT, faults, twice};
+use super::parts::{Fault, P, RIGHT, faults, twice};
 
 pub(super) fn faults() -> Vec<Fault> {
     faults! {

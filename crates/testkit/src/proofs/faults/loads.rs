@@ -5,7 +5,7 @@ use cannonpile::lattice::Sign;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
 
-use super::{Fault, P, RIGHT, faults, over, swapped, twice};
+use super::parts::{Fault, P, RIGHT, faults, over, swapped, twice};
 
 /// The load with changed components.
 fn changed(load: &Load<P>, change: impl FnOnce(&mut Load<P>)) -> Load<P> {

@@ -4,7 +4,7 @@ use cannonpile::geometry::Vector;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
 
-use super::{Fault, P, RIGHT, faults, over, swapped, twice};
+use super::parts::{Fault, P, RIGHT, faults, over, swapped, twice};
 
 /// The sphere's position with one changed component.
 macro_rules! moved {

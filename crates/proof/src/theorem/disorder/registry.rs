@@ -1,12 +1,13 @@
 //! Proof of the recursion of registries.
 
+use cannonpile::each::Each;
 use cannonpile::scalar::Algebra;
 use cannonpile::theorem::Step;
 use cannonpile::theorem::setting::{P, equations, symbol};
 use num_traits::{One, Zero};
 
-use super::{Formulas, sum, symbols};
-use crate::{Each, THREE};
+use crate::Formulas;
+use crate::theorem::terms::{THREE, sum, symbols};
 
 /// The probabilities of each registry after a + step, and after a − step.
 type Shares = [[P; 3]; 2];

@@ -1,27 +1,16 @@
-//! Theorems evaluated at numbers: energy and settlement of the elastic state, compared with its certificate.
+//! Energy and settlement of the elastic state, compared with its certificate.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
-use cannonpile::scalar::Ring;
 use cannonpile::shape::Selection;
 use cannonpile_horizontal::elastic;
-use cannonpile_horizontal::theorem;
-use cannonpile_horizontal::theorem::{Formulas, Theorem};
-use cannonpile_testkit::proofs;
+use cannonpile_proof::Formulas;
 use cannonpile_testkit::proofs::value;
 use num_rational::BigRational as Q;
 
+use super::{find, int, prove};
+
 const RIGHT: Formulas = Formulas::LIBRARY;
-
-fn int(n: i128) -> Q {
-    Q::from_i128(n)
-}
-
-fn find(name: &str) -> &'static Theorem {
-    let mut theorems = theorem::all();
-    let found = theorems.find(|theorem| theorem.name == name);
-    found.expect("a theorem")
-}
 
 /// Returns the straight piles of 1 to `layers` layers.
 fn piles(layers: i128) -> impl Iterator<Item = Pile> {
@@ -29,14 +18,8 @@ fn piles(layers: i128) -> impl Iterator<Item = Pile> {
 }
 
 #[test]
-fn sides_agree_at_every_point() {
-    let theorems: Vec<_> = theorem::all().collect();
-    proofs::sides_agree_at_every_point(&theorems);
-}
-
-#[test]
 fn energy() {
-    let proof = find("elastic-energy").prove();
+    let proof = prove("elastic-energy");
     for pile in piles(7) {
         let forces = pile.forces::<Q>();
         let contacts = forces.contacts(Selection::All).expect("all");
@@ -51,7 +34,7 @@ fn energy() {
 
 #[test]
 fn settlement() {
-    let proof = find("settlement").prove();
+    let proof = prove("settlement");
     for pile in piles(7).skip(1) {
         let elastic = elastic(&pile, &int(1)).expect("a state");
         let field = &elastic.certificate().expect("a certificate").field;

@@ -1,15 +1,14 @@
 //! Proofs of the moments of the response to a load.
 
-use crate::Each;
+use cannonpile::each::Each;
 use cannonpile::scalar::Symbol;
 use cannonpile::theorem::Step;
 use cannonpile::theorem::setting::{P, equations, int, symbol};
 use num_traits::{One, Zero};
 
-use super::{
-    Complex, Formulas, SIGNS, complex, conjugate, dot, power, square, steps_down, sum, symbols,
-    times, turned,
-};
+use crate::Formulas;
+use crate::theorem::steps::{Complex, complex, conjugate, dot, steps_down, times};
+use crate::theorem::terms::{SIGNS, power, square, sum, symbols, transferred};
 
 /// The contributions of the contact forces of one sphere to moments. Each is a sum over its contacts, with z the end of
 /// the contact.
@@ -55,18 +54,18 @@ impl Moments {
 /// Returns the moments of the forces on a sphere at z and of the forces below it, for all four pairs of signs above and
 /// below. Each entry contains the name of the case, and the sign σ of the step below.
 fn at_a_sphere(f: &Formulas) -> Vec<(String, P, Moments, Moments)> {
-    let (g, down) = (symbols(["g_1", "g_2", "g_3"]), steps_down(f));
+    let (g, down) = (symbols(["g_1", "g_2", "g_3"]), steps_down(&f.core));
     let z = complex(symbol("x"), symbol("y"));
     let [alpha, ..] = &down[0];
     let cube = times(alpha, &times(alpha, alpha));
     let mut cases = Vec::new();
     for (above, from) in down.iter().enumerate() {
         for (below, to) in down.iter().enumerate() {
-            let passed = turned(f, above != below, &g);
+            let passed = transferred(&f.core, above != below, &g);
             let here = [(); 3].each(|()| z.clone());
             let there = to.each_ref().each(|step| z.clone() + step);
             cases.push((
-                format!("{} above, {} below", SIGNS[above], SIGNS[below]),
+                format!("{} above, {} below", SIGNS[above].0, SIGNS[below].0),
                 int(if below == 0 { 1 } else { -1 }),
                 Moments::of(&g, from, &here, &cube),
                 Moments::of(&passed, to, &there, &cube),

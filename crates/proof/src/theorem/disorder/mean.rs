@@ -2,13 +2,14 @@
 
 use core::num::NonZeroI64;
 
+use cannonpile::each::Each;
 use cannonpile::scalar::{Algebra, Symbol};
 use cannonpile::theorem::Step;
 use cannonpile::theorem::setting::{P, by_line, equations, int, symbol};
 use num_traits::{One, Zero};
 
-use super::{Formulas, power, square, sum, symbols};
-use crate::{Each, THREE, TWO};
+use crate::Formulas;
+use crate::theorem::terms::{THREE, TWO, power, square, sum, symbols};
 
 /// Returns M applied to f₊ and f₋. The caller has multiplied f₊ by the factors D_l, and f₋ by their inverses.
 fn mean_step(f: &Formulas, q: &P, shifted: &[[P; 3]; 2]) -> [[P; 3]; 2] {

@@ -1,72 +1,21 @@
 //! Theorems on random stackings: conservation laws, moments, waves and faults.
-//!
-//! Each proof evaluates the formulas of this crate and of the core on polynomials
-//! ([details](cannonpile::theorem#kinds-of-proof)). A theorem takes its [`Formulas`] as an argument. So a test can
-//! replace a formula by a wrong one, and see the proof fail.
-//!
-//! # Examples
-//! ```
-//! use cannonpile_disorder::theorem;
-//! use cannonpile_disorder::theorem::Formulas;
-//!
-//! let registry = theorem::find("registry").unwrap();
-//! assert!(registry.prove().holds());
-//!
-//! let wrong: Formulas = Formulas { registry_excess: |x, _, _| x.clone(), ..Formulas::LIBRARY };
-//! assert!(!registry.prove_for(&wrong).holds());
-//! ```
 
-mod formulas;
 mod mean;
 mod moments;
 mod registry;
 
-pub use formulas::Formulas;
-
-use cannonpile::geometry::Vector;
+use cannonpile::each::Each;
 use cannonpile::lattice::Direction;
 use cannonpile::scalar::Algebra;
 use cannonpile::theorem::setting::{
     P, Setting, by_component, by_line, equations, int, symbol, transmitted,
 };
-use cannonpile::theorem::{ProofKind, Step};
-use num_traits::{One, Zero};
+use cannonpile::theorem::{Formulas, ProofKind, Step};
 
-use crate::{Each, THREE, TWO};
+use super::steps::{complex, dot, steps_down};
+use super::terms::{THREE, TWO, Theorem, square, sum, symbols, transferred, unit};
 
-/// A theorem about the formulas of this crate.
-pub type Theorem = cannonpile::theorem::Theorem<Formulas>;
-
-/// Iterates over the theorems of this crate, in reading order.
-///
-/// # Examples
-/// ```
-/// use cannonpile_disorder::theorem;
-///
-/// assert!(theorem::all().any(|theorem| theorem.name == "wave"));
-/// for theorem in theorem::all() {
-///     assert!(theorem.prove().holds(), "{}", theorem.name);
-/// }
-/// ```
-pub fn all() -> impl Iterator<Item = &'static Theorem> {
-    THEOREMS.iter()
-}
-
-/// Returns the theorem with this name.
-///
-/// # Examples
-/// ```
-/// use cannonpile_disorder::theorem;
-///
-/// assert!(theorem::find("one-fault").is_some());
-/// assert!(theorem::find("equilibrium").is_none());
-/// ```
-#[must_use]
-pub fn find(name: &str) -> Option<&'static Theorem> {
-    all().find(|theorem| theorem.name == name)
-}
-
-const THEOREMS: &[Theorem] = &[
+pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "resultant-form",
         statement: "Resultant form: for forces g from above on a sphere let ψ be g under + steps and Gg under − steps. \
@@ -76,7 +25,7 @@ const THEOREMS: &[Theorem] = &[
         hypotheses: "s = 1/2; any g_1, g_2, g_3",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
-        derive: resultant_form,
+        derive: |f| resultant_form(&f.core),
     },
     Theorem {
         name: "squares",
@@ -88,7 +37,7 @@ const THEOREMS: &[Theorem] = &[
         hypotheses: "s = 1/2; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, n",
-        derive: squares,
+        derive: |f| squares(&f.core),
     },
     Theorem {
         name: "third-moment",
@@ -154,7 +103,7 @@ const THEOREMS: &[Theorem] = &[
         hypotheses: "any forces; spheres without weight",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3, k_1, k_2, k_3",
-        derive: wave,
+        derive: |f| wave(&f.core),
     },
     Theorem {
         name: "faults",
@@ -166,7 +115,7 @@ const THEOREMS: &[Theorem] = &[
         hypotheses: "forces at the same place counted separately",
         method: ProofKind::Induction,
         symbols: "v",
-        derive: faults,
+        derive: |f| faults(&f.core),
     },
     Theorem {
         name: "one-fault",
@@ -178,7 +127,7 @@ const THEOREMS: &[Theorem] = &[
         hypotheses: "s = 1/2, m, n ≥ 1",
         method: ProofKind::Identity,
         symbols: "m, n",
-        derive: one_fault,
+        derive: |f| one_fault(&f.core),
     },
     Theorem {
         name: "registry",
@@ -196,87 +145,14 @@ const THEOREMS: &[Theorem] = &[
     },
 ];
 
-const SIGNS: [&str; 2] = ["+", "−"];
-
-fn symbols(names: [&'static str; 3]) -> [P; 3] {
-    names.each(symbol)
-}
-
-fn sum(terms: impl IntoIterator<Item = P>) -> P {
-    terms.into_iter().fold(P::zero(), |sum, term| sum + &term)
-}
-
-fn square(x: &P) -> P {
-    x.clone() * x
-}
-
-fn power(x: &P, n: usize) -> P {
-    (0..n).fold(P::one(), |power, _| power * x)
-}
-
-/// Returns the unit vector of a contact direction.
-fn unit(line: usize) -> [P; 3] {
-    [0, 1, 2].each(|other: usize| int(i128::from(other == line)))
-}
-
-/// Returns G g if the sign changes, and g if not.
-fn turned(f: &Formulas, changes: bool, g: &[P; 3]) -> [P; 3] {
-    if changes {
-        (f.core.half_turn)(g)
-    } else {
-        g.clone()
-    }
-}
-
-/// A complex number x + iy√3, in units of ρ.
-type Complex = Vector<P>;
-
-fn complex(x: P, y: P) -> Complex {
-    Vector { x, y, z: P::zero() }
-}
-
-fn times(a: &Complex, b: &Complex) -> Complex {
-    complex(
-        a.x.clone() * &b.x - &(int(3) * &(a.y.clone() * &b.y)),
-        a.x.clone() * &b.y + &(a.y.clone() * &b.x),
-    )
-}
-
-fn conjugate(a: &Complex) -> Complex {
-    complex(a.x.clone(), -a.y.clone())
-}
-
-/// Returns Re(a b̄).
-fn dot(a: &Complex, b: &Complex) -> P {
-    times(a, &conjugate(b)).x
-}
-
-/// Returns the horizontal parts of the three contacts, under + and under −.
-fn steps_down(f: &Formulas) -> [[Complex; 3]; 2] {
-    let setting = Setting::equilateral(&f.core);
-    [
-        setting.directions.clone(),
-        setting.turned_directions(&f.core),
-    ]
-    .each(|directions| {
-        [0, 1, 2].each(|line| {
-            let Vector { x, y, .. } = (f.core.position)(&unit(line), &directions);
-            complex(x, y)
-        })
-    })
-}
-
 fn resultant_form(f: &Formulas) -> Vec<Step> {
-    let (setting, g) = (
-        Setting::equilateral(&f.core),
-        symbols(["g_1", "g_2", "g_3"]),
-    );
-    let below = setting.turned_directions(&f.core);
-    let form = |minus: bool, g: &[P; 3]| turned(f, minus, g);
+    let (setting, g) = (Setting::equilateral(f), symbols(["g_1", "g_2", "g_3"]));
+    let below = setting.turned_directions(f);
+    let form = |minus: bool, g: &[P; 3]| transferred(f, minus, g);
     let mut steps = by_component(
         "under −, the resultant of g is that of Gg under +",
-        (f.core.resultant)(&g, &below),
-        (f.core.resultant)(&form(true, &g), &setting.directions),
+        (f.resultant)(&g, &below),
+        (f.resultant)(&form(true, &g), &setting.directions),
     );
     let twice = form(true, &form(true, &g));
     steps.extend(by_line(
@@ -288,13 +164,13 @@ fn resultant_form(f: &Formulas) -> Vec<Step> {
 }
 
 fn squares(f: &Formulas) -> Vec<Step> {
-    let setting = Setting::equilateral(&f.core);
+    let setting = Setting::equilateral(f);
     let (g, n) = (symbols(["g_1", "g_2", "g_3"]), symbol("n"));
-    let (own, weight) = setting.loaded(&f.core, &n);
+    let (own, weight) = setting.loaded(f, &n);
     let mut steps = equations! { "3n is the weight": weight => int(3) * &n };
     let (whole, all) = (sum(g.clone()), sum(g.each_ref().each(square)));
     for (name, changes) in [("kept", false), ("changed", true)] {
-        let passed = transmitted(&f.core, turned(f, changes, &g), &own);
+        let passed = transmitted(f, transferred(f, changes, &g), &own);
         let more = int(2) * &n * &whole + &(int(3) * &square(&n));
         steps.extend(equations! {
             (format!("the sign is {name}: Σf")):
@@ -316,7 +192,7 @@ fn wave(f: &Formulas) -> Vec<Step> {
     let lines = lines.map(|(direction, received)| {
         let l = direction.index();
         let load = sum(received.clone());
-        let passed = (f.core.half_turn)(received)[l].clone() * &int(3);
+        let passed = (f.half_turn)(received)[l].clone() * &int(3);
         let expected = int(2) * &load - &(int(3) * &received[l]);
         Step::equal(
             format!("along {direction}: 2/3 of the load, less what arrives along it"),
@@ -332,7 +208,7 @@ fn faults(f: &Formulas) -> Vec<Step> {
     let mut steps = Vec::new();
     for direction in Direction::ALL {
         let l = direction.index();
-        let turned = (f.core.half_turn)(&unit(l).each(|one| one * &v)).each(|part| part * &int(3));
+        let turned = (f.half_turn)(&unit(l).each(|one| one * &v)).each(|part| part * &int(3));
         let expected = unit(l).each(|one| (int(2) - &(int(3) * &one)) * &v);
         let claim = format!("along {direction}: −v along it, 2v along the others, of 3v");
         steps.extend(by_line(&claim, turned.clone(), expected));
@@ -353,7 +229,7 @@ fn faults(f: &Formulas) -> Vec<Step> {
             (format!("from {direction}: absolute values by 5")): absolute => int(5) * &v,
         });
     }
-    let thirds = (f.core.increments)(&int(1).div_int(TWO));
+    let thirds = (f.increments)(&int(1).div_int(TWO));
     steps.extend(equations! {
         "base case: Σ3v = 3": sum(thirds.clone()) => int(3),
         "base case: Σ(3v)² = 9/3": sum(thirds.each_ref().each(square)) => int(3),
@@ -372,7 +248,7 @@ fn one_fault(f: &Formulas) -> Vec<Step> {
     let mut steps = Vec::new();
     for a in 0..3 {
         let thirds = unit(a).each(|one| one.div_int(THREE));
-        let loads = (f.core.half_turn)(&thirds);
+        let loads = (f.half_turn)(&thirds);
         for (b, load) in loads.into_iter().enumerate() {
             let [from, to] = [a, b].each(|line| Direction::ALL[line]);
             let z = place(a, b);
