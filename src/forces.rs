@@ -16,14 +16,14 @@ mod sums;
 mod terms;
 mod walk;
 
-pub use base::{FloorForce, FloorForces};
-pub use contacts::{ContactForce, Contacts};
+pub use base::FloorForce;
+pub use contacts::ContactForce;
 pub(crate) use layers::check_lengths;
 pub use layers::{Layer, Layers};
 pub(crate) use nearest::Units;
 pub use nearest::{NearestLayer, NearestLayers};
 pub use numerators::{NumeratorLayer, NumeratorLayers};
-pub use walk::Answers;
+pub use walk::{Answers, Contacts, FloorForces};
 
 use alloc::vec::Vec;
 
@@ -36,11 +36,10 @@ use crate::formula;
 use crate::geometry::{Load, Vector, position};
 use crate::lattice::{Direction, Site, count};
 use crate::scalar::{Algebra, Ring};
-use crate::shape::{Rows, Selection};
+use crate::shape::Rows;
 use crate::{Error, Pile};
 
 use terms::{Terms, horizontal, of_direction, to_scalar, to_scalars};
-use walk::RowEngine;
 
 /// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
 ///
@@ -426,91 +425,6 @@ impl<'p, T: Algebra> Forces<'p, T> {
         }
         self.terms
             .floor(site, &self.received(site, LineSelection::All)?)
-    }
-
-    /// Iterates over the contact forces of a part of the pile in row order, in f₀. The contacts of a sphere are those
-    /// with its supports, so a sphere on the floor has none.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer does not fit in memory and
-    /// depends on too many spheres at the sign changes above it.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let mut total = 0.0;
-    /// for contact in pile.forces::<f64>().contacts(Selection::All)? {
-    ///     total += contact?.force;
-    /// }
-    /// assert_eq!(total, 1485.0);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T>, Error> {
-        let rows = self.pile.rows(part)?.off_the_floor();
-        let by_site = self.pile.dimension().directions().len();
-        let asked = (Quantity::ContactMultiples, by_site);
-        Answers::new(self, rows, asked, RowEngine::contacts_in)
-    }
-
-    /// Iterates over the forces of bottom spheres on the floor, in row order.
-    ///
-    /// # Errors
-    /// [`Error::NotOnFloor`] for a part outside the bottom layer; otherwise as for [`contacts`](Self::contacts).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let base = pile.forces::<f64>().base(Selection::Base)?;
-    /// let base: Result<Vec<_>, _> = base.collect();
-    /// assert!(base?.iter().all(|force| force.normal == 4.0));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn base(&self, part: Selection) -> Result<FloorForces<'p, T>, Error> {
-        let rows = self.pile.rows(part)?;
-        Answers::new(
-            self,
-            rows,
-            (Quantity::FloorMultiples, 1),
-            RowEngine::on_floor_in,
-        )
-    }
-
-    /// Iterates over the layers of `part`, from the top. Each layer writes its contact forces, in f₀, into
-    /// caller-provided slices. This is the fastest way to compute many forces.
-    ///
-    /// # Errors
-    /// As for [`contacts`](Self::contacts).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Region;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::under(Region::SITE, "++-".parse()?)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
-    /// let mut total = 0.0;
-    /// while let Some(layer) = layers.next_layer()? {
-    ///     if layer.is_floor() {
-    ///         break;
-    ///     }
-    ///     let mut forces = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
-    ///     let [alpha, beta, gamma] = &mut forces;
-    ///     layer.fill([alpha, beta, gamma])?;
-    ///     total += forces.concat().iter().sum::<f64>();
-    /// }
-    /// // The forces below a layer sum to 3 f₀ for each sphere in or above the layer: 1, 1 + 3 and 1 + 3 + 6 spheres.
-    /// assert!((total - 45.0).abs() < 1e-12);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn layers(&self, part: Selection) -> Result<Layers<'p, T>, Error> {
-        Layers::new(self, part)
     }
 
     /// Returns the force between the sphere at `site` and the one below it along `direction`, in units of f₀ =

@@ -7,12 +7,9 @@ mod runs;
 mod sites;
 
 pub use numbering::Numbering;
+pub(crate) use rows::exact_hint;
 pub use rows::{Rows, Selection};
 pub use sites::Sites;
-pub(crate) use sites::exact_hint;
-
-pub(crate) use runs::RunLayers;
-use runs::Steps;
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -59,6 +56,38 @@ pub struct Shape {
     /// The total numbers of steps.
     whole: Steps,
     anchor: Anchor,
+}
+
+/// The numbers of + steps and of − steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+struct Steps {
+    plus: i128,
+    minus: i128,
+}
+
+impl Steps {
+    /// Returns these steps with `steps` more of one sign.
+    fn and(mut self, sign: Sign, steps: i128) -> Self {
+        match sign {
+            Sign::Plus => self.plus += steps,
+            Sign::Minus => self.minus += steps,
+        }
+        self
+    }
+}
+
+/// A [`Run`](crate::stacking::Run) with its first and last layer in a pile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct RunLayers {
+    /// The number of sign changes above the run.
+    pub(crate) index: usize,
+    pub(crate) sign: Sign,
+    /// The layer above the first step.
+    pub(crate) from: i128,
+    /// The layer below the last step.
+    pub(crate) to: i128,
+    /// The steps from the top to `from`.
+    above: Steps,
 }
 
 /// The layer that the other layers of a pile are built from.
@@ -555,40 +584,6 @@ impl Shape {
         let from = self.contains(site).then_some(site)?;
         let to = from.step(sign, direction, down)?;
         self.contains(to).then_some(to)
-    }
-
-    /// Returns the rows of a part of the pile, from the top.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the pile does not contain the selection.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::Dimension;
-    /// use cannonpile::shape::{Selection, Shape};
-    ///
-    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
-    /// assert_eq!(pyramid.rows(Selection::Layer(3))?.count(), 4);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn rows(&self, selection: Selection) -> Result<Rows<'_>, Error> {
-        Rows::new(self, selection)
-    }
-
-    /// Returns all sites, layer by layer from the top, row by row.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::{Dimension, Site};
-    /// use cannonpile::shape::Shape;
-    ///
-    /// let pyramid = Shape::pyramid(2, Dimension::Three)?;
-    /// let sites: Vec<Site> = pyramid.sites().collect();
-    /// assert_eq!(sites[1..], [(0, 0), (1, 0), (0, 1)].map(|(i, j)| Site { i, j, k: 1 }));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn sites(&self) -> Sites<'_> {
-        Rows::of_layers(self, 0..self.layers()).sites()
     }
 
     /// Returns the greatest number of layers that a base supports with a pattern. The pattern is read upwards from the

@@ -4,7 +4,6 @@ use core::fmt;
 
 use exact_surd::layout::{padded, part};
 
-use super::Answers;
 use crate::each::Each;
 use crate::lattice::Site;
 use crate::scalar::{Ring, Surd, SurdSum};
@@ -92,22 +91,6 @@ impl<T: fmt::Display> fmt::Display for FloorForce<T> {
         padded(f, format_args!("{site}: normal {normal}, shear ({x}, {y})"))
     }
 }
-
-/// An iterator over the forces of bottom spheres on the floor, in row order.
-///
-/// Made by [`Forces::base`](crate::Forces::base). An item is an error if the scalar overflows.
-///
-/// # Examples
-/// ```
-/// use cannonpile::Pile;
-/// use cannonpile::shape::Selection;
-///
-/// let pile = Pile::triangular(10)?;
-/// let base: Vec<_> = pile.forces::<f64>().base(Selection::Base)?.collect::<Result<_, _>>()?;
-/// assert!(base.iter().all(|force| force.normal == 4.0));
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-pub type FloorForces<'p, T> = Answers<'p, T, FloorForce<T>>;
 
 #[cfg(test)]
 mod tests {

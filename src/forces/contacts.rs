@@ -4,7 +4,6 @@ use core::fmt;
 
 use exact_surd::layout::{padded, part};
 
-use super::Answers;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Ring, Surd};
 
@@ -64,24 +63,6 @@ impl<T: fmt::Display> fmt::Display for ContactForce<T> {
         padded(f, format_args!("{site} {direction}: {force}"))
     }
 }
-
-/// An iterator over the contact forces of a part of a pile, by sphere in row order. The contacts of a sphere are those
-/// with its supports.
-///
-/// Made by [`Forces::contacts`](crate::Forces::contacts). An item is an error if the scalar overflows.
-///
-/// # Examples
-/// ```
-/// use cannonpile::Pile;
-/// use cannonpile::shape::Selection;
-///
-/// let pile = Pile::triangular(10)?;
-/// let contacts = pile.forces::<f64>().contacts(Selection::All)?;
-/// assert_eq!(contacts.plan().rows, 495_u32.into());
-/// assert_eq!(contacts.count(), 495);
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-pub type Contacts<'p, T> = Answers<'p, T, ContactForce<T>>;
 
 #[cfg(test)]
 mod tests {

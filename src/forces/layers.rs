@@ -17,9 +17,7 @@ use super::Forces;
 use super::terms::Terms;
 use super::walk::RowEngine;
 use crate::Error;
-use crate::engine::{
-    Engine, Meter, Method, Plan, Planes, Quantity, SphereForces, Sweep, Table, split_front,
-};
+use crate::engine::{Engine, Meter, Method, Plan, Planes, Quantity, SphereForces, Sweep, Table};
 use crate::error::bug;
 use crate::formula::triples;
 use crate::lattice::Row;
@@ -58,8 +56,42 @@ pub struct Layers<'p, T: Algebra> {
     meter: Meter<'p>,
 }
 
+impl<'p, T: Algebra> Forces<'p, T> {
+    /// Iterates over the layers of `part`, from the top. Each layer writes its contact forces, in f₀, into
+    /// caller-provided slices. This is the fastest way to compute many forces.
+    ///
+    /// # Errors
+    /// As for [`contacts`](Self::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::under(Region::SITE, "++-".parse()?)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
+    /// let mut total = 0.0;
+    /// while let Some(layer) = layers.next_layer()? {
+    ///     if layer.is_floor() {
+    ///         break;
+    ///     }
+    ///     let mut forces = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
+    ///     let [alpha, beta, gamma] = &mut forces;
+    ///     layer.fill([alpha, beta, gamma])?;
+    ///     total += forces.concat().iter().sum::<f64>();
+    /// }
+    /// // The forces below a layer sum to 3 f₀ for each sphere in or above the layer: 1, 1 + 3 and 1 + 3 + 6 spheres.
+    /// assert!((total - 45.0).abs() < 1e-12);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn layers(&self, part: Selection) -> Result<Layers<'p, T>, Error> {
+        Layers::new(self, part)
+    }
+}
+
 impl<'p, T: Algebra> Layers<'p, T> {
-    pub(super) fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
+    fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
         let (pile, terms) = (forces.pile, forces.terms.clone());
         let part = match part {
             Selection::One(site) => Selection::Layer(pile.shape().check(site)?.k),
@@ -79,48 +111,6 @@ impl<'p, T: Algebra> Layers<'p, T> {
             stops: 0,
             meter: forces.meter,
         })
-    }
-
-    /// Advances to the next layer of the part and returns it, or `None` after the last layer.
-    ///
-    /// # Errors
-    /// [`Error::TooLarge`] for a layer that does not fit in memory.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
-    /// let mut spheres = 0;
-    /// while let Some(layer) = layers.next_layer()? {
-    ///     spheres += layer.sphere_count();
-    /// }
-    /// assert_eq!(spheres, 20);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, T>>, Error> {
-        let Some(k) = self.ahead.clone().next() else {
-            return Ok(None);
-        };
-        self.go_down_to(k)?;
-        let region = self.shape().layer(k)?;
-        let sites = region.site_count();
-        let Some(spheres) = sites.to_usize() else {
-            return Err(Error::TooLarge {
-                quantity: "a layer",
-                needed: sites,
-                limit: usize::MAX as u64,
-                remedy: "ask for one sphere",
-            });
-        };
-        Ok(Some(Layer {
-            layers: self,
-            k,
-            region,
-            spheres,
-        }))
     }
 
     /// Advances to layer `k` of the part, unless it is the current layer.
@@ -198,22 +188,6 @@ impl<'p, T: Algebra> Layers<'p, T> {
             return self.fill_from_table(table, slices);
         }
         self.fill_each(slices, |layer, [a, b, c]| layer.fill([a, b, c]))
-    }
-
-    /// Calls `fill` for each remaining layer above the floor, with its part of the slices.
-    pub(super) fn fill_each<V>(
-        &mut self,
-        slices: [&mut [V]; 3],
-        fill: impl Fn(&Layer<'_, 'p, T>, [&mut [V]; 3]) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        check_lengths(self.slice_len()?, &slices)?;
-        let mut rest = slices;
-        self.ahead = self.above_the_floor();
-        while let Some(layer) = self.next_layer()? {
-            let front = split_front(&mut rest, layer.sphere_count())?;
-            fill(&layer, front)?;
-        }
-        Ok(())
     }
 
     /// Writes the forces of all remaining layers into slices, from a table.

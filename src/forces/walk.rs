@@ -13,7 +13,7 @@ use crate::each::Each;
 use crate::engine::{Cells, Engine, Meter, Plan, Planes, Quantity};
 use crate::lattice::Row;
 use crate::scalar::{Algebra, Exactness};
-use crate::shape::{Rows, exact_hint};
+use crate::shape::{Rows, Selection, exact_hint};
 
 /// The computation of forces for some rows of a pile, from the top down.
 #[derive(Clone, Debug)]
@@ -156,6 +156,95 @@ pub struct Answers<'p, T: Algebra, A> {
     compute: Compute<'p, T, A>,
     computed: IntoIter<Result<A, Error>>,
     meter: Meter<'p>,
+}
+
+/// An iterator over the contact forces of a part of a pile, by sphere in row order. The contacts of a sphere are those
+/// with its supports.
+///
+/// Made by [`Forces::contacts`](crate::Forces::contacts). An item is an error if the scalar overflows.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::shape::Selection;
+///
+/// let pile = Pile::triangular(10)?;
+/// let contacts = pile.forces::<f64>().contacts(Selection::All)?;
+/// assert_eq!(contacts.plan().rows, 495_u32.into());
+/// assert_eq!(contacts.count(), 495);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub type Contacts<'p, T> = Answers<'p, T, ContactForce<T>>;
+
+/// An iterator over the forces of bottom spheres on the floor, in row order.
+///
+/// Made by [`Forces::base`](crate::Forces::base). An item is an error if the scalar overflows.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::shape::Selection;
+///
+/// let pile = Pile::triangular(10)?;
+/// let base: Vec<_> = pile.forces::<f64>().base(Selection::Base)?.collect::<Result<_, _>>()?;
+/// assert!(base.iter().all(|force| force.normal == 4.0));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub type FloorForces<'p, T> = Answers<'p, T, FloorForce<T>>;
+
+impl<'p, T: Algebra> Forces<'p, T> {
+    /// Iterates over the contact forces of a part of the pile in row order, in f₀. The contacts of a sphere are those
+    /// with its supports, so a sphere on the floor has none.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer does not fit in memory and
+    /// depends on too many spheres at the sign changes above it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut total = 0.0;
+    /// for contact in pile.forces::<f64>().contacts(Selection::All)? {
+    ///     total += contact?.force;
+    /// }
+    /// assert_eq!(total, 1485.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T>, Error> {
+        let rows = self.pile.rows(part)?.off_the_floor();
+        let by_site = self.pile.dimension().directions().len();
+        let asked = (Quantity::ContactMultiples, by_site);
+        Answers::new(self, rows, asked, RowEngine::contacts_in)
+    }
+
+    /// Iterates over the forces of bottom spheres on the floor, in row order.
+    ///
+    /// # Errors
+    /// [`Error::NotOnFloor`] for a part outside the bottom layer; otherwise as for [`contacts`](Self::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let base = pile.forces::<f64>().base(Selection::Base)?;
+    /// let base: Result<Vec<_>, _> = base.collect();
+    /// assert!(base?.iter().all(|force| force.normal == 4.0));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn base(&self, part: Selection) -> Result<FloorForces<'p, T>, Error> {
+        let rows = self.pile.rows(part)?;
+        Answers::new(
+            self,
+            rows,
+            (Quantity::FloorMultiples, 1),
+            RowEngine::on_floor_in,
+        )
+    }
 }
 
 impl<'p, T: Algebra, A> Answers<'p, T, A> {

@@ -7,10 +7,11 @@ use core::ops::Range;
 
 use exact_surd::layout::padded;
 
-use super::{Shape, exact_hint};
+use super::Shape;
 use crate::Error;
 use crate::lattice::{Row, Site};
 use num_bigint::BigUint;
+use num_traits::ToPrimitive;
 
 /// A part of a pile: the argument of most queries.
 ///
@@ -87,6 +88,26 @@ pub struct Rows<'p> {
     end: i128,
     /// The sphere, if the selection is a single one. The range of layers is then empty.
     one: Option<Site>,
+}
+
+impl Shape {
+    /// Returns the rows of a part of the pile, from the top.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the pile does not contain the selection.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Dimension;
+    /// use cannonpile::shape::{Selection, Shape};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// assert_eq!(pyramid.rows(Selection::Layer(3))?.count(), 4);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn rows(&self, selection: Selection) -> Result<Rows<'_>, Error> {
+        Rows::new(self, selection)
+    }
 }
 
 impl<'p> Rows<'p> {
@@ -258,3 +279,11 @@ impl Iterator for Rows<'_> {
 }
 
 impl FusedIterator for Rows<'_> {}
+
+/// Returns the `size_hint` of an iterator with `items` items. It is exact if the number fits in `usize`.
+pub(crate) fn exact_hint(items: &BigUint) -> (usize, Option<usize>) {
+    match items.to_usize() {
+        Some(items) => (items, Some(items)),
+        None => (usize::MAX, None),
+    }
+}

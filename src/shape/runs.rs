@@ -1,39 +1,7 @@
 //! The runs of a stacking, each with its first and last layer.
 
-use super::{Anchor, Shape};
+use super::{Anchor, RunLayers, Shape, Steps};
 use crate::lattice::Sign;
-
-/// The numbers of + steps and of − steps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(super) struct Steps {
-    pub(super) plus: i128,
-    pub(super) minus: i128,
-}
-
-impl Steps {
-    /// Returns these steps with `steps` more of one sign.
-    pub(super) fn and(mut self, sign: Sign, steps: i128) -> Self {
-        match sign {
-            Sign::Plus => self.plus += steps,
-            Sign::Minus => self.minus += steps,
-        }
-        self
-    }
-}
-
-/// A [`Run`](crate::stacking::Run) with its first and last layer in a pile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct RunLayers {
-    /// The number of sign changes above the run.
-    pub(crate) index: usize,
-    pub(crate) sign: Sign,
-    /// The layer above the first step.
-    pub(crate) from: i128,
-    /// The layer below the last step.
-    pub(crate) to: i128,
-    /// The steps from the top to `from`.
-    pub(super) above: Steps,
-}
 
 impl Shape {
     /// Returns the index of the run whose steps lead down to layer k, or `None` for the top layer.

@@ -3,9 +3,9 @@
 use core::iter::FusedIterator;
 
 use num_bigint::BigUint;
-use num_traits::ToPrimitive;
 
-use super::rows::Rows;
+use super::Shape;
+use super::rows::{Rows, exact_hint};
 use crate::lattice::{self, Site};
 
 /// A lazy iterator over the sites of a [`Selection`](super::Selection), from the top.
@@ -39,6 +39,24 @@ impl Sites<'_> {
     pub(crate) fn remaining(&self) -> BigUint {
         let in_row = self.row.iter().map(lattice::Sites::remaining);
         in_row.fold(self.rows.site_count(), |sites, row| sites + row)
+    }
+}
+
+impl Shape {
+    /// Returns all sites, layer by layer from the top, row by row.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::Shape;
+    ///
+    /// let pyramid = Shape::pyramid(2, Dimension::Three)?;
+    /// let sites: Vec<Site> = pyramid.sites().collect();
+    /// assert_eq!(sites[1..], [(0, 0), (1, 0), (0, 1)].map(|(i, j)| Site { i, j, k: 1 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn sites(&self) -> Sites<'_> {
+        Rows::of_layers(self, 0..self.layers()).sites()
     }
 }
 
@@ -82,14 +100,6 @@ impl Iterator for Sites<'_> {
 }
 
 impl FusedIterator for Sites<'_> {}
-
-/// Returns the `size_hint` of an iterator with `items` items. It is exact if the number fits in `usize`.
-pub(crate) fn exact_hint(items: &BigUint) -> (usize, Option<usize>) {
-    match items.to_usize() {
-        Some(items) => (items, Some(items)),
-        None => (usize::MAX, None),
-    }
-}
 
 #[cfg(test)]
 mod tests {

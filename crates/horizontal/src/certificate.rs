@@ -56,6 +56,7 @@
 //! * X = 1 attains N = 1. Proof that N is at least 1: let φ = 0.
 
 mod check;
+mod computed;
 mod file;
 mod forces;
 mod record;

@@ -13,7 +13,6 @@ use alloc::format;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::CorrectlyRounded;
 use crate::error_free::{fast_two_sum, is_ordinary, scale, significand, two_product, two_sum};
 use crate::layout::padded;
 
@@ -74,31 +73,6 @@ impl DoubleDouble {
             low == 0.0
         };
         apart.then_some(Self { high, low })
-    }
-
-    /// Returns `r` rounded to a double-double, or not-a-number if `r` overflows an `f64`. The relative error is at most
-    /// 2^−106 for 2^−900 ≤ |r| ≤ [`f64::MAX`].
-    ///
-    /// # Examples
-    /// ```
-    /// use exact_surd::DoubleDouble;
-    /// use num_rational::BigRational;
-    ///
-    /// let tenth = DoubleDouble::from_rational(&BigRational::new(1.into(), 10.into()));
-    /// assert_eq!((tenth.high(), tenth.low()), (0.1, -5.551115123125783e-18));
-    /// ```
-    #[must_use]
-    pub fn from_rational(r: &BigRational) -> Self {
-        let parts = || {
-            let high = f64::nearest_to_rational(r)?;
-            let rest = r - BigRational::from_float(high)?;
-            Some((high, f64::nearest_to_rational(&rest)?))
-        };
-        match parts() {
-            Some((high, low)) => Self::finite(fast_two_sum(high, low), high),
-            // The value overflows an `f64`.
-            None => Self::new(f64::NAN),
-        }
     }
 
     /// Returns the exact value, or `None` if the number is not finite.
@@ -177,7 +151,7 @@ impl DoubleDouble {
     }
 
     /// Returns (high, low) as a double-double, or `float` alone if one part is not finite.
-    fn finite((high, low): (f64, f64), float: f64) -> Self {
+    pub(crate) fn finite((high, low): (f64, f64), float: f64) -> Self {
         if high.is_finite() && low.is_finite() {
             Self { high, low }
         } else {

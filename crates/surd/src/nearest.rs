@@ -30,7 +30,8 @@ mod sealed {
     }
 }
 
-use crate::error_free::power_of_two;
+use crate::DoubleDouble;
+use crate::error_free::{fast_two_sum, power_of_two};
 use crate::screen::enclose;
 use sealed::Assemble;
 
@@ -60,6 +61,31 @@ pub trait CorrectlyRounded: Assemble + Copy + Send + Sync {
         let negative = r.is_negative();
         let (n, d) = (r.numer().magnitude(), r.denom().magnitude());
         screened(negative, n, d, None).or_else(|| nearest_ratio(negative, n, d))
+    }
+}
+
+impl DoubleDouble {
+    /// Returns `r` rounded to a double-double, or not-a-number if `r` overflows an `f64`. The relative error is at most
+    /// 2^−106 for 2^−900 ≤ |r| ≤ [`f64::MAX`].
+    ///
+    /// # Examples
+    /// ```
+    /// use exact_surd::DoubleDouble;
+    /// use num_rational::BigRational;
+    ///
+    /// let tenth = DoubleDouble::from_rational(&BigRational::new(1.into(), 10.into()));
+    /// assert_eq!((tenth.high(), tenth.low()), (0.1, -5.551115123125783e-18));
+    /// ```
+    #[must_use]
+    pub fn from_rational(r: &BigRational) -> Self {
+        let parts = || {
+            let high = f64::nearest_to_rational(r)?;
+            let rest = r - BigRational::from_float(high)?;
+            let low = f64::nearest_to_rational(&rest)?;
+            Some(Self::finite(fast_two_sum(high, low), high))
+        };
+        // The value overflows an `f64`.
+        parts().unwrap_or_else(|| Self::new(f64::NAN))
     }
 }
 

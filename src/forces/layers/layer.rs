@@ -26,6 +26,66 @@ pub struct Layer<'l, 'p, T: Algebra> {
     pub(in crate::forces) spheres: usize,
 }
 
+impl<'p, T: Algebra> Layers<'p, T> {
+    /// Advances to the next layer of the part and returns it, or `None` after the last layer.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for a layer that does not fit in memory.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
+    /// let mut spheres = 0;
+    /// while let Some(layer) = layers.next_layer()? {
+    ///     spheres += layer.sphere_count();
+    /// }
+    /// assert_eq!(spheres, 20);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, T>>, Error> {
+        let Some(k) = self.ahead.clone().next() else {
+            return Ok(None);
+        };
+        self.go_down_to(k)?;
+        let region = self.shape().layer(k)?;
+        let sites = region.site_count();
+        let Some(spheres) = sites.to_usize() else {
+            return Err(Error::TooLarge {
+                quantity: "a layer",
+                needed: sites,
+                limit: usize::MAX as u64,
+                remedy: "ask for one sphere",
+            });
+        };
+        Ok(Some(Layer {
+            layers: self,
+            k,
+            region,
+            spheres,
+        }))
+    }
+
+    /// Calls `fill` for each remaining layer above the floor, with its part of the slices.
+    pub(in crate::forces) fn fill_each<V>(
+        &mut self,
+        slices: [&mut [V]; 3],
+        fill: impl Fn(&Layer<'_, 'p, T>, [&mut [V]; 3]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        check_lengths(self.slice_len()?, &slices)?;
+        let mut rest = slices;
+        self.ahead = self.above_the_floor();
+        while let Some(layer) = self.next_layer()? {
+            let front = split_front(&mut rest, layer.sphere_count())?;
+            fill(&layer, front)?;
+        }
+        Ok(())
+    }
+}
+
 impl Layer<'_, '_, BigRational> {
     /// Returns the denominator of the forces below the layer.
     pub(in crate::forces) fn denominator(&self) -> BigInt {

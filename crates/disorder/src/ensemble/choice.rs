@@ -4,12 +4,11 @@ use core::fmt;
 use core::ops::Range;
 use core::str::FromStr;
 
+use cannonpile::data::number;
 use cannonpile::scalar::{ByValue, reduced};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
-
-use super::written::SamplesParts;
 
 use crate::Error;
 use crate::check_fault_probability;
@@ -61,7 +60,7 @@ pub struct Samples {
     count: u64,
     seed: u64,
     /// The fault probability a/b, with 0 ≤ a ≤ b < 2⁶⁴.
-    #[serde(with = "cannonpile::data::number")]
+    #[serde(with = "number")]
     fault_probability: BigRational,
 }
 
@@ -128,6 +127,24 @@ impl Samples {
     #[must_use]
     pub const fn fault_probability(&self) -> &BigRational {
         &self.fault_probability
+    }
+}
+
+/// The serialised form of [`Samples`].
+#[derive(Deserialize)]
+#[serde(rename = "Samples", deny_unknown_fields)]
+struct SamplesParts {
+    samples: u64,
+    seed: u64,
+    #[serde(with = "number")]
+    fault_probability: BigRational,
+}
+
+impl TryFrom<SamplesParts> for Samples {
+    type Error = Error;
+
+    fn try_from(parts: SamplesParts) -> Result<Self, Error> {
+        Self::new(parts.samples, parts.seed, parts.fault_probability)
     }
 }
 

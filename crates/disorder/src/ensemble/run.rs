@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use cannonpile::Pile;
 use cannonpile::engine::try_for_each;
 use cannonpile::lattice::Sign;
 use num_bigint::BigInt;
@@ -15,15 +16,154 @@ use super::{Choice, Ensemble, Shard, Tally, WithFaults};
 use crate::Error;
 use crate::error::bug;
 
+impl Ensemble {
+    /// Counts the forces of all stackings or samples of a shard.
+    ///
+    /// # Errors
+    /// * [`Error::TooManyStackings`] for a shard of more than 2²⁴ enumerated stackings.
+    /// * [`TooLarge`](cannonpile::Error::TooLarge) for layers that do not fit in memory, for more than 10⁵ bins, and
+    ///   for more than 2⁶² contact forces.
+    /// * [`Error::NoJudge`] with horizontal contacts.
+    /// * [`Error::NoStacking`] for a base that supports no stacking of this height.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, Tally};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(9, FirstSign::Random)?;
+    /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// let drawn = Choice::Drawn(Samples::new(100, 1, half)?);
+    /// let whole = ensemble.run(&drawn, Shard::WHOLE)?;
+    /// // The shards can run on different machines.
+    /// let parts: Result<Vec<_>, _> = (1..=3).map(|part| ensemble.run(&drawn, Shard::new(part, 3)?)).collect();
+    /// assert_eq!(Tally::merge(&parts?), Ok(whole));
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn run(&self, choice: &Choice, shard: Shard) -> Result<Tally, Error> {
+        self.run_observed(choice, shard, &|_| {})
+    }
+
+    /// Returns the result of [`run`](Self::run), and reports its progress. Each call of the observer receives the
+    /// number of stackings that were computed since the last call.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    /// use std::sync::atomic::{AtomicU64, Ordering};
+    ///
+    /// let stackings = RandomStackings::new(9, FirstSign::Plus)?;
+    /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+    /// let done = AtomicU64::new(0);
+    /// let count = |more| { done.fetch_add(more, Ordering::Relaxed); };
+    /// ensemble.run_observed(&Choice::All, Shard::WHOLE, &count)?;
+    /// assert_eq!(done.into_inner(), 128);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn run_observed(
+        &self,
+        choice: &Choice,
+        shard: Shard,
+        observer: &(dyn Fn(u64) + Sync),
+    ) -> Result<Tally, Error> {
+        self.run_with(choice, shard, observer, None)
+    }
+
+    /// Returns the result of [`run_observed`](Self::run_observed) for an ensemble that also counts the stackings that
+    /// are stable with horizontal contacts. The judge decides whether a pile is.
+    ///
+    /// The run calls the judge only for piles that are unstable without horizontal contacts. Each of them ends with a
+    /// sign change, and is stable without its last layer. The judge may be called from several threads at once, and
+    /// must return the same verdict for the same pile. It is not called for an ensemble that does not count these
+    /// stackings.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run), and those of the judge. If the judge fails several times, one of its errors is returned.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{ContactSet, Choice, Ensemble, Error, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
+    /// let touching = Ensemble::under(Region::SITE, stackings)?.with_horizontal_contacts()?;
+    /// // HCP of five layers, continued straight, is stable only with horizontal contacts. For any pile the crate
+    /// // `cannonpile-horizontal` decides it with a proof: `Ok(equilibrium(pile)?.claim == Claim::Stands)`.
+    /// let judge = |pile: &Pile| Ok::<_, Error>(pile.shape().stacking().to_string() == "+-+-+");
+    /// let tally = touching.run_judged(&Choice::All, Shard::WHOLE, &|_| {}, &judge)?;
+    /// assert_eq!(tally.standing(ContactSet::Sloping), Some(11_u32.into()));
+    /// assert_eq!(tally.standing(ContactSet::WithHorizontal), Some(12_u32.into()));
+    ///
+    /// // There is no default for the judge.
+    /// assert_eq!(touching.run(&Choice::All, Shard::WHOLE), Err(Error::NoJudge));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn run_judged<E: From<Error> + Send>(
+        &self,
+        choice: &Choice,
+        shard: Shard,
+        observer: &(dyn Fn(u64) + Sync),
+        judge: &(dyn Fn(&Pile) -> Result<bool, E> + Sync),
+    ) -> Result<Tally, E> {
+        self.run_with(choice, shard, observer, Some(judge))
+    }
+
+    fn run_with<E: From<Error> + Send>(
+        &self,
+        choice: &Choice,
+        shard: Shard,
+        observer: &(dyn Fn(u64) + Sync),
+        judge: Option<&Judge<'_, E>>,
+    ) -> Result<Tally, E> {
+        Run {
+            ensemble: self,
+            choice,
+            shard,
+            task: &Task::new(self, choice, shard)?,
+            observer,
+            judge,
+        }
+        .tally()
+    }
+
+    /// Returns the number of stackings or samples of a shard. Two mirror images with the same forces count as one. On a
+    /// base the number includes the stackings that are left out.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run), except [`Error::NoJudge`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(9, FirstSign::Random)?;
+    /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+    /// assert_eq!(ensemble.size(&Choice::All, Shard::new(1, 4)?)?, 32);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn size(&self, choice: &Choice, shard: Shard) -> Result<u64, Error> {
+        let Range { start, end } = Task::new(self, choice, shard)?.range;
+        Ok(end - start)
+    }
+}
+
 /// A run over the stackings or samples of one shard.
-pub(super) struct Run<'r, E> {
-    pub(super) ensemble: &'r Ensemble,
-    pub(super) choice: &'r Choice,
-    pub(super) shard: Shard,
-    pub(super) task: &'r Task,
-    pub(super) observer: &'r (dyn Fn(u64) + Sync),
+struct Run<'r, E> {
+    ensemble: &'r Ensemble,
+    choice: &'r Choice,
+    shard: Shard,
+    task: &'r Task,
+    observer: &'r (dyn Fn(u64) + Sync),
     /// The function that decides stability with horizontal contacts, if the ensemble counts it.
-    pub(super) judge: Option<&'r Judge<'r, E>>,
+    judge: Option<&'r Judge<'r, E>>,
 }
 
 /// The constants and the verdicts of the stackings that are walked together.
@@ -43,7 +183,7 @@ const AT_ONCE: usize = 1 << 6;
 
 impl<E: From<Error> + Send> Run<'_, E> {
     /// Returns the tally. The integers are as wide as the bound requires.
-    pub(super) fn tally(&self) -> Result<Tally, E> {
+    fn tally(&self) -> Result<Tally, E> {
         if self.task.fits(64) {
             self.in_numbers::<i64>()
         } else if self.task.fits(128) {
@@ -54,7 +194,7 @@ impl<E: From<Error> + Send> Run<'_, E> {
     }
 
     fn in_numbers<T: Numerator>(&self) -> Result<Tally, E> {
-        let has_held = self.ensemble.has_horizontal_contacts;
+        let has_held = self.ensemble.has_horizontal_contacts();
         let judge = self.judge.filter(|_| has_held);
         if has_held && judge.is_none() {
             return Err(Error::NoJudge.into());
@@ -117,7 +257,7 @@ impl<E: From<Error> + Send> Run<'_, E> {
         let mut list: Vec<_> = match self.choice {
             Choice::All => range.map(|index| self.task.order.signs(index)).collect(),
             Choice::Drawn(samples) => {
-                let first = self.ensemble.stackings.first();
+                let first = self.ensemble.stackings().first();
                 let sampler = Sampler::new(samples, first, self.task.steps)?;
                 let mut drawn: Vec<_> = range.map(|n| sampler.sample(n)).collect();
                 drawn.sort_unstable();

@@ -1,4 +1,4 @@
-//! The serialised forms of an ensemble and of samples. Reading calls the checked constructors.
+//! The serialised form of an ensemble. Reading calls the checked constructors.
 
 use cannonpile::data::{as_text, number};
 use cannonpile::lattice::Region;
@@ -6,7 +6,7 @@ use cannonpile::shape::Anchor;
 use num_rational::BigRational;
 use serde::{Deserialize, Serialize};
 
-use super::{Ensemble, Samples};
+use super::Ensemble;
 use crate::Error;
 use crate::{FirstSign, RandomStackings};
 
@@ -54,14 +54,14 @@ impl From<Ensemble> for EnsembleParts {
             weight: weight.down.clone(),
         });
         Self {
-            layers: ensemble.stackings.layers(),
-            first: ensemble.stackings.first(),
+            layers: ensemble.stackings().layers(),
+            first: ensemble.stackings().first(),
             top,
             base,
             loads: loads.collect(),
             weightless: ensemble.layer.is_weightless(),
-            horizontal_contacts: ensemble.has_horizontal_contacts,
-            bins: ensemble.bins,
+            horizontal_contacts: ensemble.has_horizontal_contacts(),
+            bins: ensemble.bin_width().clone(),
         }
     }
 }
@@ -92,21 +92,3 @@ impl TryFrom<EnsembleParts> for Ensemble {
 }
 
 const EXPECTED: &str = "one layer: either a top or a base";
-
-/// The serialised form of [`Samples`].
-#[derive(Deserialize)]
-#[serde(rename = "Samples", deny_unknown_fields)]
-pub(super) struct SamplesParts {
-    samples: u64,
-    seed: u64,
-    #[serde(with = "number")]
-    fault_probability: BigRational,
-}
-
-impl TryFrom<SamplesParts> for Samples {
-    type Error = Error;
-
-    fn try_from(parts: SamplesParts) -> Result<Self, Error> {
-        Self::new(parts.samples, parts.seed, parts.fault_probability)
-    }
-}
