@@ -89,7 +89,7 @@
 //! which re-exports the crates as [`num_bigint`] and [`num_rational`].
 //!
 //! # Map
-//! A module may use only the modules above it in the following table. A test reads the `use` lines and this table.
+//! A module uses the modules above it in the following table. No files use each other in a circle.
 //!
 //! | layer | module | contents |
 //! |---|---|---|
