@@ -1,12 +1,13 @@
 //! The cells that the recursion runs over, and the cells that can contain spheres.
 
-use core::ops::Range;
+use core::ops::{Range, RangeInclusive};
+use std::collections::BTreeMap;
 
 use cannonpile::engine::refuse_beyond_memory;
 use cannonpile::lattice::Region;
 use num_bigint::BigUint;
 
-use super::grid::{FirstRows, Grid, Size, place_shifts, site_shifts};
+use super::grid::{Grid, Size, place_shifts, site_shifts};
 use super::nets::Nets;
 use super::number::Number;
 use super::piles::{RandomPiles, Setting};
@@ -100,17 +101,12 @@ impl<'p> Domain<'p> {
         size.check(QUANTITY, &per_cell, words)?;
         let first = match piles.setting {
             Setting::Plane => {
-                let mut rows = FirstRows::new();
+                let mut rows = BTreeMap::new();
                 for Place { a, b } in loaded(piles)? {
-                    match rows.binary_search_by_key(&b, |(row, _)| *row) {
-                        Ok(row) => {
-                            let cells = &mut rows[row].1;
-                            *cells = cells.start.min(a)..cells.end.max(a + 1);
-                        }
-                        Err(row) => rows.insert(row, (b, a..a + 1)),
-                    }
+                    let cells = rows.entry(b).or_insert(a..a + 1);
+                    *cells = cells.start.min(a)..cells.end.max(a + 1);
                 }
-                rows
+                rows.into_iter().collect()
             }
             Setting::Under(top) => (least[1]..=greatest[1])
                 .map(|b| (b, row_of(&top, b)))
@@ -157,16 +153,21 @@ impl<'p> Domain<'p> {
         }
     }
 
-    /// Returns the net numbers at the top layer: 0, or on a base all numbers for which the top layer has a sphere.
-    pub(super) fn starts(&self) -> impl Iterator<Item = isize> + Clone + '_ {
+    /// Returns the net numbers of steps that are left: −n to n on a base, else only 0.
+    pub(super) fn nets(&self) -> RangeInclusive<isize> {
         // The number of steps is at most the number of cells in memory, so the conversion is exact.
         let steps = self.steps.cast_signed();
-        let range = if self.base().is_some() {
+        if self.base().is_some() {
             -steps..=steps
         } else {
             0..=0
-        };
-        range.filter(move |net| self.base().is_none() || self.region(0, *net).is_some())
+        }
+    }
+
+    /// Returns the net numbers at the top layer: 0, or on a base all numbers for which the top layer has a sphere.
+    pub(super) fn starts(&self) -> impl Iterator<Item = isize> + '_ {
+        let has_top = |net: &isize| self.base().is_none() || self.region(0, *net).is_some();
+        self.nets().filter(has_top)
     }
 
     /// Returns the sites of layer `k` above a base, for a net number of steps that are left. `None` if the layer has no
@@ -243,11 +244,7 @@ impl<'p> Domain<'p> {
         }
         let within = self.piles.net_bounds();
         let in_plane = matches!(self.piles.setting, Setting::Plane);
-        let loads = if in_plane {
-            loaded(self.piles)?
-        } else {
-            Vec::new()
-        };
+        let loads = loaded(self.piles)?;
         let steps = self.steps as i128;
         let is_reached = |cell: usize| {
             let [a, b] = self.grid.coordinates(cell);

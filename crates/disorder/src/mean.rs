@@ -9,7 +9,7 @@ use num_traits::{One, pow};
 
 use super::domain::Domain;
 use super::floor::FLOOR_UNIT;
-use super::number::Factor;
+use super::number::times;
 use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::check_fault_probability;
@@ -70,6 +70,16 @@ impl<T> MeanForce<T> {
             normal: over(normal, forces)?,
             shear_x: over(shear_x, forces)?,
             shear_y: over(shear_y, forces)?,
+        })
+    }
+
+    /// Returns the row with a function applied to its three forces.
+    fn try_forces<E>(self, mut f: impl FnMut(T) -> Result<T, E>) -> Result<Self, E> {
+        Ok(Self {
+            normal: f(self.normal)?,
+            shear_x: f(self.shear_x)?,
+            shear_y: f(self.shear_y)?,
+            ..self
         })
     }
 
@@ -203,14 +213,8 @@ impl<T: Field> Mean<T> {
     #[must_use]
     pub fn given_sphere(&self) -> Self {
         let rows = self.rows.iter().filter_map(|row| {
-            let given = |force: &T| force.checked_div(&row.probability);
-            Some(MeanForce {
-                place: row.place,
-                probability: row.probability.clone(),
-                normal: given(&row.normal)?,
-                shear_x: given(&row.shear_x)?,
-                shear_y: given(&row.shear_y)?,
-            })
+            let given = |force: T| force.checked_div(&row.probability).ok_or(());
+            row.clone().try_forces(given).ok()
         });
         Self {
             rows: rows.collect(),
@@ -255,15 +259,15 @@ impl RandomPiles {
     }
 
     /// Returns the mean, computed with loads and weights that are halved so many times.
-    fn mean_halved<T: Algebra>(&self, q: &T, times: usize) -> Result<Mean<T>, Error> {
+    fn mean_halved<T: Algebra>(&self, q: &T, halvings: usize) -> Result<Mean<T>, Error> {
         let domain = Domain::new(self, 1, 1)?;
         // Each place has four numbers, in a list of its own and then in a row.
         domain.check_memory(1, &BigUint::from(30_u32))?;
-        let power = BigRational::from_integer(BigInt::one() << times);
-        let back = (times > 0).then(|| T::from_rational(&power));
+        let power = BigRational::from_integer(BigInt::one() << halvings);
+        let back = (halvings > 0).then(|| T::from_rational(&power));
         // A load of W mg adds W to the force of each contact, as a weight of mg adds 1.
         let scalar = |x: &BigRational| Ok(T::from_rational(&(x / &power)));
-        let transfer = Transfer::new(&domain, 1, shares(q).each(Factor::Scale), scalar)?;
+        let transfer = Transfer::new(&domain, 1, shares(q).each(Some), scalar)?;
         // An interval would widen even in a division by 1.
         let over = |sum: T, unit: &Option<NonZeroI64>| {
             let mean = sum.div_int(self.firsts());
@@ -279,16 +283,7 @@ impl RandomPiles {
                 over,
                 [&None, &Some(FLOOR_UNIT)],
             )?;
-            let whole = |force: T| match &back {
-                Some(back) => force * back,
-                None => force,
-            };
-            let row = MeanForce {
-                normal: whole(row.normal),
-                shear_x: whole(row.shear_x),
-                shear_y: whole(row.shear_y),
-                ..row
-            };
+            let row = row.try_forces(|force| Ok::<_, Error>(times(force, back.as_ref())))?;
             row.try_map(defined)
         });
         Ok(Mean::of(rows.collect::<Result<_, Error>>()?))

@@ -2,7 +2,7 @@
 
 use cannonpile::lattice::{Region, Sign};
 
-use super::number::{Factor, Number, add, tripled};
+use super::number::{Number, add, times, tripled};
 use super::place::Place;
 use crate::error::bug;
 use crate::{Each, Error};
@@ -68,8 +68,7 @@ impl<T: Number> NetCounts<T> {
     /// tripled, as forces are.
     pub(super) fn choose(
         &mut self,
-        same: &Factor<T>,
-        change: &Factor<T>,
+        [same, change]: [Option<&T>; 2],
         before: impl Fn(usize) -> Option<usize>,
     ) {
         let moved = core::mem::take(&mut self.counts);
@@ -85,10 +84,10 @@ impl<T: Number> NetCounts<T> {
                 }
                 let mut row = vec![T::zero(); 2 * self.steps + 1];
                 for (to, from) in row.iter_mut().zip(straight.into_iter().flatten()) {
-                    *to = same.times(from.clone());
+                    *to = times(from.clone(), same);
                 }
                 for (to, from) in row.iter_mut().zip(turned.into_iter().flatten()) {
-                    add(to, &change.times(tripled(from)));
+                    add(to, &times(tripled(from), change));
                 }
                 Some(row)
             })

@@ -1,4 +1,4 @@
-//! The scalars of the recursion, and the factors of its two terms.
+//! The scalars of the recursion.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -25,23 +25,12 @@ impl<T> Number for T where
 {
 }
 
-/// A constant factor.
-#[derive(Clone, Debug)]
-pub(super) enum Factor<T> {
-    /// The factor 1, for sums by numbers of faults. No multiplication takes place.
-    One,
-    /// A probability, times a common denominator.
-    Scale(T),
-}
-
-impl<T: Number> Factor<T> {
-    /// Returns `x` times the factor.
-    #[inline]
-    pub(super) fn times(&self, x: T) -> T {
-        match self {
-            Self::One => x,
-            Self::Scale(factor) => x * factor,
-        }
+/// Returns `x` times a factor. `None` stands for 1, for sums by numbers of faults, where no multiplication takes place.
+#[inline]
+pub(super) fn times<T: Number>(x: T, factor: Option<&T>) -> T {
+    match factor {
+        Some(factor) => x * factor,
+        None => x,
     }
 }
 

@@ -33,7 +33,7 @@ use num_rational::BigRational;
 
 use super::domain::Domain;
 use super::nets::{NetCounts, SIGNS};
-use super::number::{Factor, Number, add};
+use super::number::{Number, add, times};
 use super::place::Place;
 use super::width::Width;
 use crate::error::bug;
@@ -51,10 +51,8 @@ pub(super) struct Transfer<'f, T> {
     domain: &'f Domain<'f>,
     /// The number of classes: a class for each number of faults, or one class.
     classes: usize,
-    /// The factor of g_σ.
-    same: Factor<T>,
-    /// The factor of 3G g_(−σ).
-    change: Factor<T>,
+    /// The factors of g_σ and of 3G g_(−σ). `None` stands for 1, for sums by numbers of faults.
+    factors: [Option<T>; 2],
     /// The force that a sphere adds to each of its contacts.
     weight: T,
     /// The force that each load adds to each contact of its sphere, by site of the top layer.
@@ -95,8 +93,8 @@ fn run_in<T: Number + TryFrom<BigInt> + Into<BigInt>>(
     let number = |n: BigInt| T::try_from(n).map_err(|_| bug("the bound holds for all numerators"));
     let scalar = |x: &BigRational| number(x.numer() * (denominator / x.denom()));
     let factors = match shares {
-        None => [Factor::One, Factor::One],
-        Some([same, change]) => [Factor::Scale(number(same)?), Factor::Scale(number(change)?)],
+        None => [None, None],
+        Some([same, change]) => [Some(number(same)?), Some(number(change)?)],
     };
     let spots = Transfer::new(domain, classes, factors, scalar)?.run()?;
     let widened = spots.into_iter().map(|Spot { place, classes }| {
@@ -114,7 +112,7 @@ impl<'f, T: Number> Transfer<'f, T> {
     pub(super) fn new(
         domain: &'f Domain<'f>,
         classes: usize,
-        [same, change]: [Factor<T>; 2],
+        factors: [Option<T>; 2],
         scalar: impl Fn(&BigRational) -> Result<T, Error>,
     ) -> Result<Self, Error> {
         let mut loads = Vec::new();
@@ -124,8 +122,7 @@ impl<'f, T: Number> Transfer<'f, T> {
         Ok(Self {
             domain,
             classes,
-            same,
-            change,
+            factors,
             weight: scalar(&domain.piles.weight())?,
             loads,
         })
@@ -152,7 +149,9 @@ impl<'f, T: Number> Transfer<'f, T> {
         let mut below = self.empty();
         for k in 1..domain.steps {
             counts.step();
-            counts.choose(&self.same, &self.change, |class| self.before(class));
+            counts.choose(self.factors.each_ref().each(Option::as_ref), |class| {
+                self.before(class)
+            });
             self.transmit(&layer, &mut below, k)?;
             core::mem::swap(&mut layer, &mut below);
             self.add_weights(&mut layer, &counts, k)?;
@@ -174,22 +173,11 @@ impl<'f, T: Number> Transfer<'f, T> {
 
     fn empty(&self) -> Layer<T> {
         let classes = || (0..self.classes).map(|_| [None, None]).collect();
-        self.nets().map(|_| classes()).collect()
+        self.domain.nets().map(|_| classes()).collect()
     }
 
     fn planes(&self) -> Planes<T> {
         [(); 3].each(|()| vec![T::zero(); self.domain.grid.cells()])
-    }
-
-    /// Returns the net numbers of steps that are left, in the order of a [`Layer`]: −n to n on a base, else only one.
-    fn nets(&self) -> core::ops::RangeInclusive<isize> {
-        // The number of steps is at most the number of cells in memory, so the conversion is exact.
-        let steps = self.domain.steps.cast_signed();
-        if self.domain.base().is_some() {
-            -steps..=steps
-        } else {
-            0..=0
-        }
     }
 
     /// Returns the index in a [`Layer`] of a net number of steps that are left.
@@ -213,7 +201,7 @@ impl<'f, T: Number> Transfer<'f, T> {
 
     /// Transmits the forces of a layer to layer `k` and through its spheres, without their weights.
     fn transmit(&self, from: &Layer<T>, to: &mut Layer<T>, k: usize) -> Result<(), Error> {
-        for (net, classes) in self.nets().zip(to) {
+        for (net, classes) in self.domain.nets().zip(to) {
             // Other numbers cannot lead to the base in the steps that are left.
             let reaches = net.unsigned_abs() <= self.domain.steps - k;
             for (class, signs) in classes.iter_mut().enumerate() {
@@ -251,7 +239,7 @@ impl<'f, T: Number> Transfer<'f, T> {
             if let Some((sign, from)) = straight {
                 let from = self.above(from, &cells, sign)?;
                 for (row, from) in rows.iter_mut().zip(from) {
-                    carry(row, from, &self.same);
+                    carry(row, from, self.factors[0].as_ref());
                 }
             } else {
                 for row in &mut rows {
@@ -260,7 +248,7 @@ impl<'f, T: Number> Transfer<'f, T> {
             }
             if let Some((sign, from)) = turned {
                 let from = self.above(from, &cells, sign)?;
-                turn(rows, from, &self.change);
+                turn(rows, from, self.factors[1].as_ref());
             }
         }
         Ok(())
@@ -298,22 +286,22 @@ fn rows_mut<'l, T>(
 
 /// Sets `to` to the term of an unchanged sign.
 #[inline]
-fn carry<T: Number>(to: &mut [T], from: &[T], same: &Factor<T>) {
+fn carry<T: Number>(to: &mut [T], from: &[T], same: Option<&T>) {
     for (to, from) in to.iter_mut().zip(from) {
-        *to = same.times(from.clone());
+        *to = times(from.clone(), same);
     }
 }
 
 /// Adds the term of a changed sign.
 #[inline]
-fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: &Factor<T>) {
+fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: Option<&T>) {
     let [ga, gb, gc] = from;
     let to = a.iter_mut().zip(b).zip(c);
     for (((a, b), c), ((ga, gb), gc)) in to.zip(ga.iter().zip(gb).zip(gc)) {
         let [ta, tb, tc] = formula::tripled_half_turn(&[ga.clone(), gb.clone(), gc.clone()]);
-        add(a, &change.times(ta));
-        add(b, &change.times(tb));
-        add(c, &change.times(tc));
+        add(a, &times(ta, change));
+        add(b, &times(tb, change));
+        add(c, &times(tc, change));
     }
 }
 

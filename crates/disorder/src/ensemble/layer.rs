@@ -7,20 +7,12 @@ use num_integer::Integer;
 use num_traits::ToPrimitive;
 
 use crate::error::bug;
+use crate::number::Number;
 use crate::{Each, Error};
 
 /// An integer type. A bound computed beforehand ensures that it is wide enough, so plain operators do not overflow.
 pub(super) trait Numerator:
-    Clone
-    + Integer
-    + ToPrimitive
-    + TryFrom<BigInt>
-    + Into<BigInt>
-    + for<'a> core::ops::Add<&'a Self, Output = Self>
-    + for<'a> core::ops::Sub<&'a Self, Output = Self>
-    + for<'a> core::ops::Mul<&'a Self, Output = Self>
-    + Send
-    + Sync
+    Number + Integer + ToPrimitive + TryFrom<BigInt> + Into<BigInt> + Send + Sync
 {
 }
 

@@ -296,10 +296,8 @@ fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
         let most = most.ok_or_else(|| bug("a layer has a region"))?;
         numbers += &most * NUMBERS;
         refuse_too_many(&numbers, &anchor)?;
-        sizes.push(
-            most.to_u128()
-                .ok_or_else(|| bug("the limit fits 128 bits"))?,
-        );
+        let most = most.to_u128();
+        sizes.push(most.ok_or_else(|| bug("the limit fits 128 bits"))?);
     }
     Ok(sizes)
 }

@@ -26,10 +26,8 @@ impl<T: Number> Transfer<'_, T> {
                     let cell = self.domain.top_cell(*site);
                     for plane in planes.iter_mut() {
                         let force = cell.and_then(|cell| plane.get_mut(cell));
-                        add(
-                            force.ok_or_else(|| bug("loads are on the top layer"))?,
-                            load,
-                        );
+                        let force = force.ok_or_else(|| bug("loads are on the top layer"))?;
+                        add(force, load);
                     }
                 }
             }
@@ -48,7 +46,7 @@ impl<T: Number> Transfer<'_, T> {
             return Ok(());
         }
         let steps = self.domain.steps;
-        for (net, classes) in self.nets().zip(layer) {
+        for (net, classes) in self.domain.nets().zip(layer) {
             for (cells, nets) in self.domain.possible_spheres(k, net)? {
                 for (class, signs) in classes.iter_mut().enumerate() {
                     for (sign, planes) in signs.iter_mut().enumerate() {
