@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 
 use super::record::{CRITERION, Names, give, is_tilted, name};
-use super::{CardTitle, layers};
+use super::title::{CardTitle, layers};
 use crate::Error;
 use crate::error::bug;
 use crate::numbered::NumberedPile;

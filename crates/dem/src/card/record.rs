@@ -11,7 +11,7 @@ use super::extremes::{Extreme, Extremes};
 use super::lists::{
     FORCE, base, contact, contacts, integer, joined, placed, rational, spheres, value,
 };
-use super::{CardTitle, heading};
+use super::title::{CardTitle, heading};
 use crate::Error;
 use crate::error::bug;
 use crate::numbered::{NumberedPile, nearest};

@@ -3,10 +3,10 @@
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 
-use super::CardTitle;
 use super::lists::{FORCE, placed, rational};
 use super::page::Layout;
 use super::record::{Names, criteria, framed, give, name, of_pile, scene_option};
+use super::title::CardTitle;
 use crate::numbered::{NumberedPile, all_rounded};
 use crate::template::fill_lines;
 use crate::{Each, Error, Friction};

@@ -51,9 +51,8 @@ pub fn name_subject_and_method<F>(theorems: &[&Theorem<F>], subjects: &[(&str, &
 
 /// Panics unless the theorems have the listed numbers of steps. This shows that no case is missing.
 pub fn have_steps<F: Library>(theorems: &[&Theorem<F>], expected: &[(&str, usize)]) {
-    let steps: Vec<_> = theorems
-        .iter()
-        .map(|theorem| (theorem.name, theorem.prove().steps.len()))
-        .collect();
+    let steps = theorems.iter();
+    let steps = steps.map(|theorem| (theorem.name, theorem.prove().steps.len()));
+    let steps: Vec<_> = steps.collect();
     assert_eq!(steps, expected);
 }
