@@ -1,13 +1,10 @@
 //! Checks the correct rounding of ten million random and adversarial values of each quantity.
 //!
-//! `cargo bench --manifest-path benches/Cargo.toml --bench rounding`
+//! `cargo bench --manifest-path benches/Cargo.toml --bench rounding --features all`
 //! rounds roots, rationals and every physical quantity of all kinds of piles to `f64` and `f32`. It checks each float in
 //! integers, by the squares of the midpoints to its neighbours, and asserts that no float is wrong. It prints the number of
 //! values, the number of wrong roundings, and nanoseconds for each value. Most of this time generates and checks the value.
 //! With `-- --smoke` it checks some hundred values. With a name, or a part of it, it checks this quantity only.
-//!
-//! With `-- --stress` it measures the tables of `crates/testkit/src/stress` instead: the errors after hundreds of sign
-//! changes in every scalar. This takes some minutes.
 
 use std::env;
 use std::time::Instant;
@@ -16,17 +13,11 @@ use cannonpile_testkit::rounding::numbers;
 use cannonpile_testkit::rounding::quantities::Quantity;
 use cannonpile_testkit::rounding::random::Random;
 use cannonpile_testkit::rounding::tally::Tally;
-use cannonpile_testkit::stress::cases;
-use cannonpile_testkit::stress::deep::Deep;
-use cannonpile_testkit::stress::table::{self, Answers};
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let smoke = arguments.iter().any(|argument| argument == "--smoke");
     let cases = if smoke { 500 } else { 10_000_000 };
-    if arguments.iter().any(|argument| argument == "--stress") {
-        return stress_table(!smoke);
-    }
     let named: Vec<&String> = arguments.iter().filter(|a| !a.starts_with('-')).collect();
     let wanted = |name: &str| named.is_empty() || named.iter().any(|part| name.contains(*part));
 
@@ -43,25 +34,6 @@ fn main() {
     for quantity in Quantity::ALL {
         if wanted(quantity.name()) {
             report(quantity.name(), |random| quantity.tally(random, cases));
-        }
-    }
-}
-
-fn stress_table(with_deep: bool) {
-    print!("{}", table::HEAD);
-    for case in cases::all() {
-        let rows = table::rows(&case, &Answers::of(&case.pile));
-        print!("{}", rows.unwrap_or_else(|fault| panic!("{fault}")));
-    }
-    if with_deep {
-        for layers in Deep::LAYERS {
-            let measured = Deep::measured(layers).to_string();
-            print!("\n{measured}");
-            let written = include_str!("../crates/testkit/src/stress/deep.md");
-            assert!(
-                written.contains(&measured),
-                "not in crates/testkit/src/stress/deep.md"
-            );
         }
     }
 }

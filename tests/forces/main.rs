@@ -4,6 +4,13 @@
 //! rounding.
 
 #[cfg(feature = "std")]
+mod dual;
+#[cfg(feature = "std")]
+mod limits;
+#[cfg(feature = "std")]
+mod theorems;
+
+#[cfg(feature = "std")]
 mod formula {
     mod one_body;
     mod turn;

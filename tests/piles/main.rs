@@ -20,5 +20,6 @@ mod shape {
 
 mod geometry {
     mod clearance;
+    mod overlap;
     mod positions;
 }

@@ -1,16 +1,22 @@
 //! Piles of random stackings in two forms: for the library, and for an oracle that enumerates all stackings.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::scalar::{Polynomial, Symbol};
-use cannonpile_disorder::{Error, FirstSign, Mean, MeanForce, Place, RandomPiles, RandomStackings};
+use cannonpile_disorder::{Error, FirstSign, Mean, MeanForce, RandomPiles, RandomStackings};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero, pow};
 
-use super::oracles::one_by_one::{self, Floor, Grown, faults, of_site, sequences};
+use crate::oracles::balance::{Balance, Sites};
+
+/// A position in the plane, by its steps along the horizontal parts of the contacts β and γ of a step with sign +.
+pub type Place = [i64; 2];
+
+/// The force on the floor below a sphere: normal in mg, shear_x in mg·tanθ, shear_y in √3·mg·tanθ.
+pub type Floor = [BigRational; 3];
 
 /// The layer that the piles grow from: a plane, a top layer or a base.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,10 +46,10 @@ pub struct Piles {
 
 /// By position and number of faults: the number of stackings that have a sphere there, and the sum of its forces on the
 /// floor.
-pub type Sums = BTreeMap<(one_by_one::Place, usize), (BigUint, Floor)>;
+pub type Sums = BTreeMap<(Place, usize), (BigUint, Floor)>;
 
 /// Probability, normal, shear_x and shear_y by position.
-pub type Means = BTreeMap<one_by_one::Place, [BigRational; 4]>;
+pub type Means = BTreeMap<Place, [BigRational; 4]>;
 
 fn zeros<const N: usize>() -> [BigRational; N] {
     [(); N].map(|()| BigRational::zero())
@@ -54,15 +60,34 @@ fn small(n: i128) -> i64 {
 }
 
 /// The position in the oracle's type.
-pub fn named(place: Place) -> one_by_one::Place {
+pub fn named(place: cannonpile_disorder::Place) -> Place {
     [small(place.a), small(place.b)]
 }
 
-fn spheres(region: Region) -> BTreeSet<one_by_one::Place> {
-    let sites = region
-        .rows(0)
-        .flat_map(|row| row.i.map(move |i| [i, row.j]));
-    sites.map(|site| of_site(site.map(small))).collect()
+/// The position of a site of a layer, `net` + steps further down than − steps.
+pub fn of_site([i, j]: [i64; 2], net: i64) -> Place {
+    [2 * i + j - net, i + 2 * j - net]
+}
+
+/// All sequences of `steps` signs with this first sign, or with either.
+fn sequences(steps: usize, first: Option<i64>) -> Vec<Vec<i64>> {
+    let all = (0..1_u32 << steps).map(|bits| {
+        let sign = |step: usize| if bits >> step & 1 == 0 { 1 } else { -1 };
+        (0..steps).map(sign).collect::<Vec<_>>()
+    });
+    all.filter(|signs| first.is_none() || signs.first().is_none_or(|sign| Some(*sign) == first))
+        .collect()
+}
+
+/// The number of sign changes.
+pub fn faults(signs: &[i64]) -> usize {
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+fn sites(region: Region) -> Sites {
+    let rows = region.rows(0);
+    rows.flat_map(|row| row.i.map(move |i| (row.j, i)))
+        .collect()
 }
 
 impl Piles {
@@ -118,30 +143,43 @@ impl Piles {
     }
 
     /// The force on the floor below each sphere of one stacking. Empty if the base does not support the stacking.
-    pub fn bottom(&self, signs: &[i64]) -> BTreeMap<one_by_one::Place, Floor> {
-        let grown = match self.anchor {
-            Anchor::Plane => Grown::Plane,
-            Anchor::Top(top) => Grown::Top(spheres(top)),
-            Anchor::Base(base) => Grown::Base(spheres(base)),
+    pub fn bottom(&self, signs: &[i64]) -> BTreeMap<Place, Floor> {
+        let steps = signs.iter().map(|sign| if *sign > 0 { '+' } else { '-' });
+        let steps: String = steps.collect();
+        let loaded = self
+            .loads
+            .iter()
+            .map(|([i, j], _)| (i128::from(*j), i128::from(*i)));
+        let balance = match self.anchor {
+            // The spheres that no load reaches transmit nothing.
+            Anchor::Plane => Some(Balance::under(&loaded.collect(), &steps)),
+            Anchor::Top(top) => Some(Balance::under(&sites(top), &steps)),
+            Anchor::Base(base) => Balance::on(&sites(base), &steps),
         };
-        let weight = if self.weightless {
-            BigRational::zero()
-        } else {
-            BigRational::one()
+        let Some(mut balance) = balance else {
+            return BTreeMap::new();
         };
-        let mut loads = BTreeMap::new();
-        for (site, load) in &self.loads {
-            *loads
-                .entry(of_site(*site))
-                .or_insert_with(BigRational::zero) += load;
+        if self.weightless {
+            balance.ordinary = BigRational::zero();
         }
-        let mut bottom = one_by_one::bottom(&grown, &weight, &loads, signs).unwrap_or_default();
+        for ([i, j], load) in &self.loads {
+            let at = (0, i128::from(*j), i128::from(*i));
+            let before = balance.weight(at).clone();
+            balance.weights.insert(at, before + load);
+        }
+        let net = match self.anchor {
+            // Positions are those of the base.
+            Anchor::Base(_) => 0,
+            Anchor::Plane | Anchor::Top(_) => signs.iter().sum(),
+        };
+        let floor = balance.forces().floor.into_iter();
+        let mut bottom: BTreeMap<Place, Floor> = floor
+            .map(|((_, j, i), floor)| (of_site([i, j].map(small), net), floor))
+            .collect();
         if self.anchor == Anchor::Plane {
-            // The library also lists the other spheres that a load can reach. The oracle omits them, because their
-            // force is zero.
+            // The library also lists the spheres that a load can reach in another stacking. Their force is zero.
             let n = i64::try_from(self.steps).expect("few steps");
-            let net: i64 = signs.iter().sum();
-            for [x, y] in loads.keys() {
+            for [x, y] in self.loads.iter().map(|(site, _)| of_site(*site, 0)) {
                 for (a, b) in (-n..=n).flat_map(|a| (-n..=n).map(move |b| (a, b))) {
                     let reached = a.max(b).max(0) - a.min(b).min(0) <= n;
                     if reached && (x + a + y + b - net).rem_euclid(3) == 0 {

@@ -10,7 +10,6 @@
 //! | [`claims`] | properties that hold for every input, as functions of bytes | some |
 //! | `codes` | contact tables as DEM codes write them | `dem` |
 //! | `disorder` | piles of random stackings, for the library and for an oracle | `disorder` |
-//! | [`dual`] | dual numbers, for derivatives | |
 //! | [`errors`] | checks of error messages | |
 //! | [`generators`] | random inputs from plain bytes | some |
 //! | `guide` | the Rust examples of the guide, as doc tests | some |
@@ -26,9 +25,7 @@
 //! | [`rational`] | rationals from machine integers | |
 //! | [`rounding`] | inputs that are critical for correct rounding | some |
 //! | `scenes` | scenes of every kind, and the files of their piles | `dem` |
-//! | [`stress`] | piles at the limits of floats, and the errors of each scalar there | |
 //! | `tally` | ensembles of stackings, enumerated one by one | `disorder` |
-//! | [`theorems`] | theorems about the answers for any straight pile | |
 //!
 //! The tests of this crate inject faults and show that each check catches them.
 
@@ -47,7 +44,6 @@ pub mod codes;
 pub mod compare;
 #[cfg(feature = "disorder")]
 pub mod disorder;
-pub mod dual;
 pub mod errors;
 pub mod generators;
 #[cfg(doctest)]
@@ -66,7 +62,5 @@ pub mod rational;
 pub mod rounding;
 #[cfg(feature = "dem")]
 pub mod scenes;
-pub mod stress;
 #[cfg(feature = "disorder")]
 pub mod tally;
-pub mod theorems;

@@ -26,6 +26,11 @@ impl fmt::Display for Divergence {
     }
 }
 
+/// A scalar with division whose values are real numbers.
+pub trait Real: Field + RealEmbeddable {}
+
+impl<T: Field + RealEmbeddable> Real for T {}
+
 /// Runs every operation in two scalars and records the first at which they differ.
 ///
 /// Two values *differ* if their enclosures are disjoint. The enclosure of a rounded scalar of p bits is first widened by
@@ -38,11 +43,7 @@ pub struct Pair<A, B> {
     divergence: Option<Box<Divergence>>,
 }
 
-impl<A, B> Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Pair<A, B> {
     /// Two values that should be the same number.
     pub fn new(first: A, second: B) -> Self {
         Self {
@@ -94,11 +95,7 @@ where
 }
 
 /// Tells whether two values may be the same number, as far as their scalars can decide.
-fn may_be_equal<A, B>(a: &A, b: &B) -> bool
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+fn may_be_equal<A: Real, B: Real>(a: &A, b: &B) -> bool {
     match (widened(a), widened(b)) {
         (Some(a), Some(b)) => a.lower <= b.upper && b.lower <= a.upper,
         // An enclosure without finite bounds contains every number.
@@ -126,11 +123,7 @@ impl<A: PartialEq, B: PartialEq> PartialEq for Pair<A, B> {
 
 macro_rules! operators {
     ($($operation:ident $method:ident $text:literal),*) => {$(
-        impl<A, B> $operation<&Self> for Pair<A, B>
-        where
-            A: Field + RealEmbeddable,
-            B: Field + RealEmbeddable,
-        {
+        impl<A: Real, B: Real> $operation<&Self> for Pair<A, B> {
             type Output = Self;
 
             fn $method(self, rhs: &Self) -> Self {
@@ -142,11 +135,7 @@ macro_rules! operators {
 
 operators!(Add add "a + b", Sub sub "a - b", Mul mul "a * b");
 
-impl<A, B> Add for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Add for Pair<A, B> {
     type Output = Self;
 
     fn add(self, rhs: Self) -> Self {
@@ -154,11 +143,7 @@ where
     }
 }
 
-impl<A, B> Mul for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Mul for Pair<A, B> {
     type Output = Self;
 
     fn mul(self, rhs: Self) -> Self {
@@ -166,11 +151,7 @@ where
     }
 }
 
-impl<A, B> Neg for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Neg for Pair<A, B> {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -183,11 +164,7 @@ where
     }
 }
 
-impl<A, B> Zero for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Zero for Pair<A, B> {
     fn zero() -> Self {
         Self::new(A::zero(), B::zero())
     }
@@ -197,31 +174,19 @@ where
     }
 }
 
-impl<A, B> One for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> One for Pair<A, B> {
     fn one() -> Self {
         Self::new(A::one(), B::one())
     }
 }
 
-impl<A, B> Ring for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Ring for Pair<A, B> {
     fn from_i128(n: i128) -> Self {
         Self::new(A::from_i128(n), B::from_i128(n))
     }
 }
 
-impl<A, B> Algebra for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Algebra for Pair<A, B> {
     /// The weaker of the two scalars.
     const EXACTNESS: Exactness = A::EXACTNESS.weaker(B::EXACTNESS);
     const NAME: &'static str = "Pair";
@@ -248,21 +213,13 @@ where
     }
 }
 
-impl<A, B> OwnNumerators for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> OwnNumerators for Pair<A, B> {
     fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }
 
-impl<A, B> Field for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> Field for Pair<A, B> {
     /// `None` if either scalar cannot divide.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
         let quotient = Self {
@@ -277,11 +234,7 @@ where
     }
 }
 
-impl<A, B> RealEmbeddable for Pair<A, B>
-where
-    A: Field + RealEmbeddable,
-    B: Field + RealEmbeddable,
-{
+impl<A: Real, B: Real> RealEmbeddable for Pair<A, B> {
     /// The sign if both scalars agree on it.
     fn sign(&self) -> RealSign {
         if self.first.sign() == self.second.sign() {

@@ -9,7 +9,8 @@ use cannonpile_testkit::answers::{Answers, Shape};
 use cannonpile_testkit::cases::{Bounds, Random};
 use cannonpile_testkit::oracles::balance::{Balance, Forces, direction, ratio, site};
 use cannonpile_testkit::oracles::elimination;
-use cannonpile_testkit::theorems;
+
+use crate::theorems;
 
 fn agrees(shape: &Shape) {
     for layers in 1..=12 {

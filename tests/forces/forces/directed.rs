@@ -8,10 +8,11 @@ use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces, Load, Method, Pile, ratio};
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs};
 use cannonpile_testkit::compare::agrees;
-use cannonpile_testkit::dual::Dual;
 use cannonpile_testkit::laws::{obeys_algebra, obeys_integers};
 use num_rational::BigRational;
 use num_traits::Zero;
+
+use crate::dual::Dual;
 
 fn tilt(random: &mut Random) -> [BigRational; 2] {
     [(); 2].map(|()| random.signed())

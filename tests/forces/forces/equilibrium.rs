@@ -2,8 +2,9 @@
 
 use cannonpile::geometry::Vector;
 use cannonpile_testkit::answers::{Answers, Shape};
-use cannonpile_testkit::theorems::{Verdict, balance, base};
 use num_rational::BigRational;
+
+use crate::theorems::{Verdict, balance, base};
 
 /// Checks all theorems about a pile of this shape.
 fn theorems_hold(shape: &Shape, layers: i128) -> Verdict {

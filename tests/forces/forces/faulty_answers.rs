@@ -2,10 +2,11 @@
 
 use cannonpile::lattice::{Direction, Site};
 use cannonpile_testkit::answers::{Answers, Contact, Shape, ratio};
-use cannonpile_testkit::theorems::symmetry::{MIRRORED, Symmetry, TURNS, invariant};
-use cannonpile_testkit::theorems::{Verdict, balance, base};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
+
+use crate::theorems::symmetry::{MIRRORED, Symmetry, TURNS, invariant};
+use crate::theorems::{Verdict, agree, balance, base};
 
 const LAYERS: i128 = 5;
 
@@ -216,7 +217,7 @@ fn symmetries() {
 #[test]
 fn the_oracle_of_forces() {
     let solved = cannonpile_testkit::oracles::elimination::solve(&Shape::equilateral(), LAYERS);
-    let agrees = |pile: &Answers| cannonpile_testkit::theorems::agree(pile, &solved);
+    let agrees = |pile: &Answers| agree(pile, &solved);
     for fault in [
         one_increment_more,
         neighbours_transposed,
@@ -242,10 +243,8 @@ fn the_oracle_of_forces() {
     });
     // The oracle depends on the shape.
     for other in [Shape::Spheres(ratio(501, 1000)), Shape::Discs] {
-        assert!(
-            cannonpile_testkit::theorems::agree(&Answers::of(&other, LAYERS), &solved).is_err()
-        );
+        assert!(agree(&Answers::of(&other, LAYERS), &solved).is_err());
     }
     let taller = Answers::of(&Shape::equilateral(), LAYERS + 1);
-    assert!(cannonpile_testkit::theorems::agree(&taller, &solved).is_err());
+    assert!(agree(&taller, &solved).is_err());
 }

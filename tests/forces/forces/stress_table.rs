@@ -1,4 +1,4 @@
-//! At the limits of floats, the errors of each scalar equal the table in `crates/testkit/src/stress/table.md` and respect
+//! At the limits of floats, the errors of each scalar equal the table in `tests/forces/limits/table.md` and respect
 //! their bounds.
 
 use std::fs;
@@ -6,9 +6,10 @@ use std::fs;
 use cannonpile::scalar::Interval;
 
 use cannonpile_testkit::judge::exact;
-use cannonpile_testkit::stress::cases::{self, Case};
-use cannonpile_testkit::stress::errors::{Worst, unit};
-use cannonpile_testkit::stress::table::{self, Answers};
+
+use crate::limits::cases::{self, Case};
+use crate::limits::errors::{Worst, unit};
+use crate::limits::table::{self, Answers};
 
 fn rows(case: &Case) -> Result<String, String> {
     table::rows(case, &Answers::of(&case.pile))
@@ -19,10 +20,7 @@ fn errors_at_the_limits_match_the_table() {
     let cases: Vec<Case> = cases::all();
     let rows = cases.iter().map(rows).collect::<Result<String, _>>();
     let measured = table::HEAD.to_owned() + &rows.unwrap_or_else(|fault| panic!("{fault}"));
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/crates/testkit/src/stress/table.md"
-    );
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/forces/limits/table.md");
     if std::env::var_os("STRESS_TABLE_RENEW").is_some() {
         fs::write(path, &measured).expect("the table is written");
     }
@@ -30,26 +28,27 @@ fn errors_at_the_limits_match_the_table() {
     for (measured, written) in measured.lines().zip(table.lines()) {
         assert_eq!(
             measured, written,
-            "if the new errors are right, renew the table: STRESS_TABLE_RENEW=1 cargo test --test forces stress_table"
+            "if the new errors are right, renew the table: STRESS_TABLE_RENEW=1 cargo test --release --test forces stress_table"
         );
     }
     assert_eq!(measured.lines().count(), table.lines().count());
 }
 
-/// Of a pile with a thousand sign changes this test measures only floats, because other scalars take minutes. The bench
-/// `rounding` measures them with `-- --stress`. Without optimisation even the exact forces are slow.
+/// Of a pile with a thousand sign changes this test measures only floats, unless the tables are renewed, because other
+/// scalars take minutes. Without optimisation even the exact forces are slow.
 #[cfg(not(debug_assertions))]
 #[test]
 fn errors_after_many_changes_of_sign_are_those_of_the_table() {
-    use cannonpile_testkit::stress::deep::Deep;
+    use crate::limits::deep::Deep;
 
     let [in_floats, in_all] = Deep::LAYERS;
-    let mut deep = Deep::new(in_floats);
-    deep.measure_floats();
+    let deep = if std::env::var_os("STRESS_TABLE_RENEW").is_some() {
+        Deep::measured(in_floats)
+    } else {
+        Deep::in_floats(in_floats)
+    };
     // The title of a table and its rows.
-    let parts: Vec<&str> = include_str!("../../../crates/testkit/src/stress/deep.md")
-        .split("\n\n")
-        .collect();
+    let parts: Vec<&str> = include_str!("../limits/deep.md").split("\n\n").collect();
     for (measured, layers) in [(deep, in_floats), (Deep::measured(in_all), in_all)] {
         let mut tables = parts.chunks(2);
         let written = tables.find(|table| table[0].starts_with(&format!("{layers} layers ")));
@@ -59,7 +58,7 @@ fn errors_after_many_changes_of_sign_are_those_of_the_table() {
         for line in measured.to_string().lines() {
             assert!(
                 written.contains(line),
-                "not in crates/testkit/src/stress/deep.md: {line}"
+                "not in tests/forces/limits/deep.md: {line}"
             );
         }
     }

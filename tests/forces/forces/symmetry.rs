@@ -2,9 +2,8 @@
 
 use cannonpile::lattice::{Direction, Site, count};
 use cannonpile_testkit::answers::{Answers, Shape, ratio};
-use cannonpile_testkit::theorems::symmetry::{
-    MIRRORED, MIRRORED_DISCS, Symmetry, TURNS, invariant,
-};
+
+use crate::theorems::symmetry::{MIRRORED, MIRRORED_DISCS, Symmetry, TURNS, invariant};
 
 #[test]
 fn equilateral_piles_have_all_six() {

@@ -6,9 +6,10 @@ use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Algebra;
 use cannonpile::shape::Selection;
 use cannonpile::{ForceChange, Load, Packing, Pile, SiBasis, ratio};
-use cannonpile_testkit::dual::Dual;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
+
+use crate::dual::Dual;
 
 type V = [f64; 3];
 

@@ -7,9 +7,10 @@ use cannonpile::lattice::{Region, Sign};
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
 use cannonpile_testkit::answers::{Shape, ratio};
-use cannonpile_testkit::oracles::overlap::{self, Difference};
 use num_rational::BigRational;
 use num_traits::{One, Signed};
+
+use super::overlap::{self, Difference};
 
 fn spacing(q: &BigRational) -> Spacing {
     Spacing::from_square(q.clone()).unwrap()

@@ -5,9 +5,10 @@ use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::{Packing, Pile};
 use cannonpile_testkit::answers::{Shape, below, ratio};
-use cannonpile_testkit::oracles::overlap;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
+
+use super::overlap;
 
 const LAYERS: i128 = 4;
 

@@ -8,8 +8,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use cannonpile_testkit::answers::ratio;
-use cannonpile_testkit::disorder::{Piles, probabilities};
-use cannonpile_testkit::oracles::one_by_one::{faults, of_site};
+use cannonpile_testkit::disorder::{Piles, faults, of_site, probabilities};
 
 const FIRSTS: [FirstSign; 3] = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
 
@@ -131,7 +130,7 @@ fn places_and_sites_agree() {
             let [x, y] = [3 * i - net, 3 * j - net];
             assert_eq!(3 * place.distance_squared().unwrap(), x * x + x * y + y * y);
             if net == 0 {
-                let [a, b] = of_site([i, j].map(|x| i64::try_from(x).unwrap()));
+                let [a, b] = of_site([i, j].map(|x| i64::try_from(x).unwrap()), 0);
                 assert_eq!(
                     place,
                     Place {

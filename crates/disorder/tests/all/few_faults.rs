@@ -6,8 +6,7 @@ use cannonpile_disorder::FirstSign;
 use num_rational::BigRational;
 
 use cannonpile_testkit::answers::ratio;
-use cannonpile_testkit::disorder::{Piles, Sums, by_faults};
-use cannonpile_testkit::oracles::one_by_one::Place;
+use cannonpile_testkit::disorder::{Piles, Place, Sums, by_faults};
 
 type Loads = BTreeMap<Place, BigRational>;
 

@@ -6,8 +6,7 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero, pow};
 
 use cannonpile_testkit::answers::ratio;
-use cannonpile_testkit::disorder::Piles;
-use cannonpile_testkit::oracles::one_by_one::faults;
+use cannonpile_testkit::disorder::{Piles, faults};
 
 /// Returns the mean over all stackings of the sum of squared normal forces.
 fn enumerated(described: &Piles, q: &BigRational) -> BigRational {

@@ -7,8 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use cannonpile_testkit::answers::ratio;
-use cannonpile_testkit::disorder::{Piles, probabilities};
-use cannonpile_testkit::oracles::one_by_one::faults;
+use cannonpile_testkit::disorder::{Piles, faults, probabilities};
 
 /// Returns Σ v r², Σ v r³cos3φ and Σ v r⁴ below one stacking, summed over the spheres.
 fn summed(described: &Piles, signs: &[i64]) -> [BigRational; 3] {

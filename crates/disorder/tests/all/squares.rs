@@ -9,8 +9,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use cannonpile_testkit::answers::ratio;
-use cannonpile_testkit::disorder::{Anchor, Piles, probabilities};
-use cannonpile_testkit::oracles::one_by_one::faults;
+use cannonpile_testkit::disorder::{Anchor, Piles, faults, probabilities};
 
 fn whole(n: i64) -> BigRational {
     BigRational::from_integer(n.into())

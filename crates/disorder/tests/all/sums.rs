@@ -11,9 +11,8 @@ use num_traits::{One, Zero, pow};
 
 use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::disorder::{
-    Anchor, Means, Piles, Sums, by_faults, by_place, named, probabilities,
+    Anchor, Means, Piles, Place, Sums, by_faults, by_place, faults, named, probabilities,
 };
-use cannonpile_testkit::oracles::one_by_one::{Place, faults};
 
 fn whole(n: i64) -> BigRational {
     BigRational::from_integer(n.into())

@@ -9,9 +9,8 @@ use num_traits::{One, Signed, Zero, pow};
 
 use super::parsers::round_trips;
 use super::{Checked, Failure, demand, one_line, same};
-use crate::disorder::{Piles, agrees_at};
+use crate::disorder::{Piles, agrees_at, faults};
 use crate::generators::{disorder, number, rarely, region, text};
-use crate::oracles::one_by_one::faults;
 
 /// Small piles: compares all answers.
 pub fn small(u: &mut Unstructured<'_>) -> Checked {

@@ -13,7 +13,7 @@ use cannonpile_dem::verify;
 use cannonpile_dem::verify::{Comparison, Frame, Measured, Preset, Reader, Refusal};
 use num_traits::{Signed, ToPrimitive};
 
-use super::{Checked, Failure, demand, same};
+use super::{Checked, Failure, demand, one_line, same};
 use crate::codes;
 use crate::generators::number::{self, ratio};
 use crate::generators::{pile, rarely, region, text};
@@ -54,11 +54,7 @@ pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
                 &entries,
             )
         }
-        Err(refusal) => {
-            let message = refusal.to_string();
-            let printable = !message.is_empty() && !message.contains(char::is_control);
-            demand(printable, || format!("not one line: {message:?}"))
-        }
+        Err(refusal) => one_line(&refusal),
     }
 }
 
@@ -88,10 +84,10 @@ pub fn any_table(u: &mut Unstructured<'_>) -> Checked {
             demand(all || !is_exact, || format!("{}", read.comparison))
         }
         Err(refusal) => {
-            let message = refusal.to_string();
-            let printable = !message.is_empty() && !message.contains(char::is_control);
-            demand(printable && message.len() < 1000 && !is_exact, || {
-                format!("not one line, or the table is exact: {message:?}")
+            one_line(&refusal)?;
+            let is_short = refusal.to_string().len() < 1000;
+            demand(is_short && !is_exact, || {
+                format!("long, or the table is exact: {refusal}")
             })
         }
     }

@@ -8,7 +8,7 @@ use cannonpile_dem::verify;
 use cannonpile_dem::verify::{Measured, Reader, Refusal};
 
 use super::measured::{any_pile, damage, perfect};
-use super::{Checked, demand};
+use super::{Checked, demand, one_line};
 use crate::codes;
 use crate::generators::number::ratio;
 use crate::generators::pile::allowed_spacing;
@@ -196,11 +196,9 @@ fn read_or_refused(packing: &Packing<'_>, file: &[u8]) -> Checked {
         let Err(refusal) = reader.compare(packing, file) else {
             continue;
         };
-        let message = refusal.to_string();
-        let is_line = !message.is_empty() && !message.contains(char::is_control);
-        demand(is_line && message.len() < 1000, || {
-            format!("not one line: {message:?}")
-        })?;
+        one_line(&refusal)?;
+        let length = refusal.to_string().len();
+        demand(length < 1000, || format!("a message of {length} bytes"))?;
     }
     Ok(())
 }

@@ -18,7 +18,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 pub use super::sets::Sites;
-use super::sets::{dilated, eroded, supports};
+use super::sets::{on, supports, under};
 
 pub use crate::rational::ratio;
 
@@ -74,6 +74,10 @@ fn named(sign: char) -> Sign {
     }
 }
 
+fn all_named(signs: &str) -> Vec<Sign> {
+    signs.chars().map(named).collect()
+}
+
 /// σ·force.
 fn signed(sign: Sign, force: BigRational) -> BigRational {
     match sign {
@@ -85,21 +89,13 @@ fn signed(sign: Sign, force: BigRational) -> BigRational {
 impl Balance {
     /// Grows a pile down. Each layer contains all supports of the layer above.
     pub fn under(top: &Sites, signs: &str) -> Self {
-        let mut layers = vec![top.clone()];
-        for (k, sign) in signs.chars().enumerate() {
-            layers.push(dilated(&layers[k], named(sign)));
-        }
-        Self::of(layers, signs)
+        Self::of(under(top.clone(), &all_named(signs)), signs)
     }
 
     /// Grows a pile up. Each layer contains all sites with three supports. The signs are read from the top. `None` if a
     /// layer is empty.
     pub fn on(base: &Sites, signs: &str) -> Option<Self> {
-        let mut layers = vec![base.clone()];
-        for (n, sign) in signs.chars().rev().enumerate() {
-            layers.push(eroded(&layers[n], named(sign)));
-        }
-        layers.reverse();
+        let layers = on(base.clone(), &all_named(signs));
         let whole = layers.iter().all(|layer| !layer.is_empty());
         whole.then(|| Self::of(layers, signs))
     }

@@ -6,8 +6,6 @@
 //! | `balance` | the forces of any stacking on any region: the three equations of one sphere after the other |
 //! | `brute` | the forces of a pile grown from its top, in integers, layer by layer |
 //! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
-//! | `one_by_one` | the forces in all stackings, enumerated one by one, at positions in the plane |
-//! | `overlap` | the distance of every two spheres |
 //! | `samples` | the random stackings of a seed (feature `disorder`) |
 //! | `sets` | regions and layers as plain sets of sites |
 
@@ -15,8 +13,6 @@ pub mod admissible;
 pub mod balance;
 pub mod brute;
 pub mod elimination;
-pub mod one_by_one;
-pub mod overlap;
 #[cfg(feature = "disorder")]
 pub mod samples;
 pub mod sets;

@@ -8,8 +8,7 @@ use num_traits::ToPrimitive;
 
 use super::cannonpile;
 use cannonpile_testkit::answers::ratio;
-use cannonpile_testkit::disorder::{Anchor, Means, Piles, alike};
-use cannonpile_testkit::oracles::one_by_one::Place;
+use cannonpile_testkit::disorder::{Anchor, Means, Piles, Place, alike};
 
 /// Returns piles with the options that describe them.
 fn described() -> Vec<(Piles, &'static str)> {

@@ -8,25 +8,25 @@ use cannonpile::{Error, Packing, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Pow};
 
-use crate::judge::exact;
+use cannonpile_testkit::judge::exact;
 
-pub use crate::rational::ratio;
+pub(crate) use cannonpile_testkit::rational::ratio;
 
 /// A pile and the sizes of its packing.
 #[derive(Debug)]
-pub struct Case {
+pub(crate) struct Case {
     /// The name, which states the extreme property.
-    pub name: String,
+    pub(crate) name: String,
     /// The pile.
-    pub pile: Pile,
+    pub(crate) pile: Pile,
     /// `None` if no spacing fits. Then the pile has no answers in SI units.
-    pub spacing: Option<Spacing>,
+    pub(crate) spacing: Option<Spacing>,
     /// The radius of the spheres.
-    pub radius: BigRational,
+    pub(crate) radius: BigRational,
     /// The mass of a sphere.
-    pub mass: BigRational,
+    pub(crate) mass: BigRational,
     /// The gravity.
-    pub gravity: BigRational,
+    pub(crate) gravity: BigRational,
 }
 
 impl Case {
@@ -51,7 +51,7 @@ impl Case {
     }
 
     /// The packed pile, if a spacing fits.
-    pub fn packing(&self) -> Result<Option<Packing<'_>>, Error> {
+    pub(crate) fn packing(&self) -> Result<Option<Packing<'_>>, Error> {
         let Some(spacing) = &self.spacing else {
             return Ok(None);
         };
@@ -62,7 +62,7 @@ impl Case {
     }
 
     /// Tells whether the pile rejects this spacing.
-    pub fn is_refused(&self) -> bool {
+    pub(crate) fn is_refused(&self) -> bool {
         let clearance = self.pile.clearance();
         let refused = |spacing| clearance.check(spacing).is_err();
         self.spacing.as_ref().is_some_and(refused)
@@ -70,7 +70,7 @@ impl Case {
 }
 
 /// All cases without the deep piles of many sign changes.
-pub fn all() -> Vec<Case> {
+pub(crate) fn all() -> Vec<Case> {
     let mut cases = tall();
     cases.extend(at_bounds());
     cases.extend(sizes());
@@ -82,7 +82,7 @@ pub fn all() -> Vec<Case> {
 }
 
 /// Piles with numbers of layers at the limits of floats and beyond.
-pub fn tall() -> Vec<Case> {
+pub(crate) fn tall() -> Vec<Case> {
     let float = 1_i128 << 53;
     [
         ("L = 2^53 - 1", float - 1),
@@ -151,7 +151,7 @@ fn sizes() -> Vec<Case> {
 }
 
 /// A pile with a sign change at every layer, under a hexagon.
-pub fn alternating(side: i128, layers: i128) -> Case {
+pub(crate) fn alternating(side: i128, layers: i128) -> Case {
     let top = Region::hexagon(side, side).expect("a hexagon");
     let pile = Stacking::hcp(layers).and_then(|stacking| Pile::under(top, stacking));
     let name = format!("{layers} layers +-+-, hexagon of {side}");

@@ -8,11 +8,11 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use crate::judge::{Float, exact, significand};
-use crate::rounding::random::power;
+use cannonpile_testkit::judge::{Float, exact, significand};
+use cannonpile_testkit::rounding::random::power;
 
 /// The spacing of the floats of a format near a number: that of its binade, and at least that of subnormals.
-pub fn unit<F: Float>(about: &BigRational) -> BigRational {
+pub(crate) fn unit<F: Float>(about: &BigRational) -> BigRational {
     let (n, d) = (about.numer().magnitude(), about.denom().magnitude());
     let precision = i64::from(F::PRECISION);
     let (_, least) = significand(F::min_positive_value());
@@ -26,7 +26,7 @@ pub fn unit<F: Float>(about: &BigRational) -> BigRational {
 }
 
 /// The greatest distance from `exact` to any number that the answer may represent. `None` if it is unbounded.
-pub fn distance<T: RealEmbeddable>(got: &T, exact: &BigRational) -> Option<BigRational> {
+pub(crate) fn distance<T: RealEmbeddable>(got: &T, exact: &BigRational) -> Option<BigRational> {
     let bounds = got.enclosure()?;
     Some(
         (bounds.upper - exact)
@@ -37,7 +37,7 @@ pub fn distance<T: RealEmbeddable>(got: &T, exact: &BigRational) -> Option<BigRa
 
 /// The difference of a float and its exact value, in units in the last place. It is only for printing: `judge` decides
 /// whether the float is correct.
-pub fn rounding<F: Float>(got: F, surd: &Surd) -> BigRational {
+pub(crate) fn rounding<F: Float>(got: F, surd: &Surd) -> BigRational {
     let value = surd.to_rational().unwrap_or_else(|| approximately(surd));
     let off = (exact(got) - &value).abs();
     off / unit::<F>(&value)
@@ -51,23 +51,23 @@ fn approximately(surd: &Surd) -> BigRational {
 
 /// The worst of several errors.
 #[derive(Clone, Debug)]
-pub struct Worst(Option<BigRational>);
+pub(crate) struct Worst(Option<BigRational>);
 
 impl Worst {
     /// Adds an error. `None` stands for an unbounded one.
-    pub fn add(&mut self, error: Option<BigRational>) {
+    pub(crate) fn add(&mut self, error: Option<BigRational>) {
         // An unbounded error remains unbounded.
         let worst = self.0.take().zip(error);
         self.0 = worst.map(|(worst, error)| worst.max(error));
     }
 
     /// An empty set of errors.
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self(Some(BigRational::zero()))
     }
 
     /// Tells whether no error exceeds a limit.
-    pub fn is_at_most(&self, limit: &BigRational) -> bool {
+    pub(crate) fn is_at_most(&self, limit: &BigRational) -> bool {
         self.0.as_ref().is_some_and(|worst| worst <= limit)
     }
 
@@ -79,7 +79,7 @@ impl Worst {
     }
 
     /// As a power of two.
-    pub fn as_power(&self) -> String {
+    pub(crate) fn as_power(&self) -> String {
         match &self.0 {
             None => "unbounded".into(),
             Some(worst) => Self::exponent(worst).map_or_else(|| "0".into(), |e| format!("2^{e}")),

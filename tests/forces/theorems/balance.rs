@@ -5,11 +5,11 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use super::{Verdict, same};
-use crate::answers::{Answers, below};
+use cannonpile_testkit::answers::{Answers, below};
 
 /// The forces from the spheres below, the reactions to the forces on the spheres above, and the weight sum to zero on every
 /// sphere. In the bottom layer the floor takes the difference.
-pub fn every_sphere_is_balanced(pile: &Answers) -> Verdict {
+pub(crate) fn every_sphere_is_balanced(pile: &Answers) -> Verdict {
     for site in pile.spheres.keys() {
         let mut left = pile.weight_vector();
         for direction in pile.shape.directions() {
@@ -30,7 +30,7 @@ pub fn every_sphere_is_balanced(pile: &Answers) -> Verdict {
 }
 
 /// The forces from above on a sphere equal the forces that the spheres above transmit. At the surface they are zero.
-pub fn neighbours_agree(pile: &Answers) -> Verdict {
+pub(crate) fn neighbours_agree(pile: &Answers) -> Verdict {
     for (site, sphere) in &pile.spheres {
         let mut sum = Vector::zero();
         let mut received = [0, 1, 2].map(|_| BigRational::zero());
@@ -47,7 +47,7 @@ pub fn neighbours_agree(pile: &Answers) -> Verdict {
 }
 
 /// Every force is compressive and acts along the line of centres.
-pub fn forces_lie_along_contacts(pile: &Answers) -> Verdict {
+pub(crate) fn forces_lie_along_contacts(pile: &Answers) -> Verdict {
     for ((site, direction), contact) in &pile.contacts {
         let lower = &pile.spheres[&below(*site, *direction)].position;
         let lean = pile.spheres[site].position.clone() - lower;
@@ -60,7 +60,7 @@ pub fn forces_lie_along_contacts(pile: &Answers) -> Verdict {
 
 /// The resultant of the forces from above points away from the apex and is proportional to the distance: mg/(6R cosθ)·r,
 /// which is r/(2R) in f₀ (`paper`, "Closed form"). This holds for an equilateral base and for discs.
-pub fn resultants_are_central(pile: &Answers) -> Verdict {
+pub(crate) fn resultants_are_central(pile: &Answers) -> Verdict {
     for (site, sphere) in &pile.spheres {
         same(site, &sphere.resultant_above, &sphere.position)?;
     }

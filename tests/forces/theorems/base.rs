@@ -5,10 +5,10 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::{Verdict, same};
-use crate::answers::{Answers, Shape, ratio};
+use cannonpile_testkit::answers::{Answers, Shape, ratio};
 
 /// The base supports the weight of the pile and no horizontal force.
-pub fn base_supports_the_weight(pile: &Answers) -> Verdict {
+pub(crate) fn base_supports_the_weight(pile: &Answers) -> Verdict {
     let sum = pile.floor.values().fold(Vector::zero(), |sum, f| sum + f);
     let weight = whole(pile.spheres.len());
     let total = Vector {
@@ -23,7 +23,7 @@ pub fn base_supports_the_weight(pile: &Answers) -> Verdict {
 ///
 /// Both are sums of r × F, with r from the apex. The common factor 2R·mg·sinθ is left out, and so are 2cosφ or 2cosφ·tanθ of
 /// two components. The weights have no moment about the vertical axis.
-pub fn base_has_the_moment_of_the_weights(pile: &Answers) -> Verdict {
+pub(crate) fn base_has_the_moment_of_the_weights(pile: &Answers) -> Verdict {
     let weight = Vector {
         x: BigRational::zero(),
         y: BigRational::zero(),
@@ -53,7 +53,7 @@ fn moment(r: &Vector<BigRational>, f: &Vector<BigRational>) -> Vector<BigRationa
 
 /// The published forces on the floor: the paper's (13) and (14) for the equilateral base. For discs and for the normal force
 /// on an isosceles base see `paper`, "Closed form".
-pub fn base_is_as_published(pile: &Answers) -> Verdict {
+pub(crate) fn base_is_as_published(pile: &Answers) -> Verdict {
     let integer = |n: i128| BigRational::from_integer(n.into());
     let last = pile.layers - 1;
     for (site, force) in &pile.floor {
@@ -84,7 +84,7 @@ pub fn base_is_as_published(pile: &Answers) -> Verdict {
 }
 
 /// `greatest` is the greatest ratio of shear to normal force over the base, in tanθ.
-pub fn base_shear_is_at_most(pile: &Answers, greatest: &BigRational) -> Verdict {
+pub(crate) fn base_shear_is_at_most(pile: &Answers, greatest: &BigRational) -> Verdict {
     // The squared length of ŷ·2cosφ.
     let y2 = match &pile.shape {
         Shape::Discs => BigRational::zero(),

@@ -9,22 +9,22 @@ use num_traits::{One, Zero};
 
 /// A value and its derivative.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Dual<T> {
+pub(crate) struct Dual<T> {
     /// The value.
-    pub value: T,
+    pub(crate) value: T,
     /// The derivative.
-    pub slope: T,
+    pub(crate) slope: T,
 }
 
 impl<T: Ring> Dual<T> {
     /// The variable at a value: its derivative is 1.
-    pub fn variable(value: T) -> Self {
+    pub(crate) fn variable(value: T) -> Self {
         let slope = T::one();
         Self { value, slope }
     }
 
     /// A constant.
-    pub fn constant(value: T) -> Self {
+    pub(crate) fn constant(value: T) -> Self {
         let slope = T::zero();
         Self { value, slope }
     }

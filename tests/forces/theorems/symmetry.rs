@@ -5,24 +5,24 @@ use cannonpile::lattice::{Direction, Site};
 use num_rational::BigRational;
 
 use super::{Verdict, same};
-use crate::answers::{Answers, ratio};
+use cannonpile_testkit::answers::{Answers, ratio};
 
 /// A symmetry of the pile. The count of the image along α is the old count along the first listed direction, and so on.
 ///
 /// Every permutation maps the sites of a triangular pile onto themselves. On an equilateral base all six are symmetries of
 /// the forces. On an isosceles base, and for discs, only the identity and the mirror α ↔ β are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Symmetry([Direction; 3]);
+pub(crate) struct Symmetry([Direction; 3]);
 
 impl Symmetry {
     /// The paper's rotation about the axis, {j → k−i−j, i → j}: (i, j, k) goes to (j, k−i−j, k).
-    pub const ROTATION: Self = Self([Direction::Beta, Direction::Gamma, Direction::Alpha]);
+    pub(crate) const ROTATION: Self = Self([Direction::Beta, Direction::Gamma, Direction::Alpha]);
 
     /// The mirror that exchanges α and β: (i, j, k) goes to (k−i−j, j, k).
-    pub const MIRROR: Self = Self([Direction::Beta, Direction::Alpha, Direction::Gamma]);
+    pub(crate) const MIRROR: Self = Self([Direction::Beta, Direction::Alpha, Direction::Gamma]);
 
     /// All six permutations of the directions, the identity first, then the rotations.
-    pub const ALL: [Self; 6] = {
+    pub(crate) const ALL: [Self; 6] = {
         use Direction::{Alpha, Beta, Gamma};
         [
             Self([Alpha, Beta, Gamma]),
@@ -35,7 +35,7 @@ impl Symmetry {
     };
 
     /// Returns the image of a site, or `None` if it leaves `i128`. Images of sites of a pile never do.
-    pub fn apply(self, site: Site) -> Option<Site> {
+    pub(crate) fn apply(self, site: Site) -> Option<Site> {
         let Site { i, j, k } = site;
         let [_, i, j] = self.permute(&[k.checked_sub(i)?.checked_sub(j)?, i, j]);
         Some(Site { i, j, k })
@@ -48,21 +48,21 @@ impl Symmetry {
 
     /// Returns the direction whose line maps to the line of `direction`. The count along `direction` at an image is the
     /// count along the returned direction at the original site.
-    pub fn source(self, direction: Direction) -> Direction {
+    pub(crate) fn source(self, direction: Direction) -> Direction {
         self.0[direction.index()]
     }
 }
 
 /// A linear map of the horizontal plane in halves, by rows: ((xx, xy), (yx, yy)) acts on components (x, y) of the symbolic
 /// basis.
-pub type Turn = [[i64; 2]; 2];
+pub(crate) type Turn = [[i64; 2]; 2];
 
 /// The map of the plane for each of `Symmetry::ALL`, on an equilateral base.
 ///
 /// Derived by hand from the directions, which lie at 60°, −60° and 180° from the x axis. A mapping of γ to α rotates by
 /// +120°. In the true components (x, √3·y) these are the identity, two rotations, and the reflections in the x axis and in
 /// the lines of α and β.
-pub const TURNS: [Turn; 6] = [
+pub(crate) const TURNS: [Turn; 6] = [
     [[2, 0], [0, 2]],
     [[-1, -3], [1, -1]],
     [[-1, 3], [-1, -1]],
@@ -72,13 +72,13 @@ pub const TURNS: [Turn; 6] = [
 ];
 
 /// The mirror α ↔ β of an isosceles base: y changes sign, x stays.
-pub const MIRRORED: Turn = TURNS[3];
+pub(crate) const MIRRORED: Turn = TURNS[3];
 
 /// The mirror α ↔ β of discs, which lie along x.
-pub const MIRRORED_DISCS: Turn = [[-2, 0], [0, 2]];
+pub(crate) const MIRRORED_DISCS: Turn = [[-2, 0], [0, 2]];
 
 /// `symmetry` maps every sphere, contact and force on the floor to an equal one, up to the rotation.
-pub fn invariant(pile: &Answers, symmetry: Symmetry, turn: &Turn) -> Verdict {
+pub(crate) fn invariant(pile: &Answers, symmetry: Symmetry, turn: &Turn) -> Verdict {
     for (site, sphere) in &pile.spheres {
         let leaves = || format!("{site} leaves the pile");
         let image = symmetry.apply(*site).ok_or_else(leaves)?;

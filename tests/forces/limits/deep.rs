@@ -13,7 +13,7 @@ use super::cases::{self, Case};
 use super::errors::{Worst, distance, unit};
 
 /// The worst errors of sweeps at the lowest contacts, in units of the greatest force there.
-pub struct Deep {
+pub(crate) struct Deep {
     case: Case,
     sample: Sample,
     greatest: BigRational,
@@ -25,10 +25,10 @@ type Sample = Vec<(usize, [BigRational; 3])>;
 
 impl Deep {
     /// The numbers of layers that the tests measure: in floats only, and in every scalar.
-    pub const LAYERS: [i128; 2] = [1000, 250];
+    pub(crate) const LAYERS: [i128; 2] = [1000, 250];
 
     /// The exact forces, without measurements.
-    pub fn new(layers: i128) -> Self {
+    fn new(layers: i128) -> Self {
         let case = cases::alternating(40, layers);
         let k = case.pile.layers() - 2;
         let mut layers = case
@@ -58,9 +58,8 @@ impl Deep {
     }
 
     /// Measures in every scalar.
-    pub fn measured(layers: i128) -> Self {
-        let mut deep = Self::new(layers);
-        deep.measure_floats();
+    pub(crate) fn measured(layers: i128) -> Self {
+        let mut deep = Self::in_floats(layers);
         let ulp = unit::<f64>(&deep.greatest);
         let twice = deep.swept::<DoubleDouble>(&ulp).as_power();
         let widths = deep.swept::<Interval>(&ulp).as_power();
@@ -70,11 +69,13 @@ impl Deep {
     }
 
     /// Measures in floats, which is fast.
-    pub fn measure_floats(&mut self) {
-        let double = self.swept::<f64>(&unit::<f64>(&self.greatest));
-        let single = self.swept::<f32>(&unit::<f32>(&self.greatest));
-        self.lines.push(format!("| `f64` | {double} |"));
-        self.lines.push(format!("| `f32` | {single} |"));
+    pub(crate) fn in_floats(layers: i128) -> Self {
+        let mut deep = Self::new(layers);
+        let double = deep.swept::<f64>(&unit::<f64>(&deep.greatest));
+        let single = deep.swept::<f32>(&unit::<f32>(&deep.greatest));
+        deep.lines.push(format!("| `f64` | {double} |"));
+        deep.lines.push(format!("| `f32` | {single} |"));
+        deep
     }
 
     /// The worst error of a sweep. Intervals must contain the exact forces, and their error is that of the ends.

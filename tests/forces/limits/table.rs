@@ -12,10 +12,10 @@ use num_traits::{One, Pow, Signed, Zero};
 use super::cases::{Case, ratio};
 use super::errors::{Worst, distance, rounding, unit};
 use super::forces::{Forces, OfSphere};
-use crate::judge::{Float, Value, is_nearest};
+use cannonpile_testkit::judge::{Float, Value, is_nearest};
 
 /// The text above the rows.
-pub const HEAD: &str = "\
+pub(crate) const HEAD: &str = "\
 The worst errors at the limits, in units in the last place (ulp) of the format. For double-doubles and for the width of
 intervals the unit is the ulp of `f64`.
 
@@ -31,7 +31,7 @@ the layer. The errors of positions are in ulps of the greatest component. Each i
 
 /// One quantity of one pile.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub(crate) struct Row {
     pile: String,
     quantity: &'static str,
     nearest: Worst,
@@ -82,20 +82,20 @@ struct Wanted {
 
 /// The answers of every scalar about a pile.
 #[derive(Clone, Debug)]
-pub struct Answers {
+pub(crate) struct Answers {
     /// In `f64`.
-    pub f64: Result<Forces<f64>, Error>,
+    pub(crate) f64: Result<Forces<f64>, Error>,
     /// In `f32`.
-    pub f32: Result<Forces<f32>, Error>,
+    pub(crate) f32: Result<Forces<f32>, Error>,
     /// In double-doubles.
-    pub double: Result<Forces<DoubleDouble>, Error>,
+    pub(crate) double: Result<Forces<DoubleDouble>, Error>,
     /// In intervals.
-    pub interval: Result<Forces<Interval>, Error>,
+    pub(crate) interval: Result<Forces<Interval>, Error>,
 }
 
 impl Answers {
     /// Computes the answers about a pile.
-    pub fn of(pile: &Pile) -> Self {
+    pub(crate) fn of(pile: &Pile) -> Self {
         Self {
             f64: Forces::of(pile),
             f32: Forces::of(pile),
@@ -107,7 +107,7 @@ impl Answers {
 
 /// Returns the rows of a pile. Checks that roundings are correct, intervals contain the exact values, and errors respect
 /// their bounds.
-pub fn rows(case: &Case, answers: &Answers) -> Result<String, String> {
+pub(crate) fn rows(case: &Case, answers: &Answers) -> Result<String, String> {
     let mut text = String::new();
     if case.is_refused() {
         writeln!(text, "| {} | refused | | | | | |", case.name).map_err(|e| e.to_string())?;

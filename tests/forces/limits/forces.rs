@@ -7,27 +7,27 @@ use cannonpile::{Error, Pile};
 
 /// Three values for a sphere.
 #[derive(Clone, Debug)]
-pub struct OfSphere<T> {
+pub(crate) struct OfSphere<T> {
     /// The sphere.
-    pub site: Site,
+    pub(crate) site: Site,
     /// The values.
-    pub values: [T; 3],
+    pub(crate) values: [T; 3],
 }
 
 /// The answers in one scalar, sphere by sphere. The spheres are the same for each scalar.
 #[derive(Clone, Debug)]
-pub struct Forces<T> {
+pub(crate) struct Forces<T> {
     /// The contact forces below a sphere along α, β and γ, in f₀.
-    pub contacts: Vec<OfSphere<T>>,
+    pub(crate) contacts: Vec<OfSphere<T>>,
     /// The normal force, and the shear along x and y.
-    pub floor: Vec<OfSphere<T>>,
+    pub(crate) floor: Vec<OfSphere<T>>,
     /// The positions of the selected spheres above the bottom layer, in 2R and the symbolic basis.
-    pub positions: Vec<OfSphere<T>>,
+    pub(crate) positions: Vec<OfSphere<T>>,
 }
 
 impl<T: Clone> Forces<T> {
     /// Applies a function to every value.
-    pub fn map<U>(self, image: impl Fn(T) -> U) -> Forces<U> {
+    pub(crate) fn map<U>(self, image: impl Fn(T) -> U) -> Forces<U> {
         let of = |spheres: Vec<OfSphere<T>>| {
             let mapped = spheres
                 .into_iter()
@@ -52,7 +52,7 @@ impl<T: Algebra> Forces<T> {
     /// Computes the forces. For a straight pile it uses the closed form at corners, midpoints and fixed sites of the
     /// top, middle and bottom layers. For any other pile it uses a sweep, at spheres of the middle row of the last two
     /// layers. The spheres may extend into the next row.
-    pub fn of(pile: &Pile) -> Result<Self, Error> {
+    pub(crate) fn of(pile: &Pile) -> Result<Self, Error> {
         if pile.shape().stacking().is_straight() {
             Self::one_by_one(pile)
         } else {

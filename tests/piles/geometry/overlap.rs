@@ -10,13 +10,13 @@ use cannonpile::geometry::LayerGap;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use crate::answers::Shape;
+use cannonpile_testkit::answers::Shape;
 
 /// The difference of two spheres, in steps of 2R along ê_a, ê_b, ê_c.
-pub type Difference = [i128; 3];
+pub(crate) type Difference = [i128; 3];
 
 /// The differences of all pairs of spheres in a pile, from the higher sphere to the lower one.
-pub fn differences(shape: &Shape, layers: i128) -> BTreeSet<Difference> {
+pub(crate) fn differences(shape: &Shape, layers: i128) -> BTreeSet<Difference> {
     let steps = |shape: &Shape| {
         shape
             .sites(layers)
@@ -47,7 +47,7 @@ fn horizontal(shape: &Shape, [a, b, c]: Difference) -> (i128, i128) {
 }
 
 /// q at sin²θ = 1, where a contact would be horizontal.
-pub fn flat(shape: &Shape) -> i128 {
+pub(crate) fn flat(shape: &Shape) -> i128 {
     match shape {
         Shape::Discs => 4,
         Shape::Spheres(_) => 3,
@@ -56,7 +56,7 @@ pub fn flat(shape: &Shape) -> i128 {
 
 /// The squared distance over 4R² at spacing √q, as numerator and denominator:
 /// sin²θ (x² + y²) + cos²θ z², with z = n_a + n_b + n_c and sin²θ = q/3, q/4 for discs.
-pub fn squared_distance(shape: &Shape, n: Difference, q: &BigRational) -> (i128, i128) {
+pub(crate) fn squared_distance(shape: &Shape, n: Difference, q: &BigRational) -> (i128, i128) {
     let (u, v) = machine(q);
     let (h, r) = horizontal(shape, n);
     let z: i128 = n.iter().sum();
@@ -65,7 +65,7 @@ pub fn squared_distance(shape: &Shape, n: Difference, q: &BigRational) -> (i128,
 }
 
 /// The positive q at which spheres with the difference n touch, if it exists.
-pub fn touching_at(shape: &Shape, n: Difference) -> Option<BigRational> {
+pub(crate) fn touching_at(shape: &Shape, n: Difference) -> Option<BigRational> {
     // q/flat·(h − z²) = 1 − z²
     let (h, r) = horizontal(shape, n);
     let z: i128 = n.iter().sum();
@@ -76,7 +76,7 @@ pub fn touching_at(shape: &Shape, n: Difference) -> Option<BigRational> {
 
 /// Tells whether spacing √q is allowed. If it is, returns the layer gaps of pairs that touch in addition to the contacts.
 /// `None` if some spheres overlap or a sphere would fall through.
-pub fn allowed_gaps(
+pub(crate) fn allowed_gaps(
     shape: &Shape,
     differences: &BTreeSet<Difference>,
     q: &BigRational,
@@ -100,7 +100,10 @@ pub fn allowed_gaps(
 }
 
 /// Tells whether the library gives the same answer.
-pub fn agree(allowed_gaps: Option<&BTreeSet<i128>>, answer: &Result<Vec<LayerGap>, Error>) -> bool {
+pub(crate) fn agree(
+    allowed_gaps: Option<&BTreeSet<i128>>,
+    answer: &Result<Vec<LayerGap>, Error>,
+) -> bool {
     match (allowed_gaps, answer) {
         (None, Err(_)) => true,
         (Some(touching), Ok(apart)) => {

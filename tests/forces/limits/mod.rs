@@ -9,8 +9,10 @@
 //! | `table` | the table, and the bounds of every row |
 //! | `table.md` | the table of the last measurements |
 
-pub mod cases;
-pub mod deep;
-pub mod errors;
-pub mod forces;
-pub mod table;
+pub(crate) mod cases;
+// Without optimisation even the exact forces of so many layers are slow.
+#[cfg(not(debug_assertions))]
+pub(crate) mod deep;
+pub(crate) mod errors;
+pub(crate) mod forces;
+pub(crate) mod table;

@@ -1,19 +1,19 @@
 //! Theorems about the answers for any pile. Each is a function of plain data, so tests can show that it rejects corrupted
 //! answers.
 
-pub mod balance;
-pub mod base;
-pub mod symmetry;
+pub(crate) mod balance;
+pub(crate) mod base;
+pub(crate) mod symmetry;
 
 use core::fmt::Debug;
 
-use crate::answers::Answers;
+use cannonpile_testkit::answers::Answers;
 
 /// `Ok`, or a description of the answer that contradicts the theorem.
-pub type Verdict = Result<(), String>;
+pub(crate) type Verdict = Result<(), String>;
 
 /// `got` equals `want`. The error names the item `what`.
-pub fn same<T: PartialEq + Debug>(what: impl Debug, got: &T, want: &T) -> Verdict {
+pub(crate) fn same<T: PartialEq + Debug>(what: impl Debug, got: &T, want: &T) -> Verdict {
     if got == want {
         Ok(())
     } else {
@@ -22,7 +22,7 @@ pub fn same<T: PartialEq + Debug>(what: impl Debug, got: &T, want: &T) -> Verdic
 }
 
 /// The library and the oracle agree on a pile, item by item.
-pub fn agree(library: &Answers, oracle: &Answers) -> Verdict {
+pub(crate) fn agree(library: &Answers, oracle: &Answers) -> Verdict {
     same("weight", &library.weight, &oracle.weight)?;
     for (site, sphere) in &oracle.spheres {
         same(site, &library.spheres.get(site), &Some(sphere))?;
