@@ -1,7 +1,7 @@
 //! Run times for random stackings: means in floats, sums by number of faults in integers, exact means at one
 //! probability, enumerations, and samples.
 //!
-//! `cargo bench --manifest-path benches/Cargo.toml --bench disorder`
+//! `cargo bench --manifest-path benches/Cargo.toml --bench disorder --features all`
 //! asserts that the mean normal forces of a unit load sum to 1, and the number of stable stackings. It prints seconds and
 //! the exponents of the cost. With `-- --smoke` it uses few layers.
 

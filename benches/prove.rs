@@ -1,6 +1,6 @@
 //! Measures the time of the proof of each theorem.
 //!
-//! `cargo bench --manifest-path benches/Cargo.toml --bench prove`
+//! `cargo bench --manifest-path benches/Cargo.toml --bench prove --features all`
 //! asserts that all theorems hold, and prints milliseconds. With `-- --smoke` it proves each theorem once.
 
 use std::env;

@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-CARGO = ["cargo", "bench", "--manifest-path", str(HERE / "Cargo.toml"), "--bench"]
+CARGO = ["cargo", "bench", "--manifest-path", str(HERE / "Cargo.toml"), "--features", "all", "--bench"]
 BENCHES = {name: [*CARGO, name] for name in ("throughput", "horizontal", "one_contact", "disorder", "prove", "scalars", "surd")}
 BENCHES["side_by_side"] = [sys.executable, str(HERE / "side_by_side")]
 BENCHES["wait"] = [sys.executable, str(HERE / "wait.py")]

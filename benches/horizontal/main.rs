@@ -1,6 +1,6 @@
 //! The cost of exact bounds and elastic states, compared with an interior point method in floats.
 //!
-//! `cargo bench --manifest-path benches/Cargo.toml --bench horizontal`
+//! `cargo bench --manifest-path benches/Cargo.toml --bench horizontal --features all`
 //! prints seconds and, last, lines `ratio NAME VALUE`: medians of ratios of two times, measured alternately in one run. With
 //! `-- --smoke` it only asserts the results of small piles. It checks every certificate again, outside the measured time,
 //! and compares the results with the formulas and the floats.

@@ -1,6 +1,6 @@
 //! A work–precision diagram: run time and error of every method in every scalar.
 //!
-//! `cargo bench --manifest-path benches/Cargo.toml --bench work_precision`
+//! `cargo bench --manifest-path benches/Cargo.toml --bench work_precision --features all`
 //! computes all contact forces of some piles with every method, and prints a table. It also writes the table as CSV and as a
 //! log–log chart, to `work_precision.csv` and `work_precision.svg` in the target folder or to `-- --csv FILE --svg FILE`.
 //! With `-- --smoke` it runs small piles once, and writes `smoke.csv` and `smoke.svg`. With `-- --draw` it only draws the
