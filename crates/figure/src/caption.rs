@@ -5,7 +5,7 @@ use cannonpile_dem::{anchor, brief, stacking};
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, Zero};
 
-use super::subject::Subject;
+use super::subject::{Subject, spacing};
 use crate::Error;
 
 /// Returns the caption.
@@ -39,7 +39,7 @@ pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
         (count, _) => parts.push(counted(&count.into(), "load")),
     }
     parts.extend(subject.horizontal_state());
-    let spacing = subject.spacing()?.ratio().to_string();
+    let spacing = spacing(subject.packing())?.ratio().to_string();
     parts.push(format!("a/R = {}", brief(&spacing, 20)));
     Ok(parts.join(", "))
 }

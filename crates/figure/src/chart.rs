@@ -65,6 +65,12 @@ impl Chart {
     }
 }
 
+/// Returns the ends of a range that contains 0 and all values.
+pub(super) fn around_zero(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let ends = |[least, most]: [f64; 2], value: f64| [least.min(value), most.max(value)];
+    values.into_iter().fold([0.0; 2], ends)
+}
+
 /// Returns colours for a number of curves, from dark to bright. The brightest ones are left out, for contrast with white.
 pub(super) fn colours(count: usize) -> Vec<String> {
     const BRIGHTEST: f64 = 0.85;

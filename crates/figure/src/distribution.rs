@@ -7,8 +7,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
-use super::caption::counted;
-use super::chart::{Chart, colours};
+use super::caption::{LIMIT, counted, readable};
+use super::chart::{Chart, around_zero, colours};
 use super::glyph::Point;
 use super::page::Figure;
 use crate::Error;
@@ -63,12 +63,7 @@ pub fn distribution(
             continue;
         };
         let count = (i128::from(last) - i128::from(first) + 1).unsigned_abs();
-        super::caption::readable(
-            &count.into(),
-            super::caption::LIMIT,
-            "bins",
-            "use wider bins",
-        )?;
+        readable(&count.into(), LIMIT, "bins", "use wider bins")?;
         let share = |bin: i64| {
             faults().fold(BigRational::zero(), |sum, (of, weight)| {
                 sum + weight * BigInt::from(of.count(bin))
@@ -91,13 +86,8 @@ pub fn distribution(
         let steps = curves.iter().flat_map(|(_, steps)| steps);
         steps.filter(|[.., density]| *density > 0.0)
     };
-    let across = met().fold([0.0_f64; 2], |[least, most], [from, to, _]| {
-        [least.min(*from), most.max(*to)]
-    });
-    let upwards = met().map(|[.., density]| density.log10());
-    let upwards = upwards.fold([0.0_f64; 2], |[least, most], log| {
-        [least.min(log), most.max(log)]
-    });
+    let across = around_zero(met().flat_map(|[from, to, _]| [*from, *to]));
+    let upwards = around_zero(met().map(|[.., density]| density.log10()));
     let margin = ((upwards[1] - upwards[0]) * 0.05).max(0.1);
     // The axis has a positive length even if there are no forces.
     let across = [across[0], across[1].max(across[0] + 1.0)];

@@ -83,7 +83,7 @@ pub use network::{layer, section};
 pub use page::{Figure, Layout};
 pub use pile::pile;
 pub use refinement::refinement;
-pub use response::{response, with_load_on_top, with_unit_load};
+pub use response::{response, with_load_on_top};
 pub use shear::shear;
 pub use sphere::{example_site, sphere};
 pub use stability::stability;

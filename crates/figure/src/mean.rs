@@ -11,7 +11,7 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
 use super::caption::{LIMIT, counted, readable};
-use super::chart::{Chart, colours};
+use super::chart::{Chart, around_zero, colours};
 use super::colour::{DIM, Scale};
 use super::glyph::{Point, line, polygon, ring, text};
 use super::page::{Bar, Figure};
@@ -165,10 +165,7 @@ pub fn mean_profile(layers: i128, probabilities: &[BigRational]) -> Result<Figur
         });
         curves.push(points.collect::<Vec<Point>>());
     }
-    let values = curves.iter().flatten().map(|[_, load]| *load);
-    let ends = values.fold([0.0_f64; 2], |[least, most], value| {
-        [least.min(value), most.max(value)]
-    });
+    let ends = around_zero(curves.iter().flatten().map(|[_, load]| *load));
     let margin = ((ends[1] - ends[0]) * 0.05).max(f64::MIN_POSITIVE);
     let chart = Chart::new([0.0, n + 1.0], [ends[0] - margin, ends[1] + margin]);
     let [front, zero] = [

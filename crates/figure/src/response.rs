@@ -5,7 +5,6 @@ use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 use cannonpile::{Load, Pile};
 use num_rational::BigRational;
-use num_traits::One;
 
 use super::caption::LIMIT;
 use super::colour::Scale;
@@ -14,28 +13,6 @@ use super::map::Map;
 use super::page::Figure;
 use super::subject::Subject;
 use crate::Error;
-
-/// Removes the weight of the spheres and the horizontal forces. A pile without loads receives a load of 1 mg on the
-/// middle of the top.
-///
-/// # Errors
-/// The errors of [`Pile::with_load`].
-///
-/// # Examples
-/// ```
-/// use cannonpile::Pile;
-/// use cannonpile::lattice::Site;
-/// use num_rational::BigRational;
-///
-/// let pile = Pile::triangular(10)?;
-/// assert_eq!(cannonpile_figure::with_unit_load(pile.clone())?.weight().to_string(), "1");
-/// let loaded = pile.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
-/// assert_eq!(cannonpile_figure::with_unit_load(loaded)?.weight().to_string(), "2");
-/// # Ok::<(), cannonpile_figure::Error>(())
-/// ```
-pub fn with_unit_load(pile: Pile) -> Result<Pile, Error> {
-    with_load_on_top(pile, BigRational::one())
-}
 
 /// Removes the weight of the spheres and the horizontal forces. A pile without loads receives this load on the middle of the
 /// top.
@@ -84,7 +61,7 @@ pub fn with_load_on_top(pile: Pile, load: impl Into<Load>) -> Result<Pile, Error
 ///
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let floor = |stacking: Stacking| {
-///     let pile = cannonpile_figure::with_unit_load(Pile::under(Region::hexagon(3, 3)?, stacking)?)?;
+///     let pile = cannonpile_figure::with_load_on_top(Pile::under(Region::hexagon(3, 3)?, stacking)?, cannonpile::ratio!(1))?;
 ///     cannonpile_figure::response(&Subject::of_pile(&pile, &spacing)?, pile.layers() - 1).map(|figure| figure.to_string())
 /// };
 /// assert_eq!(floor(Stacking::fcc(6)?)?.matches("data-exact=\"1/3\"").count(), 3);

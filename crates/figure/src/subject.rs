@@ -187,16 +187,6 @@ impl<'p> Subject<'p> {
         ))
     }
 
-    /// Returns a/R.
-    pub(super) fn spacing(&self) -> Result<Spacing, Error> {
-        // (a/R)² = 2d/(d−1)·sin²θ in d dimensions.
-        let factor = if self.is_of_discs() { 4 } else { 3 };
-        let factor = BigRational::from_integer(factor.into());
-        Ok(Spacing::from_square(
-            self.packing.inclination().sin2() * factor,
-        )?)
-    }
-
     /// Returns R in the unit of lengths.
     pub(super) fn radius(&self) -> Result<f64, Error> {
         nearest(&self.packing.radius().clone().into(), "the radius")
@@ -214,11 +204,7 @@ impl<'p> Subject<'p> {
         let [origin, site] = [self.packing.position(origin)?, self.packing.position(site)?];
         let mut apart = [0.0; 3];
         for (apart, (from, to)) in apart.iter_mut().zip(origin.iter().zip(&site)) {
-            let (from, to) = (from.scaled(&-radii.clone()), to.scaled(&radii));
-            let difference = to.checked_add(&from);
-            let difference = difference
-                .ok_or_else(|| bug("coordinates of one axis are multiples of one root"))?;
-            *apart = nearest(&difference, "a position")?;
+            *apart = difference(&to.scaled(&radii), &from.scaled(&radii))?;
         }
         Ok(apart)
     }
@@ -360,6 +346,24 @@ impl<'p> Subject<'p> {
 pub(super) fn below(pile: &Pile, site: Site, direction: Direction) -> Result<Site, Error> {
     let below = pile.shape().below(site, direction);
     below.ok_or_else(|| cannonpile::Error::OnFloor { site }.into())
+}
+
+/// Returns a/R, from sin²θ = (a/R)²(d−1)/(2d) in d dimensions.
+pub(super) fn spacing(packing: &Packing<'_>) -> Result<Spacing, cannonpile::Error> {
+    let factor = match packing.pile().dimension() {
+        Dimension::Two => 4,
+        Dimension::Three => 3,
+    };
+    let factor = BigRational::from_integer(factor.into());
+    Spacing::from_square(packing.inclination().sin2() * factor)
+}
+
+/// Returns the difference of two coordinates of one axis, rounded once.
+pub(super) fn difference(to: &Surd, from: &Surd) -> Result<f64, cannonpile::Error> {
+    let apart = to.checked_add(&from.scaled(&-BigRational::one()));
+    let apart = apart.ok_or_else(|| bug("coordinates of one axis are multiples of one root"))?;
+    let float = apart.nearest::<f64>();
+    float.ok_or_else(|| cannonpile::Error::overflow("a position", "f64"))
 }
 
 /// Returns a number, correctly rounded to `f64`.

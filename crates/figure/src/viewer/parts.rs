@@ -1,17 +1,16 @@
 //! The data of a viewer.
 
-use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Axis, Dimension, Site};
 use cannonpile_dem::scene::State;
 use cannonpile_dem::weights::{nearest_rational, ordinary_weight};
 use cannonpile_dem::{CardTitle, Error, NumberedPile, anchor, stacking};
 use colorous::{Gradient, RED_BLUE, VIRIDIS};
-use num_rational::BigRational;
 use serde_json::{Value, json};
 
 use super::places::rows;
 use super::states::{Quantities, states};
 use crate::caption::tilt;
+use crate::subject::spacing;
 
 /// The number of intervals between the colours of a map. The program interpolates within them.
 const COLOURS: u32 = 64;
@@ -42,7 +41,7 @@ pub(super) fn of(
         "contacts": pile.contact_count().to_string(),
         "weightless": of_pile.is_weightless(),
         "tilt": tilt(of_pile),
-        "spacing": spacing(pile)?,
+        "spacing": spacing(packing)?.ratio().to_string(),
         "stiffness_ratio": ratio,
         "touching": neighbours_touch(pile, title),
         "radius": nearest_rational(packing.radius(), "the radius")?,
@@ -55,17 +54,6 @@ pub(super) fn of(
         "states": states,
         "colours": { "rising": map(VIRIDIS), "diverging": map(RED_BLUE) },
     }))
-}
-
-/// Returns a/R, from sin²θ = (a/R)²(d−1)/(2d).
-fn spacing(pile: &NumberedPile<'_>) -> Result<String, Error> {
-    let factor = match pile.pile().dimension() {
-        Dimension::Two => 4,
-        Dimension::Three => 3,
-    };
-    let factor = BigRational::from_integer(factor.into());
-    let spacing = Spacing::from_square(pile.packing().inclination().sin2() * factor)?;
-    Ok(spacing.ratio().to_string())
 }
 
 /// Returns whether all neighbours in a layer touch. If they do, a horizontal contact without a force is open.

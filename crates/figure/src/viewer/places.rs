@@ -2,15 +2,12 @@
 
 use cannonpile::engine::bug;
 use cannonpile::lattice::Site;
-use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
-use cannonpile_dem::numbered::nearest;
 use cannonpile_dem::{Error, NumberedPile};
-use num_rational::BigRational;
-use num_traits::One;
 use serde_json::{Value, json};
 
 use super::encoding::floats;
+use crate::subject::difference;
 
 /// Returns the rows of spheres, in the order of their numbers.
 ///
@@ -42,12 +39,15 @@ pub(super) fn rows(pile: &NumberedPile<'_>) -> Result<Value, Error> {
         if step.is_none() && row.i.end - row.i.start > 1 {
             let i = site.i + 1;
             let next = pile.packing().position(Site { i, ..site })?;
-            let steps = own.iter().zip(next).map(|(from, to)| difference(&to, from));
+            let steps = own
+                .iter()
+                .zip(next)
+                .map(|(from, to)| Ok(difference(&to, from)?));
             step = Some(floats(steps)?);
         }
         let from = centre.iter().zip(own);
         for (along, (from, to)) in places.iter_mut().zip(from) {
-            along.push(difference(&to, from));
+            along.push(Ok(difference(&to, from)?));
         }
     }
     let mut below = Vec::new();
@@ -72,13 +72,4 @@ pub(super) fn rows(pile: &NumberedPile<'_>) -> Result<Value, Error> {
 /// Converts an index relative to the first sphere. It is small, because the viewer limits the number of spheres.
 fn small(index: i128) -> Result<i64, Error> {
     i64::try_from(index).map_err(|_| bug("the indices of a pile in a viewer fit in i64").into())
-}
-
-fn difference(to: &Surd, from: &Surd) -> Result<f64, Error> {
-    let opposite = from.scaled(&-BigRational::one());
-    let apart = to.checked_add(&opposite);
-    nearest(
-        &apart.ok_or_else(|| bug("coordinates of one axis are multiples of one root"))?,
-        "a position",
-    )
 }

@@ -14,6 +14,10 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use roxmltree::{Document, Node};
 
+fn with_unit_load(pile: Pile) -> Pile {
+    figure::with_load_on_top(pile, ratio(1, 1)).unwrap()
+}
+
 #[test]
 fn spheres_are_drawn_once_from_back_to_front() {
     for pile in piles() {
@@ -304,7 +308,7 @@ fn layers_have_every_contact_once() {
 fn responses_add_up_to_the_load() {
     for stacking in [Stacking::fcc(6), Stacking::hcp(6), Stacking::dhcp(6)] {
         let top = Region::hexagon(3, 3).unwrap();
-        let pile = figure::with_unit_load(Pile::under(top, stacking.unwrap()).unwrap()).unwrap();
+        let pile = with_unit_load(Pile::under(top, stacking.unwrap()).unwrap());
         for k in 0..6 {
             let svg = figure::response(&subject(&pile), k).unwrap().to_string();
             let document = Document::parse(&svg).unwrap();
@@ -327,7 +331,7 @@ fn labels_of_cells_are_nonzero() {
     for layers in 2..9 {
         let top = Region::hexagon(5, 5).unwrap();
         let pile = Pile::under(top, Stacking::hcp(layers).unwrap()).unwrap();
-        let pile = figure::with_unit_load(pile).unwrap();
+        let pile = with_unit_load(pile);
         let svg = figure::response(&subject(&pile), layers - 1)
             .unwrap()
             .to_string();
@@ -352,7 +356,7 @@ fn response_of_a_layer_equals_base_of_a_lower_pile() {
     let top = Region::hexagon(2, 2).unwrap();
     let cells = |layers| {
         let pile = Pile::under(top, Stacking::hcp(layers).unwrap()).unwrap();
-        let pile = figure::with_unit_load(pile).unwrap();
+        let pile = with_unit_load(pile);
         let svg = figure::response(&subject(&pile), 3).unwrap().to_string();
         let document = Document::parse(&svg).unwrap();
         let cells = of_class(&document, "cell");
@@ -493,7 +497,7 @@ fn tensile_contacts_are_visible_and_noted() {
     // A stable pile and spheres without weight have no note.
     let stable = Pile::triangular(7).unwrap();
     assert_eq!(figure::section(&subject(&stable)).unwrap().note(), None);
-    let response = figure::with_unit_load(pile).unwrap();
+    let response = with_unit_load(pile);
     assert_eq!(
         figure::response(&subject(&response), 6).unwrap().note(),
         None

@@ -31,8 +31,8 @@ pub const MAX_BYTES: u64 = 512 << 20;
 /// assert_eq!(read_certificates(&*text)?, certificates);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
-    let OneOrMore(certificates) = read(input)?;
+pub fn read_certificates(mut input: impl Read) -> io::Result<Vec<Certificate>> {
+    let OneOrMore(certificates) = read(&mut input)?;
     Ok(certificates)
 }
 
@@ -63,11 +63,12 @@ pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
 /// assert!(error.to_string().contains("line 2"));
 /// # Ok::<(), std::io::Error>(())
 /// ```
-pub fn read_certificate(input: impl Read) -> io::Result<Certificate> {
-    read(input)
+pub fn read_certificate(mut input: impl Read) -> io::Result<Certificate> {
+    read(&mut input)
 }
 
-fn read<T: for<'de> Deserialize<'de>>(input: impl Read) -> io::Result<T> {
+// With `dyn` the parser is compiled once, and not for each type of reader.
+fn read<T: for<'de> Deserialize<'de>>(input: &mut dyn Read) -> io::Result<T> {
     let input = Limited {
         input,
         left: MAX_BYTES,
@@ -138,7 +139,7 @@ impl<'de> Visitor<'de> for OneOrMore {
 /// assert_eq!(lines[5], r#"    {"site":{"i":0,"j":0,"k":0},"alpha":"1","beta":"0","gamma":"0"}"#);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn write_certificate(certificate: &Certificate, out: &mut impl Write) -> io::Result<()> {
+pub fn write_certificate(certificate: &Certificate, out: &mut dyn Write) -> io::Result<()> {
     let Certificate {
         pile,
         claim,
@@ -163,7 +164,7 @@ pub fn write_certificate(certificate: &Certificate, out: &mut impl Write) -> io:
 ///
 /// # Examples
 /// See [`read_certificates`].
-pub fn write_certificates(certificates: &[Certificate], out: &mut impl Write) -> io::Result<()> {
+pub fn write_certificates(certificates: &[Certificate], out: &mut dyn Write) -> io::Result<()> {
     let mut gap = "[\n";
     for certificate in certificates {
         out.write_all(gap.as_bytes())?;
@@ -178,7 +179,7 @@ pub fn write_certificates(certificates: &[Certificate], out: &mut impl Write) ->
 }
 
 /// Writes a JSON list with one line for each entry.
-fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut impl Write) -> io::Result<()> {
+fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut dyn Write) -> io::Result<()> {
     let mut gap = "[\n    ";
     for entry in entries {
         out.write_all(gap.as_bytes())?;
