@@ -6,7 +6,7 @@ mod args;
 mod command;
 mod culprit;
 mod error;
-mod hashed;
+mod input;
 mod output;
 mod program;
 mod progress;

@@ -7,7 +7,7 @@ use cannonpile::engine::quoted;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::args::SceneOptions;
+use crate::args::{SceneOptions, Top};
 use crate::command::forces::{Base, Contacts};
 use crate::command::{
     bounds, cases, census, check, completions, ensemble, explain, export, mean, plot, prove,
@@ -48,6 +48,9 @@ fn adapted(command: clap::Command) -> clap::Command {
         "explain" | "sensitivity" | "ensemble" => {
             "state stiffness_ratio floor friction floor_friction"
         }
+        "mean" => {
+            "case stacking dimension sin_phi tilt spacing radius mass gravity state stiffness_ratio floor friction floor_friction"
+        }
         _ => "",
     };
     let option = |option: clap::Arg| {
@@ -58,7 +61,17 @@ fn adapted(command: clap::Command) -> clap::Command {
         let has_value = option.get_action().takes_values();
         option.ignore_case(has_value).hide(is_hidden)
     };
-    command.mut_args(option).mut_subcommands(adapted)
+    let command = command.mut_args(option).mut_subcommands(adapted);
+    if command.get_name() != "mean" {
+        return command;
+    }
+    // Only a mean has an infinite top layer.
+    command.mut_arg("top", |top| {
+        top.value_parser(Top::region_or_plane).help(
+            "Top layer: hexagon:P,Q, hexagon:N, triangle:N, region:x0..x1,y0..y1,s0..s1, or plane (infinite; requires --weightless \
+             and --load) [default: one sphere]",
+        )
+    })
 }
 
 #[derive(Subcommand)]
@@ -148,6 +161,7 @@ impl Command {
             Self::Response(command) => &command.scene,
             Self::Sensitivity(command) => &command.scene,
             Self::Bounds(command) => &command.scene,
+            Self::Mean(command) => &command.scene,
             Self::Ensemble(command) => &command.scene,
             Self::Spheres(command) => &command.scene,
             Self::Explain(command) => &command.scene,
@@ -157,7 +171,6 @@ impl Command {
             Self::Plot(command) => return command.scene(),
             Self::Cases(_)
             | Self::Census(_)
-            | Self::Mean(_)
             | Self::Merge(_)
             | Self::Prove(_)
             | Self::Check(_)
@@ -178,7 +191,6 @@ pub fn command() -> clap::Command {
 /// Runs the command that the arguments of this process name, and returns the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
-    threads::share_limited_memory();
     let handled = signals::remove_files_on_signal();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,

@@ -2,28 +2,6 @@
 
 use std::io;
 
-/// The variable with which glibc limits the number of its arenas.
-#[cfg(target_os = "linux")]
-const ARENAS: &str = "MALLOC_ARENA_MAX";
-
-/// Starts this process again with one arena of memory for all threads, if its address space is limited.
-///
-/// Otherwise each thread reserves memory that the others cannot use, and an allocation can fail although all memory was
-/// available a moment before. If the process cannot start again, it goes on as it is.
-pub(crate) fn share_limited_memory() {
-    #[cfg(target_os = "linux")]
-    if memory().is_some() && std::env::var_os(ARENAS).is_none() {
-        use std::os::unix::process::CommandExt as _;
-
-        let mut arguments = std::env::args_os();
-        let mut again = std::process::Command::new("/proc/self/exe");
-        if let Some(name) = arguments.next() {
-            again.arg0(name);
-        }
-        let _failed = again.args(arguments).env(ARENAS, "1").exec();
-    }
-}
-
 /// Starts the threads of computations: one for each core, but few if the memory of the process is limited.
 ///
 /// # Errors

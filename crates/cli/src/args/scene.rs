@@ -1,6 +1,5 @@
 //! Scene options, from the command line and from a file.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -14,6 +13,7 @@ use clap::Args;
 use num_rational::BigRational;
 use num_traits::Zero;
 
+use crate::input::Input;
 use crate::output::{Failure, InputError, reason};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
@@ -22,6 +22,26 @@ use crate::{Culprit, Error};
 pub(super) const VERTICAL_LOADS: &str =
     "random stackings support vertical loads only: leave out the horizontal components";
 pub(super) const UPRIGHT_GRAVITY: &str = "random stackings support upright gravity only: leave it out, or use the commands for one stacking";
+
+/// The top layer: a region, or for the command `mean` the whole plane.
+#[derive(Clone, Copy)]
+pub(crate) enum Top {
+    Plane,
+    Region(Region),
+}
+
+impl Top {
+    fn region(text: &str) -> Result<Self, cannonpile::Error> {
+        text.parse().map(Self::Region)
+    }
+
+    pub(crate) fn region_or_plane(text: &str) -> Result<Self, String> {
+        if text == "plane" {
+            return Ok(Self::Plane);
+        }
+        Self::region(text).map_err(|error| format!("{error}, or plane"))
+    }
+}
 
 #[derive(Args, Clone, Default)]
 #[command(next_help_heading = "Scene")]
@@ -47,8 +67,8 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = str::parse::<Pattern>)]
     stacking: Option<Pattern>,
     /// Top layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "base")]
-    top: Option<Region>,
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = Top::region, conflicts_with = "base")]
+    pub(super) top: Option<Top>,
     /// Bottom layer, with the pile above it; shapes as for --top
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
     base: Option<Region>,
@@ -166,10 +186,10 @@ impl SceneOptions {
         if scene.floor == Floor::Glued {
             return Ok(scene);
         }
-        let place = self.place(Key::Floor);
-        Err(Failure::Message(format!(
-            "{place}: only base, contacts, summary, export, verify, plot friction and scene support a rough floor: use --floor glued"
-        )))
+        Err(self.refuse(
+            Key::Floor,
+            "only base, contacts, summary, export, verify, plot friction and scene support a rough floor: use --floor glued",
+        ))
     }
 
     fn check_ratio(&self, scene: &Scene) -> Result<(), Failure> {
@@ -194,14 +214,14 @@ impl SceneOptions {
         if scene.state == State::Isostatic {
             return Ok(());
         }
-        let place = self.place(Key::State);
         let remedy = match self.case {
             Some(_) => "add --state isostatic",
             None => "leave it out, or use isostatic",
         };
-        Err(Failure::Message(format!(
-            "{place}: only base, contacts, export, verify, plot network and plot base support the elastic state: {remedy}"
-        )))
+        let why = format!(
+            "only base, contacts, export, verify, plot network and plot base support the elastic state: {remedy}"
+        );
+        Err(self.refuse(Key::State, &why))
     }
 
     /// Returns a scene that fits every stacking: a top layer and loads on it, or a base.
@@ -249,12 +269,26 @@ impl SceneOptions {
         ];
         for (is_given, key, why) in refused {
             if is_given {
-                let place = self.place(key);
-                return Err(Failure::Message(format!("{place}: {why}")));
+                return Err(self.refuse(key, why));
             }
         }
         scene.check_sizes()?;
         Ok(scene)
+    }
+
+    /// Returns the number of layers of a scene that fits every stacking.
+    ///
+    /// # Errors
+    /// The scene has a base, and no number of layers.
+    pub(crate) fn layers_of_all_stackings(&self, scene: &Scene) -> Result<i128, Failure> {
+        match (scene.layers, scene.anchor) {
+            (Some(layers), _) => Ok(layers),
+            (None, Some(Anchor::Base(_))) => Err(self.refuse(
+                Key::Base,
+                "the height depends on the stacking: add --layers",
+            )),
+            (None, _) => Ok(Scene::LAYERS),
+        }
     }
 
     /// Returns the number of layers below a wide top with one load of 1 mg, for every stacking.
@@ -273,10 +307,8 @@ impl SceneOptions {
         ];
         for (is_given, key) in refused {
             if is_given {
-                let place = self.place(key);
-                return Err(Failure::Message(format!(
-                    "{place}: --fault-probability always uses a load of 1 mg on a wide top: leave it out, or use the command mean"
-                )));
+                let why = "--fault-probability always uses a load of 1 mg on a wide top: leave it out, or use the command mean";
+                return Err(self.refuse(key, why));
             }
         }
         Ok(scene.layers.unwrap_or(Scene::LAYERS))
@@ -290,10 +322,8 @@ impl SceneOptions {
             (scene.layers.is_some(), Key::Layers),
         ];
         if let Some((_, key)) = given.into_iter().find(|(is_given, _)| *is_given) {
-            let place = self.place(key);
-            return Err(Failure::Message(format!(
-                "{place}: --faults already gives the stacking and the number of layers: leave one of the two out"
-            )));
+            let why = "--faults already gives the stacking and the number of layers: leave one of the two out";
+            return Err(self.refuse(key, why));
         }
         scene.stacking = Some(stacking);
         Ok(check_scene(scene)?)
@@ -321,7 +351,7 @@ impl SceneOptions {
     }
 
     /// Returns the scene of the file, overridden by the options of the command line.
-    fn scene(&self) -> Result<Scene, InputError> {
+    pub(super) fn scene(&self) -> Result<Scene, InputError> {
         let file = self.file().map(|file| file.content.scene().clone());
         let file = file.unwrap_or_default();
         let dimension = self.dimension.unwrap_or(file.dimension);
@@ -333,13 +363,18 @@ impl SceneOptions {
             parse::tilt(text, dimension).map_err(|error| InputError::of(Key::Tilt, error))
         };
         let tilt = self.tilt.as_ref().map(tilt).transpose()?;
-        let anchor = self.top.map(Anchor::Top).or(self.base.map(Anchor::Base));
+        let anchor = match (self.top, self.base) {
+            (Some(Top::Plane), _) => None,
+            (Some(Top::Region(top)), _) => Some(Anchor::Top(top)),
+            (None, Some(base)) => Some(Anchor::Base(base)),
+            (None, None) => file.anchor,
+        };
         Ok(Scene {
             layers: self.layers.or(file.layers),
             dimension,
             sin_phi: self.sin_phi.clone().or(file.sin_phi),
             stacking: self.stacking.clone().or(file.stacking),
-            anchor: anchor.or(file.anchor),
+            anchor,
             loads: if loads.is_empty() { file.loads } else { loads },
             tilt: tilt.unwrap_or(file.tilt),
             weightless: self.weightless.unwrap_or(file.weightless),
@@ -396,6 +431,11 @@ impl SceneOptions {
             .unwrap_or_else(|| format!("--{option}"))
     }
 
+    /// Returns the error that a command does not support an option, with the place of the option.
+    pub(super) fn refuse(&self, key: Key, why: &str) -> Failure {
+        Failure::Message(format!("{}: {why}", self.place(key)))
+    }
+
     /// Returns the line of the file that gives an option, unless the command line overrides it.
     pub(crate) fn line_of(&self, option: &str) -> Option<String> {
         let file = self.file()?;
@@ -419,7 +459,7 @@ impl SceneOptions {
     }
 
     /// Returns whether the command line gives this option, or one that replaces it.
-    fn gives(&self, option: &str) -> bool {
+    pub(super) fn gives(&self, option: &str) -> bool {
         match option {
             "layers" => self.layers.is_some(),
             "stacking" => self.stacking.is_some(),
@@ -488,20 +528,15 @@ fn check_scene(scene: Scene) -> Result<(Scene, Pile), InputError> {
 
 /// A scene file with its name on the command line, or a benchmark case.
 #[derive(Clone)]
-pub(super) struct NamedFile {
+struct NamedFile {
     name: String,
     content: SceneFile,
     case: Option<&'static Case>,
 }
 
 impl NamedFile {
-    /// Returns the scene.
-    pub(super) const fn scene(&self) -> &Scene {
-        self.content.scene()
-    }
-
     /// Returns the position of an option: the file, the line and the name.
-    pub(super) fn place_of(&self, option: &str) -> Option<String> {
+    fn place_of(&self, option: &str) -> Option<String> {
         let line = self.content.line(option)?;
         if let Some(case) = self.case {
             return Some(format!("--case {}: {option}", case.name()));
@@ -509,7 +544,7 @@ impl NamedFile {
         Some(format!("--scene {}: line {line}, {option}", self.name))
     }
 
-    pub(super) fn read(name: &str) -> Result<Self, String> {
+    fn read(name: &str) -> Result<Self, String> {
         let text = text_of(name).map_err(|error| {
             let reason = match error.kind() {
                 io::ErrorKind::InvalidData => "not text in UTF-8".into(),
@@ -541,16 +576,8 @@ const MAX_SCENE_BYTES: u64 = 32 << 20;
 
 fn text_of(name: &str) -> io::Result<String> {
     let mut bytes = Vec::new();
-    let read = if name == "-" {
-        io::stdin()
-            .lock()
-            .take(MAX_SCENE_BYTES)
-            .read_to_end(&mut bytes)?
-    } else {
-        File::open(name)?
-            .take(MAX_SCENE_BYTES)
-            .read_to_end(&mut bytes)?
-    };
+    let file = Input::open(Path::new(name), false)?;
+    let read = file.take(MAX_SCENE_BYTES).read_to_end(&mut bytes)?;
     // A text of this length is too long. The cut may split a character, which is not an error of the text.
     if read as u64 == MAX_SCENE_BYTES {
         return Ok(String::from_utf8_lossy(&bytes).into_owned());

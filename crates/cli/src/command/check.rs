@@ -1,13 +1,13 @@
 //! `check`: verifies a certificate.
 
 use core::fmt::Display;
-use std::fs::File;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use cannonpile_horizontal::certificate::{Certificate, Refusal, read_certificates};
 use clap::Args;
 
+use crate::input::{Input, name_of};
 use crate::output::{Failure, READABLE_FILE_OR_STDIN, unusable, write_to};
 use crate::progress::Progress;
 
@@ -48,9 +48,8 @@ impl Check {
     /// Checks the certificates and returns whether all are accepted.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let progress = Progress::begin("reading the certificate");
-        let certificates = self
-            .read()
-            .map_err(|error| self.unreadable_certificate(&error))?;
+        let certificates = Input::open(&self.certificate, false).and_then(read_certificates);
+        let certificates = certificates.map_err(|error| self.unreadable_certificate(&error))?;
         drop(progress);
         let mut all = true;
         for certificate in certificates {
@@ -85,30 +84,19 @@ impl Check {
         Ok(checked.is_ok())
     }
 
-    fn read(&self) -> io::Result<Vec<Certificate>> {
-        if self.certificate == Path::new("-") {
-            read_certificates(io::stdin().lock())
-        } else {
-            read_certificates(File::open(&self.certificate)?)
-        }
-    }
-
-    fn name(&self) -> String {
-        if self.certificate == Path::new("-") {
-            "stdin".into()
-        } else {
-            self.certificate.display().to_string()
-        }
-    }
-
     /// Returns the reason why the file contains no certificate.
     fn unreadable_certificate(&self, error: &io::Error) -> Failure {
         let expected = ["a certificate", "'cannonpile check --help' shows one"];
-        unusable(self.name(), error, expected, READABLE_FILE_OR_STDIN)
+        unusable(
+            name_of(&self.certificate),
+            error,
+            expected,
+            READABLE_FILE_OR_STDIN,
+        )
     }
 
     /// Returns the reason why the pile of a certificate is invalid.
     fn refused(&self, error: &impl Display) -> Failure {
-        Failure::Message(format!("{}: {error}", self.name()))
+        Failure::Message(format!("{}: {error}", name_of(&self.certificate)))
     }
 }

@@ -7,7 +7,7 @@ use cannonpile::Pile;
 use cannonpile::lattice::Region;
 use cannonpile::stacking::Stacking;
 use cannonpile_dem::Key;
-use cannonpile_dem::scene::{Anchor, Scene, parse};
+use cannonpile_dem::scene::{Anchor, parse};
 use cannonpile_dem::table::WriteError;
 use cannonpile_disorder::{
     Choice, Ensemble, FirstSign, ForceKind, RandomStackings, Samples, Shard, TallyRecord,
@@ -221,16 +221,7 @@ impl RunEnsemble {
     fn ensemble(&self) -> Result<Ensemble, Failure> {
         let scene = self.scene.read_for_all_stackings()?;
         let anchor = scene.anchor.unwrap_or(Anchor::Top(Region::SITE));
-        let layers = match (scene.layers, anchor) {
-            (Some(layers), _) => layers,
-            (None, Anchor::Top(_)) => Scene::LAYERS,
-            (None, Anchor::Base(_)) => {
-                let place = self.scene.place(Key::Base);
-                return Err(Failure::Message(format!(
-                    "{place}: the height depends on the stacking: add --layers"
-                )));
-            }
-        };
+        let layers = self.scene.layers_of_all_stackings(&scene)?;
         let stackings = RandomStackings::new(layers, self.first)?;
         let ensemble = match anchor {
             Anchor::Top(top) => Ensemble::under(top, stackings)?,

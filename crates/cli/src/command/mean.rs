@@ -2,12 +2,12 @@
 
 use cannonpile::scalar::Algebra;
 use cannonpile_dem::table::{NumberFormat, Table};
-use cannonpile_disorder::RandomPiles;
+use cannonpile_disorder::{FirstSign, RandomPiles};
 use clap::{Args, ValueEnum};
 use num_rational::BigRational;
 
 use super::{TensionCheck, fault_probability};
-use crate::args::{Output, RandomSceneOptions};
+use crate::args::{Output, SceneOptions};
 use crate::output::{Failure, print_message};
 use crate::progress::Progress;
 use crate::tables;
@@ -52,7 +52,10 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Mean {
     #[command(flatten)]
-    scene: RandomSceneOptions,
+    pub(crate) scene: SceneOptions,
+    /// Sign of the first step, below the top layer: +, - or random (probability 1/2 each)
+    #[arg(long, value_name = "SIGN", default_value = "+", allow_hyphen_values = true, value_parser = str::parse::<FirstSign>, help_heading = "Random stackings")]
+    first: FirstSign,
     /// Probability q that a sign differs from the one before, 0 to 1 [default: 1/2]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = fault_probability, conflicts_with_all = ["symbolic", "by"], help_heading = "Random stackings")]
     fault_probability: Option<BigRational>,
@@ -108,19 +111,18 @@ impl From<Number> for NumberFormat {
 
 impl Mean {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let piles = self.scene.read()?;
+        let piles = self.scene.read_random(self.first)?;
         self.output.format()?;
         let progress = Progress::begin("averaging over stackings");
         let tension = TensionCheck::in_column("normal");
+        let write = |table: Table<'_>| {
+            let watched = tension.watch(table);
+            self.output.write_table(watched, self.number, &progress)
+        };
         if self.by.is_some() {
-            let by_faults = piles
-                .by_faults()
-                .map_err(|error| self.scene.refused(error))?;
-            let table = tension.watch(tables::by_faults(&by_faults));
-            self.write(table, &progress)?;
+            write(tables::by_faults(&piles.by_faults()?))?;
         } else {
-            let table = self.table(&piles, &tension)?;
-            self.write(tension.watch(table), &progress)?;
+            write(self.table(&piles, &tension)?)?;
         }
         drop(progress);
         if tension.seen.get() {
@@ -132,28 +134,23 @@ impl Mean {
         Ok(true)
     }
 
-    fn write(&self, table: Table<'_>, progress: &Progress) -> Result<(), Failure> {
-        self.output.write_table(table, self.number, progress)
-    }
-
     /// Returns the table of means. Polynomials show no sign, so their coefficients by number of faults are looked at here.
     fn table(
         &self,
         piles: &RandomPiles,
         tension: &TensionCheck,
     ) -> Result<Table<'static>, Failure> {
-        let refused = |error: cannonpile_disorder::Error| self.scene.refused(error);
         if self.symbolic {
             if self.number == Number::F64 {
                 return Err(Failure::Message(
                     "--number f64: polynomials always have exact coefficients: leave it out, or use --fault-probability".to_owned(),
                 ));
             }
-            let by_faults = piles.by_faults().map_err(refused)?;
+            let by_faults = piles.by_faults()?;
             for row in by_faults.rows() {
-                tension.find(&row.map_err(refused)?.normal);
+                tension.find(&row?.normal);
             }
-            let polynomials = by_faults.polynomial().map_err(refused)?;
+            let polynomials = by_faults.polynomial()?;
             return Ok(tables::mean_of_polynomials(polynomials));
         }
         let half = || BigRational::new(1.into(), 2.into());
@@ -161,12 +158,12 @@ impl Mean {
         let given = self.given.is_some();
         Ok(match self.number {
             Number::Exact => {
-                let mean = piles.exact(&q).map_err(refused)?;
+                let mean = piles.exact(&q)?;
                 tables::mean(if given { mean.given_sphere() } else { mean }, given)
             }
             Number::F64 => {
                 let q = f64::from_rational(&q);
-                let mean = piles.mean(&q).map_err(refused)?;
+                let mean = piles.mean(&q)?;
                 tables::mean(if given { mean.given_sphere() } else { mean }, given)
             }
         })

@@ -26,7 +26,7 @@ Columns:
   k, i, j, direction  a contact that opens at this tilt
   stands              yes; no: the pile is unstable; undetermined: further contacts may support it, or it is too large
 Columns of --polygon, a row for each corner, counterclockwise:
-  x, y                tilt, in tanθ and √3·tanθ (2cosφ·tanθ with --sin-phi)
+  x, y                tilt, in tanθ and √3·tanθ (2cosφ·tanθ with --sin-phi); csv and json name these units
 
 At a = R horizontal contacts may support the pile. Then forces are not unique, and no contact is named: beyond the margin no
 compressive forces balance the pile. The command summary writes a proof for a given tilt: --tilt X,Y --certificate FILE.

@@ -2,8 +2,7 @@
 
 mod refinement;
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use cannonpile::Packing;
@@ -18,7 +17,7 @@ use contact_tables::Error;
 
 use super::note_instability;
 use crate::args::{Format, Output, SceneOptions, in_state};
-use crate::hashed::Hashed;
+use crate::input::{Input, name_of};
 use crate::output::{Failure, READABLE_FILE_OR_STDIN, print_message, unreadable, write_to};
 use crate::progress::Progress;
 
@@ -330,10 +329,12 @@ impl Verify {
 
     fn refused(&self, refusal: Refusal, path: &Path, scene: &Scene) -> Failure {
         let (name, is_measured, refusal) = match (refusal, &self.floor_table) {
-            (Refusal::FloorTable(refusal), Some(floor)) => {
-                (format!("--floor-table: {}", name(floor)), false, *refusal)
-            }
-            (refusal, _) => (name(path), true, refusal),
+            (Refusal::FloorTable(refusal), Some(floor)) => (
+                format!("--floor-table: {}", name_of(floor)),
+                false,
+                *refusal,
+            ),
+            (refusal, _) => (name_of(path), true, refusal),
         };
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
@@ -363,44 +364,33 @@ fn compare(
     format: Format,
 ) -> Result<(Compared, Option<Source>), Refusal> {
     let reader = &reader_in_folder(reader, path);
+    let is_hashed = format == Format::Json;
     let in_floor = |error: io::Error| Refusal::FloorTable(Box::new(error.into()));
-    let input = open(path)?;
-    let floor_input = floor.map(open).transpose().map_err(in_floor)?;
-    if format != Format::Json {
-        let read = match floor_input {
-            None => reader.compare(packing, input),
-            Some(floor) => reader.compare_with_floor(packing, input, floor),
-        };
-        return Ok((read?, None));
-    }
-    let (mut input, mut floor_input) = (Hashed::new(input), floor_input.map(Hashed::new));
-    let read = match &mut floor_input {
-        None => reader.compare(packing, &mut input)?,
-        Some(floor) => reader.compare_with_floor(packing, &mut input, floor)?,
+    let mut input = Input::open(path, is_hashed)?;
+    let Some(floor) = floor else {
+        let read = reader.compare(packing, &mut input)?;
+        return Ok((read, source(path, input, None)?));
     };
-    let floor = floor.zip(floor_input);
-    let floor = floor.map(|(path, input)| Box::new(source(path, input, None)));
-    Ok((read, Some(source(path, input, floor))))
+    let mut floor_input = Input::open(floor, is_hashed).map_err(in_floor)?;
+    let read = reader.compare_with_floor(packing, &mut input, &mut floor_input)?;
+    let floor = source(floor, floor_input, None).map_err(in_floor)?;
+    Ok((read, source(path, input, floor)?))
 }
 
-fn open(path: &Path) -> io::Result<Box<dyn BufRead>> {
-    Ok(if path == Path::new("-") {
-        Box::new(io::stdin().lock())
-    } else {
-        Box::new(BufReader::with_capacity(1 << 16, File::open(path)?))
-    })
-}
-
-/// Returns the origin of data, without the scene.
-fn source(path: &Path, input: Hashed<Box<dyn BufRead>>, floor: Option<Box<Source>>) -> Source {
-    let (bytes, sha256) = input.finish();
-    Source {
+/// Returns the origin of hashed data, without the scene.
+fn source(
+    path: &Path,
+    input: BufReader<Input>,
+    floor: Option<Source>,
+) -> io::Result<Option<Source>> {
+    let hashed = input.into_inner().finish()?;
+    Ok(hashed.map(|(bytes, sha256)| Source {
         scene: String::new(),
-        file: name(path),
+        file: name_of(path),
         bytes,
         sha256,
-        floor,
-    }
+        floor: floor.map(Box::new),
+    }))
 }
 
 /// Returns the reader, which knows the folder of a file.
@@ -412,17 +402,9 @@ fn reader_in_folder(reader: &Reader, path: &Path) -> Reader {
     }
 }
 
-fn name(path: &Path) -> String {
-    if path == Path::new("-") {
-        "stdin".into()
-    } else {
-        path.display().to_string()
-    }
-}
-
 /// Returns a note on the steps of a file that were not compared.
 fn other_steps(path: &Path, read: &Compared) -> Option<String> {
-    let (name, steps) = (name(path), read.steps);
+    let (name, steps) = (name_of(path), read.steps);
     let step = read.step.as_ref().filter(|_| steps > 1)?;
     Some(format!(
         "note: {name} has {steps} steps; this report is about step {step}"

@@ -1,9 +1,9 @@
 //! The table of the response to a unit load.
 
-use cannonpile::lattice::{Dimension, Site};
+use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
-use cannonpile::{FloorForce, Forces, Load, Pile};
-use cannonpile_dem::table::{Cell, Column, Row, Table, indices, places, refuse_beyond};
+use cannonpile::{Forces, Load, Pile};
+use cannonpile_dem::table::{Cell, Column, Table, indices, places, refuse_beyond};
 use num_rational::BigRational;
 
 use crate::Error;
@@ -31,76 +31,66 @@ pub(crate) fn response(pile: &Pile, site: Site) -> Result<Table<'_>, Error> {
     columns.push(Column::plain("direction"));
     let names = ["down", "x", "y"].into_iter().take(axes);
     columns.extend(names.map(|name| Column::measured(name, "")));
-    let of_contacts = contacts(pile, &responses)?;
-    let rows = of_contacts.chain(floor(pile, &responses)?);
+    let contacts = responses
+        .iter()
+        .map(|forces| forces.contacts(Selection::All));
+    let contacts = side_by_side(contacts.collect::<Result<_, _>>()?);
+    let of_contacts = contacts.map(|contacts| {
+        let contacts = contacts?;
+        let name = contacts
+            .first()
+            .map(|first| (first.site, first.direction.name()));
+        Ok(row(
+            pile,
+            name,
+            contacts.into_iter().map(|contact| contact.force),
+        ))
+    });
+    let names = ["normal", "shear_x", "shear_y"].into_iter().take(axes);
+    let floor = responses.iter().map(|forces| forces.base(Selection::Base));
+    let floor = side_by_side(floor.collect::<Result<_, _>>()?);
+    let of_floor = floor.flat_map(move |spheres| match spheres {
+        Err(error) => vec![Err(error.into())],
+        Ok(spheres) => {
+            let part = |(n, name): (usize, &'static str)| {
+                let name = spheres.first().map(|first| (first.site, name));
+                let parts = spheres.iter().map(|force| {
+                    let parts = [&force.normal, &force.shear_x, &force.shear_y];
+                    parts[n].clone()
+                });
+                Ok(row(pile, name, parts))
+            };
+            names.clone().enumerate().map(part).collect()
+        }
+    });
+    let rows = of_contacts.chain(of_floor);
     Ok(Table::of_rows(columns, "rows", rows).bounded(count, Vec::new()))
 }
 
-fn contacts<'p>(
-    pile: &'p Pile,
-    responses: &[Forces<'p, BigRational>],
-) -> Result<impl Iterator<Item = Row> + use<'p>, Error> {
-    let answers = responses
-        .iter()
-        .map(|forces| forces.contacts(Selection::All));
-    let mut answers: Vec<_> = answers.collect::<Result<_, _>>()?;
-    Ok(std::iter::from_fn(move || {
-        let forces: Option<Vec<_>> = answers.iter_mut().map(Iterator::next).collect();
-        let forces: Result<Vec<_>, _> = forces?.into_iter().collect();
-        Some(forces.map_err(Into::into).map(|forces| {
-            let mut cells = Vec::with_capacity(7);
-            if let Some(contact) = forces.first() {
-                cells.extend(site_cells(pile, contact.site, contact.direction.name()));
-            }
-            cells.extend(forces.into_iter().map(|contact| Cell::from(contact.force)));
-            cells
-        }))
-    }))
+/// Returns the answers to all loads, side by side.
+fn side_by_side<A, I: Iterator<Item = Result<A, cannonpile::Error>>>(
+    mut answers: Vec<I>,
+) -> impl Iterator<Item = Result<Vec<A>, cannonpile::Error>> {
+    std::iter::from_fn(move || {
+        let of_all: Option<Vec<_>> = answers.iter_mut().map(Iterator::next).collect();
+        Some(of_all?.into_iter().collect())
+    })
 }
 
-fn floor<'p>(
-    pile: &'p Pile,
-    responses: &[Forces<'p, BigRational>],
-) -> Result<impl Iterator<Item = Row> + use<'p>, Error> {
-    let answers = responses.iter().map(|forces| forces.base(Selection::Base));
-    let mut answers: Vec<_> = answers.collect::<Result<_, _>>()?;
-    let next = move || -> Option<Result<Vec<FloorForce<BigRational>>, cannonpile::Error>> {
-        let forces: Option<Vec<_>> = answers.iter_mut().map(Iterator::next).collect();
-        Some(forces?.into_iter().collect())
-    };
-    let names: &[&'static str] = match pile.dimension() {
-        Dimension::Two => &["normal", "shear_x"],
-        Dimension::Three => &["normal", "shear_x", "shear_y"],
-    };
-    let spheres = std::iter::from_fn(next);
-    Ok(spheres.flat_map(move |forces| {
-        let forces = match forces {
-            Ok(forces) => forces,
-            Err(error) => return vec![Err(error.into())],
-        };
-        let rows = names.iter().enumerate().map(|(n, name)| {
-            let mut cells = Vec::with_capacity(7);
-            if let Some(force) = forces.first() {
-                cells.extend(site_cells(pile, force.site, name));
-            }
-            cells.extend(forces.iter().map(|force| {
-                let parts = [&force.normal, &force.shear_x, &force.shear_y];
-                Cell::from(parts[n].clone())
-            }));
-            Ok(cells)
-        });
-        rows.collect()
-    }))
-}
-
-/// Returns the cells of a site and a direction.
-fn site_cells(
+/// Returns the cells of a site and a direction, with the forces of all loads.
+fn row(
     pile: &Pile,
-    site: Site,
-    direction: &'static str,
-) -> impl Iterator<Item = Cell> + use<> {
-    let site = std::iter::once(Cell::from(site.k)).chain(places(pile, site));
-    site.chain(std::iter::once(direction.into()))
+    name: Option<(Site, &'static str)>,
+    forces: impl Iterator<Item = BigRational>,
+) -> Vec<Cell> {
+    let mut cells = Vec::with_capacity(7);
+    if let Some((site, direction)) = name {
+        cells.push(site.k.into());
+        cells.extend(places(pile, site));
+        cells.push(direction.into());
+    }
+    cells.extend(forces.map(Cell::from));
+    cells
 }
 
 #[cfg(test)]

@@ -92,10 +92,16 @@ mod tests {
             csv(polygon(pile, stability.corners))
         };
         let spheres = corners(&Pile::triangular(4).unwrap());
-        assert!(spheres.starts_with("x,y\n") && spheres.lines().count() == 4);
+        assert!(
+            spheres.starts_with("x_over_tan_theta,y_over_sqrt3_tan_theta\n")
+                && spheres.lines().count() == 4
+        );
         for corner in ["1,0", "-1/2,1/2", "-1/2,-1/2"] {
             assert!(spheres.lines().any(|line| line == corner), "{spheres}");
         }
-        assert_eq!(corners(&Pile::discs(4).unwrap()), "x\n-1\n1\n");
+        assert_eq!(
+            corners(&Pile::discs(4).unwrap()),
+            "x_over_tan_theta\n-1\n1\n"
+        );
     }
 }

@@ -67,6 +67,9 @@ impl Column {
             ("max_shear_ratio", "tanθ") => "max_shear_ratio_over_tan_theta",
             ("friction_needed", "tan(θ/2)") => "friction_needed_over_tan_half_theta",
             ("floor_friction_needed", "tan(θ/2)") => "floor_friction_needed_over_tan_half_theta",
+            ("x", "tanθ") => "x_over_tan_theta",
+            ("y", "√3·tanθ") => "y_over_sqrt3_tan_theta",
+            ("y", "2cosφ·tanθ") => "y_over_2cos_phi_tan_theta",
             (name, _) => name,
         };
         Self {
