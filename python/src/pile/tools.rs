@@ -136,7 +136,10 @@ impl Pile {
             self.scene.check_touching()?;
         }
         let response = match kind {
-            Kind::Response => Some(figure::with_load_on_top(self.exact.clone(), cannonpile::ratio!(1))?),
+            Kind::Response => Some(figure::with_load_on_top(
+                self.exact.clone(),
+                cannonpile::ratio!(1),
+            )?),
             _ => None,
         };
         let pile = response.as_ref().unwrap_or(&self.exact);

@@ -62,26 +62,23 @@ impl Column {
 
     /// Returns the names in csv and json, which show no units. A ratio in a unit that contains θ has the unit in its name.
     pub(super) fn keys(&self, numbers: NumberFormat) -> Vec<String> {
-        let name = match (self.name, self.unit) {
-            ("margin_squared", "tan²θ") => "margin_squared_over_tan2_theta",
-            ("max_shear_ratio", "tanθ") => "max_shear_ratio_over_tan_theta",
-            ("friction_needed", "tan(θ/2)") => "friction_needed_over_tan_half_theta",
-            ("floor_friction_needed", "tan(θ/2)") => "floor_friction_needed_over_tan_half_theta",
-            ("x", "tanθ") => "x_over_tan_theta",
-            ("y", "√3·tanθ") => "y_over_sqrt3_tan_theta",
-            ("y", "2cosφ·tanθ") => "y_over_2cos_phi_tan_theta",
-            (name, _) => name,
+        let unit = match self.unit {
+            "tan²θ" => "tan2_theta",
+            "tanθ" => "tan_theta",
+            "tan(θ/2)" => "tan_half_theta",
+            "√3·tanθ" => "sqrt3_tan_theta",
+            "2cosφ·tanθ" => "2cos_phi_tan_theta",
+            _ => return self.heads(numbers),
         };
-        Self {
-            name,
-            ..self.clone()
-        }
-        .heads(numbers)
+        self.named(&format!("{}_over_{unit}", self.name), numbers)
     }
 
     /// Returns the headers.
     pub(super) fn heads(&self, numbers: NumberFormat) -> Vec<String> {
-        let name = self.name;
+        self.named(self.name, numbers)
+    }
+
+    fn named(&self, name: &str, numbers: NumberFormat) -> Vec<String> {
         match self.places(numbers) {
             1 => vec![name.to_owned()],
             _ => vec![format!("{name}_lo"), format!("{name}_hi")],
