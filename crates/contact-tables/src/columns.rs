@@ -1,6 +1,5 @@
 //! The mapping from quantities to the columns of a table.
 
-use core::fmt;
 use core::str::FromStr;
 
 use crate::error::Syntax;
@@ -152,7 +151,7 @@ impl Identity {
 /// use contact_tables::Columns;
 ///
 /// let columns: Columns = "id1=A,id2=B,fx=-f_x,fy=-f_y,fz=-f_z".parse()?;
-/// assert_eq!(columns.to_string(), "id1=A,id2=B,fx=-f_x,fy=-f_y,fz=-f_z");
+/// assert_eq!(columns, "id1 = A, id2 = B, fx = -1*f_x, fy = -1*f_y, fz = -1*f_z".parse()?);
 /// assert!("weight=W".parse::<Columns>().is_err());
 /// # Ok::<(), contact_tables::Syntax>(())
 /// ```
@@ -189,7 +188,7 @@ impl Columns {
     ///
     /// // MDDEM writes overlaps. The force of a linear spring is its stiffness times the overlap.
     /// let columns = Preset::Mddem.columns().overridden(&"force=1e7*overlap".parse()?);
-    /// assert!(columns.to_string().ends_with("force=10000000*overlap"));
+    /// assert_eq!(columns, "x=cx,y=cy,z=cz,force=1e7*overlap".parse()?);
     /// # Ok::<(), contact_tables::Syntax>(())
     /// ```
     #[must_use]
@@ -381,41 +380,4 @@ fn column_of(text: &str) -> Result<Column, Syntax> {
         .and_then(|place: usize| place.checked_sub(1));
     let place = place.ok_or_else(|| Syntax::new(text, COLUMN))?;
     Ok(Column::Numbered(place))
-}
-
-impl fmt::Display for Columns {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (n, (quantity, terms)) in self.sums.iter().enumerate() {
-            let comma = if n == 0 { "" } else { "," };
-            write!(f, "{comma}{}=", quantity.name())?;
-            for (n, Term { factor, column }) in terms.iter().enumerate() {
-                let sign = match (*factor < 0.0, n) {
-                    (true, _) if matches!(column, Column::Named(_)) && n > 0 => "+-",
-                    (true, _) => "-",
-                    (false, 0) => "",
-                    (false, _) => "+",
-                };
-                f.write_str(sign)?;
-                // The explicit factor keeps the first part of such a name from being parsed as a factor or a sign. A
-                // kind takes no factor.
-                let is_part_of = |name: &String| name.starts_with('-') || name.contains('*');
-                let needs_factor = *quantity != Quantity::Kind
-                    && matches!(column, Column::Named(name) if is_part_of(name));
-                if needs_factor || factor.abs().to_bits() != 1.0_f64.to_bits() {
-                    write!(f, "{}*", factor.abs())?;
-                }
-                match column {
-                    Column::Named(name) if name.starts_with('#') || name.contains([',', '+']) => {
-                        write!(f, "\"{name}\"")?;
-                    }
-                    Column::Named(name) => f.write_str(name)?,
-                    Column::Numbered(place) => write!(f, "#{}", place + 1)?,
-                }
-            }
-            if *quantity == Quantity::Kind {
-                write!(f, ":{}", self.kinds.join("|"))?;
-            }
-        }
-        Ok(())
-    }
 }

@@ -5,7 +5,7 @@ use std::io::Read;
 
 use crate::contact::Contact;
 use crate::counts::RowCounts;
-use crate::dialect::{Dialect, TextEncoding};
+use crate::dialect::Dialect;
 use crate::error::Error;
 use crate::format::Format;
 use crate::input::Input;
@@ -57,7 +57,7 @@ enum Source<'r> {
 /// # Ok::<(), contact_tables::Error>(())
 /// ```
 pub fn read<'r>(input: impl Read + 'r, format: &Format) -> Result<Contacts<'r>, Error> {
-    let encoding = format.dialect.encoding.map(TextEncoding::get);
+    let encoding = format.dialect.encoding;
     let input = Input::open(input, encoding)?;
     let kind = FileKind::of(&input.sample);
     let mut contacts = Contacts {

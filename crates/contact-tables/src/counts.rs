@@ -135,41 +135,35 @@ impl RowCounts {
     }
 }
 
+/// What is left out: one, and several.
+const OTHER_KINDS: [&str; 2] = ["row of another kind", "rows of other kinds"];
+const OTHER_STEPS: [&str; 2] = ["row of another step", "rows of other steps"];
+const COMMENTED: [&str; 2] = [
+    "comment that looks like a row",
+    "comments that look like rows",
+];
+const TEXT: [&str; 2] = ["line of text", "lines of text"];
+const ABOVE: [&str; 2] = [
+    "line of numbers above the table",
+    "lines of numbers above the table",
+];
+
 impl fmt::Display for RowCounts {
     /// Writes what was left out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let above = "of numbers above the table";
         let counts = [
-            (
-                self.other_kinds,
-                None,
-                "row",
-                "of another kind",
-                "of other kinds",
-            ),
-            (
-                self.other_steps,
-                None,
-                "row",
-                "of another step",
-                "of other steps",
-            ),
-            (
-                self.commented,
-                None,
-                "comment",
-                "that looks like a row",
-                "that look like rows",
-            ),
-            (self.text, self.first_text, "line", "of text", "of text"),
-            (self.above, self.first_above, "line", above, above),
+            (self.other_kinds, None, OTHER_KINDS),
+            (self.other_steps, None, OTHER_STEPS),
+            (self.commented, None, COMMENTED),
+            (self.text, self.first_text, TEXT),
+            (self.above, self.first_above, ABOVE),
         ];
         let parts = counts.into_iter().filter(|(count, ..)| *count > 0);
-        let parts = parts.map(|(count, line, what, of_one, of_many)| match (count, line) {
-            (1, None) => format!("1 {what} {of_one}"),
-            (1, Some(line)) => format!("1 {what} {of_one} (line {line})"),
-            (_, None) => format!("{count} {what}s {of_many}"),
-            (_, Some(line)) => format!("{count} {what}s {of_many} (from line {line} on)"),
+        let parts = parts.map(|(count, line, [one, many])| match (count, line) {
+            (1, None) => format!("1 {one}"),
+            (1, Some(line)) => format!("1 {one} (line {line})"),
+            (_, None) => format!("{count} {many}"),
+            (_, Some(line)) => format!("{count} {many} (from line {line} on)"),
         });
         let parts: Vec<String> = parts.collect();
         f.write_str(&parts.join(", "))

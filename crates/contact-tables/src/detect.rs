@@ -64,10 +64,8 @@ impl Sample {
 
     /// Returns the lines other than comments.
     fn texts(&self) -> impl Iterator<Item = (u64, &str)> {
-        let lines = self.lines.iter();
-        lines
-            .filter(|(_, line)| comment(line, &self.comments).is_none())
-            .map(|(number, line)| (*number, line.as_str()))
+        let texts = self.all().filter(|(.., is_comment)| !is_comment);
+        texts.map(|(number, text, _)| (number, text))
     }
 
     /// Returns all lines, comments without their signs, and whether each is a comment.
@@ -85,11 +83,20 @@ impl Sample {
     }
 }
 
+/// What cuts a line.
+#[derive(Clone, Copy)]
+struct Marks(Separator, Option<char>);
+
+impl Marks {
+    fn cut(self, line: &str) -> Vec<&str> {
+        cut(line, self.0, self.1).0
+    }
+}
+
 /// A separator and a quote, with the rows that they make.
 #[derive(Clone, Copy)]
 struct Cutting {
-    separator: Separator,
-    quote: Option<char>,
+    marks: Marks,
     /// The number of cells in a row.
     width: usize,
     first_row: u64,
@@ -114,10 +121,9 @@ struct Counts {
 impl Cutting {
     /// Cuts a sample, and returns `None` if it has no rows.
     #[expect(clippy::cast_precision_loss, reason = "counts of a sample")]
-    fn of(sample: &Sample, separator: Separator, quote: Option<char>) -> Option<Self> {
+    fn of(sample: &Sample, marks: Marks) -> Option<Self> {
         let (mut rows, mut all) = (Vec::new(), 0_usize);
-        let cells_of = |text| cut(text, separator, quote).0;
-        let numbers_of = |text| count_numbers(&cells_of(text));
+        let numbers_of = |text| count_numbers(&marks.cut(text));
         for (line, text) in sample.texts() {
             let text = match behind_row(text, &sample.comments) {
                 Some((row, comment))
@@ -127,7 +133,7 @@ impl Cutting {
                 }
                 _ => text,
             };
-            let cells = cells_of(text);
+            let cells = marks.cut(text);
             all += cells.iter().filter(|cell| !cell.is_empty()).count();
             let row = Counts {
                 line,
@@ -143,13 +149,12 @@ impl Cutting {
         rows.retain(|row| row.cells == width);
         let first_row = rows.first()?.line;
         let sum = |count: fn(&Counts) -> usize| rows.iter().map(count).sum::<usize>();
-        let cells = sample.all().flat_map(|(_, text, _)| cells_of(text));
+        let cells = sample.all().flat_map(|(_, text, _)| marks.cut(text));
         let quoted = cells.filter(|cell| is_quoted(cell)).count();
         let above = sample.above(first_row).next();
-        let header = above.map(|(_, text, _)| cells_of(text).len());
+        let header = above.map(|(_, text, _)| marks.cut(text).len());
         Some(Self {
-            separator,
-            quote,
+            marks,
             width,
             first_row,
             share: sum(|row| row.numbers) as f64 / all as f64,
@@ -161,10 +166,10 @@ impl Cutting {
 
     /// Returns the rows from a line on, as far as they have enough numbers.
     fn rows<'s>(&self, sample: &'s Sample, from: u64) -> impl Iterator<Item = (u64, Vec<&'s str>)> {
-        let (separator, quote, width) = (self.separator, self.quote, self.width);
+        let (marks, width) = (self.marks, self.width);
         let texts = sample.texts().filter(move |(line, _)| *line >= from);
         texts.filter_map(move |(line, text)| {
-            let (cells, _) = cut(text, separator, quote);
+            let cells = marks.cut(text);
             let is_row = cells.len() == width && count_numbers(&cells) >= LEAST_NUMBERS;
             is_row.then_some((line, cells))
         })
@@ -253,7 +258,7 @@ pub(crate) fn find(
     let merit = |one: &Cutting| (one.share, one.has_header, Reverse(one.quoted));
     let cuttings = candidates
         .iter()
-        .filter_map(|(separator, quote)| Cutting::of(&sample, *separator, *quote));
+        .filter_map(|marks| Cutting::of(&sample, *marks));
     // Of equals, the first remains.
     let best = cuttings.reduce(|best, one| {
         if merit(&best) < merit(&one) {
@@ -267,12 +272,12 @@ pub(crate) fn find(
         candidates: &candidates,
         format,
     };
-    let (cutting, header) = match best {
+    let (cutting, line, mut header) = match best {
         Some(cutting) => table.header(cutting)?,
         None => table.without_rows()?,
     };
-    let (line, mut header) = header;
-    if cutting.separator == Separator::Char(',') && options.decimal_comma != Some(false) {
+    let Marks(separator, quote) = cutting.marks;
+    if separator == Separator::Char(',') && options.decimal_comma != Some(false) {
         cutting.refuse_cut_numbers(&sample, &header)?;
     }
     let decimal_comma = match options.decimal_comma {
@@ -281,8 +286,8 @@ pub(crate) fn find(
     };
     header.set_decimal_comma(decimal_comma);
     let dialect = Dialect {
-        separator: cutting.separator,
-        quote: cutting.quote,
+        separator,
+        quote,
         comments: sample.comments,
         decimal_comma,
         header: line,
@@ -291,7 +296,7 @@ pub(crate) fn find(
     Ok((dialect, header))
 }
 
-fn candidates(sample: &Sample, options: &DialectOptions) -> Vec<(Separator, Option<char>)> {
+fn candidates(sample: &Sample, options: &DialectOptions) -> Vec<Marks> {
     let has = |mark: char| sample.lines.iter().any(|(_, line)| line.contains(mark));
     let quotes: Vec<Option<char>> = match &options.quote {
         Some(mark) => vec![mark.get().copied()],
@@ -304,46 +309,42 @@ fn candidates(sample: &Sample, options: &DialectOptions) -> Vec<(Separator, Opti
     };
     let all = separators
         .iter()
-        .map(|separator| quotes.iter().map(|quote| (*separator, *quote)));
+        .map(|separator| quotes.iter().map(|quote| Marks(*separator, *quote)));
     all.flatten().collect()
 }
 
-/// A header with its line, if it has one.
-type Found = (Option<u64>, Header);
+/// The rows of a table, and its header with its line, if it has one.
+type Found = (Cutting, Option<u64>, Header);
 
 /// A table whose header is to be found.
 struct Table<'t> {
     sample: &'t Sample,
-    candidates: &'t [(Separator, Option<char>)],
+    candidates: &'t [Marks],
     format: &'t Format,
 }
 
 impl Table<'_> {
-    fn are_numbered(&self) -> bool {
-        self.format.columns.are_numbered(self.format.identity)
-    }
-
     /// Finds the header above the rows: the nearest line with the necessary names.
-    fn header(&self, cutting: Cutting) -> Result<(Cutting, Found), Error> {
+    fn header(&self, cutting: Cutting) -> Result<Found, Error> {
         let Cutting {
-            width, first_row, ..
+            marks,
+            width,
+            first_row,
+            is_open,
+            ..
         } = cutting;
         if self.are_numbered() {
             let header = Header::find(None, width, self.format);
-            return Ok((
-                cutting,
-                (None, header.map_err(|fault| fault.at(first_row))?),
-            ));
+            return Ok((cutting, None, header.map_err(|fault| fault.at(first_row))?));
         }
-        let own = [(cutting.separator, cutting.quote)];
         for (line, text, is_comment) in self.sample.above(first_row) {
             // The names may be separated in another way than the rows.
-            for (n, (separator, quote)) in own.iter().chain(self.candidates).enumerate() {
-                let Ok(header) = self.names(text, *separator, *quote) else {
+            for (n, marks) in [marks].iter().chain(self.candidates).enumerate() {
+                let Ok(header) = self.names(text, *marks) else {
                     continue;
                 };
-                match header.matched_to(width, cutting.is_open) {
-                    Ok(header) => return Ok((cutting, (Some(line), header))),
+                match header.matched_to(width, is_open) {
+                    Ok(header) => return Ok((cutting, Some(line), header)),
                     Err(fault) if n == 0 || is_comment => return Err(fault.at(first_row)),
                     Err(_) => {}
                 }
@@ -351,47 +352,35 @@ impl Table<'_> {
         }
         // The lines above the header may have numbers, too.
         for (line, text, _) in self.sample.all().filter(|(line, ..)| *line > first_row) {
-            let names = self.names(text, cutting.separator, cutting.quote);
-            let header = names.and_then(|names| names.matched_to(width, cutting.is_open));
-            if let Ok(header) = header
+            let names = self.names(text, marks);
+            if let Ok(header) = names.and_then(|names| names.matched_to(width, is_open))
                 && let Some((first_row, _)) = cutting.rows(self.sample, line).next()
             {
                 let cutting = Cutting {
                     first_row,
                     ..cutting
                 };
-                return Ok((cutting, (Some(line), header)));
+                return Ok((cutting, Some(line), header));
             }
         }
-        let above = || self.sample.above(first_row);
-        let likeliest = above()
-            .find(|(.., is_comment)| !is_comment)
-            .or_else(|| above().next());
-        let Some((line, text, _)) = likeliest else {
+        let Some((line, text, _)) = likeliest(self.sample.above(first_row)) else {
             return Err(Fault::new(format!(
                 "there is no header above the {width} columns: name them by number, such as id1=#1,id2=#2,force=#3"
             ))
             .at(first_row));
         };
-        match self.names(text, cutting.separator, cutting.quote) {
-            Err(fault) => Err(fault.at(line)),
-            Ok(header) => Ok((cutting, (Some(line), header))),
-        }
+        let header = self.names(text, marks).map_err(|fault| fault.at(line))?;
+        Ok((cutting, Some(line), header))
     }
 
     /// Finds the header of a table without rows of numbers.
-    fn without_rows(&self) -> Result<(Cutting, Found), Error> {
-        let lines = || self.sample.all();
-        let first = lines()
-            .find(|(.., is_comment)| !is_comment)
-            .or_else(|| lines().next());
-        let Some((line, text, _)) = first else {
+    fn without_rows(&self) -> Result<Found, Error> {
+        let Some((line, text, _)) = likeliest(self.sample.all()) else {
             return Err(Fault::empty().at(1));
         };
-        let cutting = |(separator, quote): &(Separator, Option<char>), text, first_row| Cutting {
-            separator: *separator,
-            quote: *quote,
-            width: cut(text, *separator, *quote).0.len(),
+        let cutting = |marks: Marks, text, first_row| Cutting {
+            marks,
+            width: marks.cut(text).len(),
             first_row,
             share: 0.0,
             has_header: true,
@@ -399,17 +388,15 @@ impl Table<'_> {
             is_open: false,
         };
         let is_numbered = self.are_numbered();
-        for (line, text, _) in lines().filter(|_| !is_numbered) {
-            for candidate in self.candidates {
-                if let Ok(header) = self.names(text, candidate.0, candidate.1) {
-                    return Ok((cutting(candidate, text, line + 1), (Some(line), header)));
+        for (line, text, _) in self.sample.all().filter(|_| !is_numbered) {
+            for marks in self.candidates {
+                if let Ok(header) = self.names(text, *marks) {
+                    return Ok((cutting(*marks, text, line + 1), Some(line), header));
                 }
             }
         }
-        let cuttings = self
-            .candidates
-            .iter()
-            .map(|candidate| cutting(candidate, text, line));
+        let cuttings = self.candidates.iter();
+        let cuttings = cuttings.map(|marks| cutting(*marks, text, line));
         // Of equals, the last counts as the greatest.
         let Some(widest) = cuttings.rev().max_by_key(|cutting| cutting.width) else {
             return Err(Fault::empty().at(line));
@@ -417,25 +404,28 @@ impl Table<'_> {
         let header = if is_numbered {
             Header::find(None, widest.width, self.format)
         } else {
-            self.names(text, widest.separator, widest.quote)
+            self.names(text, widest.marks)
         };
-        Ok((widest, (None, header.map_err(|fault| fault.at(line))?)))
+        Ok((widest, None, header.map_err(|fault| fault.at(line))?))
+    }
+
+    fn are_numbered(&self) -> bool {
+        self.format.columns.are_numbered(self.format.identity)
     }
 
     /// Reads a line as the names of the columns.
-    fn names(
-        &self,
-        text: &str,
-        separator: Separator,
-        quote: Option<char>,
-    ) -> Result<Header, Fault> {
+    fn names(&self, text: &str, marks: Marks) -> Result<Header, Fault> {
         // Without comments, a header may still begin with their sign.
-        let (cells, _) = cut(bare(text), separator, quote);
-        let names: Vec<String> = cells
-            .iter()
-            .map(|name| name.replace("\"\"", "\""))
-            .collect();
+        let names = marks.cut(bare(text)).into_iter();
+        let names: Vec<String> = names.map(|name| name.replace("\"\"", "\"")).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         Header::find(Some(&names), names.len(), self.format)
     }
+}
+
+/// Returns the first line that is no comment, or the first one if all are.
+fn likeliest<'s>(
+    lines: impl Iterator<Item = (u64, &'s str, bool)>,
+) -> Option<(u64, &'s str, bool)> {
+    lines.min_by_key(|(.., is_comment)| *is_comment)
 }

@@ -4,7 +4,7 @@ use core::fmt;
 use core::str::FromStr;
 
 use crate::cut::{Separator, cut};
-use crate::encoding::Encoding;
+use crate::encoding::TextEncoding;
 use crate::error::Syntax;
 
 /// The parts of the dialect of a text table that the user gives. The first lines of the table decide the others.
@@ -77,61 +77,6 @@ impl<T: FromStr> FromStr for Mark<T> {
             "none" => Ok(Self(None)),
             sign => Ok(Self(Some(sign.parse().map_err(|_| refused())?))),
         }
-    }
-}
-
-/// The readable encodings, and the remedy for all others.
-const READABLE: &str = "utf-8, utf-16le, utf-16be or windows-1252 (iconv converts a file to utf-8)";
-
-/// The encoding of a text: UTF-8, UTF-16 or Windows-1252, which contains Latin-1.
-///
-/// # Examples
-/// ```
-/// use contact_tables::TextEncoding;
-///
-/// assert_eq!("latin1".parse::<TextEncoding>()?.name(), "windows-1252");
-/// assert!("utf-12".parse::<TextEncoding>().is_err());
-/// # Ok::<(), contact_tables::Syntax>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TextEncoding(Encoding);
-
-impl TextEncoding {
-    /// Returns the name of the encoding.
-    ///
-    /// # Examples
-    /// ```
-    /// use contact_tables::TextEncoding;
-    ///
-    /// assert_eq!("UTF8".parse::<TextEncoding>()?.name(), "UTF-8");
-    /// # Ok::<(), contact_tables::Syntax>(())
-    /// ```
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self.0 {
-            Encoding::Utf8 => "UTF-8",
-            Encoding::Utf16Le => "UTF-16LE",
-            Encoding::Utf16Be => "UTF-16BE",
-            Encoding::Windows1252 => "windows-1252",
-        }
-    }
-
-    pub(crate) fn get(self) -> Encoding {
-        self.0
-    }
-}
-
-impl FromStr for TextEncoding {
-    type Err = Syntax;
-
-    fn from_str(text: &str) -> Result<Self, Syntax> {
-        Ok(Self(match text.to_ascii_lowercase().as_str() {
-            "utf-8" | "utf8" => Encoding::Utf8,
-            "utf-16" | "utf-16le" => Encoding::Utf16Le,
-            "utf-16be" => Encoding::Utf16Be,
-            "windows-1252" | "cp1252" | "iso-8859-1" | "latin1" | "ascii" => Encoding::Windows1252,
-            _ => return Err(Syntax::new(text, READABLE)),
-        }))
     }
 }
 

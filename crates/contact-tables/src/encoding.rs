@@ -1,12 +1,46 @@
 //! Conversion of texts in other encodings to UTF-8.
 
-/// An encoding of a text.
+use core::str::FromStr;
+
+use crate::error::Syntax;
+
+/// The readable encodings, and the remedy for all others.
+const READABLE: &str = "utf-8, utf-16le, utf-16be or windows-1252 (iconv converts a file to utf-8)";
+
+/// The encoding of a text: UTF-8, UTF-16 or Windows-1252, which contains Latin-1.
+///
+/// # Examples
+/// ```
+/// use contact_tables::TextEncoding;
+///
+/// assert_eq!("latin1".parse(), Ok(TextEncoding::Windows1252));
+/// assert!("utf-12".parse::<TextEncoding>().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Encoding {
+#[non_exhaustive]
+pub enum TextEncoding {
+    /// UTF-8.
     Utf8,
+    /// UTF-16, the less significant byte first.
     Utf16Le,
+    /// UTF-16, the more significant byte first.
     Utf16Be,
+    /// Windows-1252.
     Windows1252,
+}
+
+impl FromStr for TextEncoding {
+    type Err = Syntax;
+
+    fn from_str(text: &str) -> Result<Self, Syntax> {
+        Ok(match text.to_ascii_lowercase().as_str() {
+            "utf-8" | "utf8" => Self::Utf8,
+            "utf-16" | "utf-16le" => Self::Utf16Le,
+            "utf-16be" => Self::Utf16Be,
+            "windows-1252" | "cp1252" | "iso-8859-1" | "latin1" | "ascii" => Self::Windows1252,
+            _ => return Err(Syntax::new(text, READABLE)),
+        })
+    }
 }
 
 /// The characters of the bytes 0x80 to 0x9f in Windows-1252. Every other byte is the code point of its character.
@@ -21,7 +55,7 @@ pub(crate) fn windows_1252(bytes: &[u8]) -> String {
     bytes.iter().filter_map(character).collect()
 }
 
-impl Encoding {
+impl TextEncoding {
     /// Returns the text of bytes in this encoding. A malformed character becomes U+FFFD. A byte order mark of
     /// UTF-16 is left out.
     pub(crate) fn decode(self, bytes: &[u8]) -> String {
@@ -53,17 +87,21 @@ mod tests {
             (3, "µ\u{fffd}"),
             (2, "µ"),
         ] {
-            assert_eq!(Encoding::Utf16Be.decode(&bytes[..length]), want, "{length}");
+            assert_eq!(
+                TextEncoding::Utf16Be.decode(&bytes[..length]),
+                want,
+                "{length}"
+            );
         }
         let halves = b"\x34\xd8a\0\x34\xdcb\0";
-        assert_eq!(Encoding::Utf16Le.decode(halves), "\u{fffd}a\u{fffd}b");
-        assert_eq!(Encoding::Utf8.decode(b"\xc2\xb5\xb5"), "µ\u{fffd}");
+        assert_eq!(TextEncoding::Utf16Le.decode(halves), "\u{fffd}a\u{fffd}b");
+        assert_eq!(TextEncoding::Utf8.decode(b"\xc2\xb5\xb5"), "µ\u{fffd}");
     }
 
     #[test]
     fn windows_1252_differs_from_latin_1_in_27_bytes() {
         let bytes: Vec<u8> = (0..=255).collect();
-        let text = Encoding::Windows1252.decode(&bytes);
+        let text = TextEncoding::Windows1252.decode(&bytes);
         assert_eq!(text.chars().count(), 256);
         let differ = text
             .chars()

@@ -60,9 +60,7 @@ impl Header {
                 Some(terms) => named(quantity, terms, names, width)?,
                 None => usual(quantity, names)?,
             };
-            if let Some(place) = header.sums.get_mut(quantity as usize) {
-                *place = sum;
-            }
+            header.sums[quantity as usize] = sum;
         }
         header.drop_added_tangential();
         match header.missing() {
@@ -137,7 +135,7 @@ impl Header {
     }
 
     fn sum_of(&self, quantity: Quantity) -> &[(usize, f64)] {
-        self.sums.get(quantity as usize).map_or(&[], Vec::as_slice)
+        &self.sums[quantity as usize]
     }
 
     fn has_any<const N: usize>(&self, quantities: [Quantity; N]) -> bool {

@@ -4,7 +4,7 @@ use std::io::{self, BufRead, BufReader, Cursor, Read};
 
 use flate2::bufread::GzDecoder;
 
-use crate::encoding::Encoding;
+use crate::encoding::TextEncoding;
 use crate::error::Error;
 
 /// The number of bytes that are read before the kind and the dialect of a file are decided.
@@ -23,7 +23,10 @@ pub(crate) struct Input<'r> {
 
 impl<'r> Input<'r> {
     /// Decompresses a file if it is compressed by gzip, and converts UTF-16 and the given encoding to UTF-8.
-    pub(crate) fn open(input: impl Read + 'r, encoding: Option<Encoding>) -> Result<Self, Error> {
+    pub(crate) fn open(
+        input: impl Read + 'r,
+        encoding: Option<TextEncoding>,
+    ) -> Result<Self, Error> {
         let raw = Self::sampled(Box::new(input))?;
         let source = if raw.sample.starts_with(b"\x1f\x8b") {
             Self::sampled(Box::new(Members(Some(GzDecoder::new(raw.all())))))?
@@ -64,13 +67,13 @@ impl<'r> Input<'r> {
 }
 
 /// Returns the encoding of a text in UTF-16, which begins with a byte order mark or has zeros beside ASCII.
-fn utf_16(sample: &[u8]) -> Option<Encoding> {
+fn utf_16(sample: &[u8]) -> Option<TextEncoding> {
     let is_text = |byte: &u8| byte.is_ascii_graphic() || byte.is_ascii_whitespace();
     match sample {
-        [0xff, 0xfe, ..] => Some(Encoding::Utf16Le),
-        [0xfe, 0xff, ..] => Some(Encoding::Utf16Be),
-        [a, 0, b, 0, ..] if is_text(a) && is_text(b) => Some(Encoding::Utf16Le),
-        [0, a, 0, b, ..] if is_text(a) && is_text(b) => Some(Encoding::Utf16Be),
+        [0xff, 0xfe, ..] => Some(TextEncoding::Utf16Le),
+        [0xfe, 0xff, ..] => Some(TextEncoding::Utf16Be),
+        [a, 0, b, 0, ..] if is_text(a) && is_text(b) => Some(TextEncoding::Utf16Le),
+        [0, a, 0, b, ..] if is_text(a) && is_text(b) => Some(TextEncoding::Utf16Be),
         _ => None,
     }
 }

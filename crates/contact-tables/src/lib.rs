@@ -21,7 +21,7 @@
 //! |---|---|
 //! | `error` | [`Error`]: why a file is refused |
 //! | `kind` | [`FileKind`]: the kind of a file, by its first bytes |
-//! | `encoding`, `input`, `lines` | the bytes of a file, decompressed, as text, line by line |
+//! | `encoding`, `input`, `lines` | the [`TextEncoding`]; the bytes of a file, decompressed, as text, line by line |
 //! | `contact`, `rows` | [`Contact`]: a row; [`Rows`]: many in little memory |
 //! | `number`, `cut`, `dialect` | the [`Dialect`] of a text: numbers and cells |
 //! | `columns`, `preset`, `format` | the [`Columns`] of the quantities; those of known codes; all that a user tells |
@@ -58,7 +58,8 @@ pub use contact::{Contact, Force, Place, Spheres};
 pub use contacts::{Contacts, read};
 pub use counts::RowCounts;
 pub use cut::Separator;
-pub use dialect::{Dialect, DialectOptions, Mark, TextEncoding};
+pub use dialect::{Dialect, DialectOptions, Mark};
+pub use encoding::TextEncoding;
 pub use error::{Error, Syntax};
 pub use format::Format;
 pub use kind::FileKind;

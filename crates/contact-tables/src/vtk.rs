@@ -25,11 +25,6 @@ use crate::format::Format;
 use crate::rows::Rows;
 use crate::steps::Steps;
 
-/// Returns the error of a file for this reason.
-fn refused(reason: impl Into<String>) -> Error {
-    Error::Vtk(reason.into())
-}
-
 /// Reads the contacts of a file as rows, and those of the files that it names. Rows are numbered from 1.
 pub(crate) fn read(
     bytes: &[u8],
@@ -62,7 +57,7 @@ pub(crate) fn read(
         Kind::None => "no points",
         _ => "no lines and no vertices",
     };
-    Err(refused(format!(
+    Err(Error::vtk(format!(
         "the file has {found}: contacts are lines between centres, or points with data"
     )))
 }

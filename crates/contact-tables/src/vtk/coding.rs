@@ -15,8 +15,9 @@ const MOST: u64 = 1 << 33;
 #[derive(Clone, Default)]
 pub(super) struct Coding<'f> {
     pub(super) order: Order,
-    header: HeaderType,
-    compressor: Compressor,
+    /// True if the header numbers before an array have eight bytes, not four.
+    has_long_header: bool,
+    compressor: String,
     appended: &'f [u8],
     is_appended_raw: bool,
 }
@@ -27,22 +28,6 @@ pub(super) enum Order {
     #[default]
     Little,
     Big,
-}
-
-/// The type of the header numbers before an array.
-#[derive(Clone, Copy, Default, PartialEq)]
-enum HeaderType {
-    #[default]
-    UInt32,
-    UInt64,
-}
-
-#[derive(Clone, Default, PartialEq)]
-enum Compressor {
-    #[default]
-    None,
-    ZLib,
-    Other(String),
 }
 
 impl<'f> Coding<'f> {
@@ -58,10 +43,8 @@ impl<'f> Coding<'f> {
     pub(super) fn set(&mut self, key: &str, value: &str) {
         match (key, value) {
             ("byte_order", "BigEndian") => self.order = Order::Big,
-            ("header_type", "UInt64") => self.header = HeaderType::UInt64,
-            ("compressor", "") => {}
-            ("compressor", "vtkZLibDataCompressor") => self.compressor = Compressor::ZLib,
-            ("compressor", other) => self.compressor = Compressor::Other(other.to_owned()),
+            ("header_type", "UInt64") => self.has_long_header = true,
+            ("compressor", name) => name.clone_into(&mut self.compressor),
             _ => {}
         }
     }
@@ -95,10 +78,10 @@ impl<'f> Coding<'f> {
 
     /// Returns whether arrays are compressed.
     fn is_compressed(&self) -> Result<bool, String> {
-        match &self.compressor {
-            Compressor::None => Ok(false),
-            Compressor::ZLib => Ok(true),
-            Compressor::Other(name) => Err(format!(
+        match &*self.compressor {
+            "" => Ok(false),
+            "vtkZLibDataCompressor" => Ok(true),
+            name => Err(format!(
                 "it is compressed by {}: write the file with zlib (vtkZLibDataCompressor), without compression or as \
                  text",
                 quoted(name)
@@ -108,10 +91,7 @@ impl<'f> Coding<'f> {
 
     /// Returns the size of a header number, in bytes.
     const fn size(&self) -> usize {
-        match self.header {
-            HeaderType::UInt32 => 4,
-            HeaderType::UInt64 => 8,
-        }
+        if self.has_long_header { 8 } else { 4 }
     }
 
     /// Returns the n-th number of a header.

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use super::legacy;
 use super::piece::Piece;
-use super::refused;
 use super::xml;
 use crate::error::{Error, quoted, shortened};
 use crate::kind::FileKind;
@@ -34,13 +33,13 @@ pub(super) fn gather<'b>(bytes: &'b [u8], open: Option<Open<'_>>) -> Result<Vec<
     }
     let Some(open) = open else {
         let names: Vec<&str> = named.iter().map(String::as_str).collect();
-        return Err(refused(format!(
+        return Err(Error::vtk(format!(
             "the contacts are in other files: give {} instead",
             shortened(&names)
         )));
     };
     if named.len() > MOST {
-        return Err(refused(format!("it names more than {MOST} files")));
+        return Err(Error::vtk(format!("it names more than {MOST} files")));
     }
     let leaves = named.iter().map(|path| {
         let name = inside(path)?;
@@ -50,7 +49,7 @@ pub(super) fn gather<'b>(bytes: &'b [u8], open: Option<Open<'_>>) -> Result<Vec<
         if leaf.files()?.is_empty() {
             return Ok(leaf);
         }
-        leaf.named(Err(refused(
+        leaf.named(Err(Error::vtk(
             "it names other files in turn: give it instead",
         )))
     });
@@ -66,7 +65,7 @@ fn inside(path: &str) -> Result<String, Error> {
         || path.get(1..2) == Some(":")
         || path.split('/').any(|part| part == "..");
     if is_outside {
-        return Err(refused(format!(
+        return Err(Error::vtk(format!(
             "the file {} is not in the folder of the collection: put it there, and name it without a folder",
             quoted(&path)
         )));
@@ -89,12 +88,12 @@ impl Leaf<'_> {
             match (&*document.kind, files.first()) {
                 ("PolyData" | "UnstructuredGrid", _)
                 | ("PPolyData" | "PUnstructuredGrid", Some(_)) => Ok(files),
-                (_, None) => Err(refused(format!(
+                (_, None) => Err(Error::vtk(format!(
                     "a VTK file of type {kind} without files: contacts are in PolyData or UnstructuredGrid"
                 ))),
                 (_, Some(_)) => {
                     let names: Vec<&str> = files.iter().map(String::as_str).collect();
-                    Err(refused(format!(
+                    Err(Error::vtk(format!(
                         "a VTK file of type {kind} only names others: give the one with the contacts, of {}",
                         shortened(&names)
                     )))
@@ -126,8 +125,8 @@ impl Leaf<'_> {
 
 fn within(name: &str, error: Error) -> Error {
     match error {
-        Error::Vtk(reason) => refused(format!("{}: {reason}", quoted(name))),
-        Error::Io(error) => refused(format!("{}: {error}", quoted(name))),
+        Error::Vtk(reason) => Error::vtk(format!("{}: {reason}", quoted(name))),
+        Error::Io(error) => Error::vtk(format!("{}: {error}", quoted(name))),
         other => other,
     }
 }

@@ -7,7 +7,6 @@ use std::borrow::Cow;
 use super::array::{Array, Source};
 use super::coding::Coding;
 use super::piece::{CONNECTIVITY, INTERLEAVED, OFFSETS, Piece, Section, TYPES};
-use super::refused;
 use super::words::{Words, cut, number};
 use crate::error::Error;
 use crate::error::quoted;
@@ -27,7 +26,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Piece<'_>, Error> {
         "ASCII" => false,
         "BINARY" => true,
         other => {
-            return Err(refused(format!(
+            return Err(Error::vtk(format!(
                 "the third line of a legacy VTK file is ASCII or BINARY, not {}",
                 quoted(other)
             )));
@@ -56,7 +55,7 @@ impl<'f> Legacy<'f> {
                 "POLYDATA" => {}
                 "UNSTRUCTURED_GRID" => self.piece.announce(Section::Cells, 0),
                 other => {
-                    return Err(refused(format!(
+                    return Err(Error::vtk(format!(
                         "the data set is {}: contacts are lines or vertices of POLYDATA or UNSTRUCTURED_GRID",
                         quoted(other)
                     )));
@@ -118,7 +117,7 @@ impl<'f> Legacy<'f> {
 
     /// Reads an attribute of the points or cells.
     fn attribute(&mut self, keyword: &str) -> Result<(), Error> {
-        let unknown = || refused(format!("the keyword {} is unknown", quoted(keyword)));
+        let unknown = || Error::vtk(format!("the keyword {} is unknown", quoted(keyword)));
         let (section, count) = self.data.ok_or_else(unknown)?;
         if keyword == "COLOR_SCALARS" {
             let name = self.words.name()?;
@@ -148,7 +147,7 @@ impl<'f> Legacy<'f> {
             word = self.words.word()?;
         }
         if !is_table(word) {
-            return Err(refused(format!(
+            return Err(Error::vtk(format!(
                 "the scalars {} have no LOOKUP_TABLE",
                 quoted(&name)
             )));
@@ -281,7 +280,7 @@ impl<'f> Legacy<'f> {
             "string" => "string",
             "variant" => "Variant",
             other => {
-                return Err(refused(format!(
+                return Err(Error::vtk(format!(
                     "the number type {} is unknown",
                     quoted(other)
                 )));

@@ -12,7 +12,6 @@ use quick_xml::events::{BytesRef, BytesStart, Event};
 use super::array::{Array, Source};
 use super::coding::Coding;
 use super::piece::{Piece, Section};
-use super::refused;
 use crate::error::Error;
 use crate::error::quoted;
 
@@ -91,10 +90,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Document<'_>, Error> {
             Event::GeneralRef(name) => append(array.as_mut(), depth, character(&name)?),
             Event::DocType(name) if starts_with_html(&name) => return Err(html()),
             Event::Eof if document.kind.is_empty() => {
-                return Err(refused("the file has no element VTKFile"));
+                return Err(Error::vtk("the file has no element VTKFile"));
             }
             Event::Eof if depth > 0 => {
-                return Err(refused("the file ends within its XML: it is not complete"));
+                return Err(Error::vtk(
+                    "the file ends within its XML: it is not complete",
+                ));
             }
             Event::Eof => break,
             _ => {}
@@ -215,10 +216,10 @@ fn root(tag: &BytesStart<'_>, coding: &mut Coding<'_>) -> Result<String, Error> 
     if name.as_ref() != b"VTKFile" {
         let is_spreadsheet = String::from_utf8_lossy(tag).contains("spreadsheet");
         return Err(if is_spreadsheet {
-            refused("an XML spreadsheet: save it as csv")
+            Error::vtk("an XML spreadsheet: save it as csv")
         } else {
             let name = String::from_utf8_lossy(name.as_ref());
-            refused(format!(
+            Error::vtk(format!(
                 "XML with the root element {}, not a VTK file",
                 quoted(&name)
             ))
@@ -229,7 +230,7 @@ fn root(tag: &BytesStart<'_>, coding: &mut Coding<'_>) -> Result<String, Error> 
         coding.set(key, value);
     }
     let kind = attributes.remove("type").filter(|kind| !kind.is_empty());
-    kind.ok_or_else(|| refused("the element VTKFile has no type, such as PolyData"))
+    kind.ok_or_else(|| Error::vtk("the element VTKFile has no type, such as PolyData"))
 }
 
 fn attributes(tag: &BytesStart<'_>) -> Result<BTreeMap<String, String>, Error> {
@@ -250,9 +251,9 @@ fn starts_with_html(text: &[u8]) -> bool {
 }
 
 fn html() -> Error {
-    refused("an HTML page: save the table that it shows, or the file that it links to")
+    Error::vtk("an HTML page: save the table that it shows, or the file that it links to")
 }
 
 fn invalid(error: &impl ToString) -> Error {
-    refused(format!("not valid XML: {}", quoted(&error.to_string())))
+    Error::vtk(format!("not valid XML: {}", quoted(&error.to_string())))
 }

@@ -24,16 +24,13 @@ use cannonpile::engine::refuse_beyond_memory;
 /// touch a sphere. The limit leaves room for neighbours that do not touch.
 const PAIRS_A_SPHERE: u64 = 20;
 
-/// The memory of a force, a vector, and the count of its rows.
-const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>() + size_of::<Listed>();
+/// The memory of a force, a vector, the count of its rows, and the line of the first.
+const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>() + size_of::<Listed>() + size_of::<u64>();
 
 /// The largest number of contacts whose errors are compared with those of springs.
 const MAX_FITTED: usize = 1_000_000;
 
-/// The largest number of runs of lines. Beyond it, messages about repeated pairs omit the line.
-const MAX_RUNS: usize = 1 << 16;
-
-/// The measured forces of a pile. A contact takes nine bytes, and 24 more if vectors were measured. It takes as much
+/// The measured forces of a pile. A contact takes 17 bytes, and 24 more if vectors were measured. It takes as much
 /// again if pairs are listed twice with different forces.
 pub(super) struct Ledger<'p> {
     numbered: NumberedPile<'p>,
@@ -49,7 +46,8 @@ pub(super) struct Ledger<'p> {
     floor: Floor,
     /// The number of rows that list a pair of spheres a second time, and a contact with the floor.
     repeated: [u64; 2],
-    lines: Lines,
+    /// The line of the first row of each contact.
+    lines: Vec<u64>,
     /// On a rough floor, the directions of the contacts.
     rough: Option<Directions>,
     /// The spheres above the bottom layer that touch the floor, with their forces.
@@ -84,7 +82,7 @@ impl<'p> Ledger<'p> {
             strays: BTreeMap::new(),
             floor: Floor::default(),
             repeated: [0; 2],
-            lines: Lines::default(),
+            lines: vec![0; slots.len()],
             rough: None,
             fallen: Vec::new(),
             numbered,
@@ -232,17 +230,17 @@ impl<'p> Ledger<'p> {
             ..split
         };
         let (ids, contacts) = (measured.ids, self.slots.len());
-        let listed = self.listed.get_mut(slot);
-        let listed = listed.ok_or_else(|| Fault::of_bug("every contact has a slot"))?;
+        let listed = self.listed.get_mut(slot).zip(self.lines.get_mut(slot));
+        let (listed, own_line) = listed.ok_or_else(|| Fault::of_bug("every contact has a slot"))?;
         let is_first = *listed == Listed::Never;
         let agrees = !is_first && self.forces.get(slot, ids) == Some(*measured);
         let Some(after) = listed.after(order, agrees) else {
-            let first = self.lines.of(slot);
+            let first = *own_line;
             return Err(Fault::Twice { ids, first });
         };
         *listed = after;
         if is_first {
-            self.lines.note(slot, line);
+            *own_line = line;
             return self.forces.set(slot, contacts, measured);
         }
         self.repeated[0] += 1;
@@ -256,7 +254,7 @@ impl<'p> Ledger<'p> {
         let (ids, limit) = (measured.ids, self.limit());
         if let Some(stray) = self.strays.get_mut(&ids) {
             let after = stray.listed.after(order, stray.measured == measured);
-            let first = Some(stray.line);
+            let first = stray.line;
             stray.listed = after.ok_or(Fault::Twice { ids, first })?;
             stray.contradiction = stray.measured.difference(&measured);
             if measured.magnitude() > stray.measured.magnitude() {
@@ -477,39 +475,6 @@ impl FloorRows<'_, '_> {
             ledger.fallen.push((sphere, magnitude(force)));
         }
         Ok(())
-    }
-}
-
-/// The lines of the contacts, stored as runs of consecutive lines. Only a table in random order needs more runs than
-/// are kept.
-#[derive(Default)]
-struct Lines {
-    /// The first contact of each run, its line, and the length of the run.
-    runs: Vec<(usize, u64, usize)>,
-    /// True if the next line continues no run.
-    is_full: bool,
-}
-
-impl Lines {
-    fn note(&mut self, slot: usize, line: u64) {
-        if let Some((first, begun, length)) = self.runs.last_mut()
-            && !self.is_full
-            && slot == *first + *length
-            && line == *begun + *length as u64
-        {
-            *length += 1;
-        } else if self.runs.len() < MAX_RUNS {
-            self.runs.push((slot, line, 1));
-        } else {
-            self.is_full = true;
-        }
-    }
-
-    fn of(&self, slot: usize) -> Option<u64> {
-        let runs = self.runs.iter();
-        let mut runs = runs.filter(|(first, _, length)| (*first..first + length).contains(&slot));
-        let (first, line, _) = runs.next()?;
-        Some(line + (slot - first) as u64)
     }
 }
 

@@ -158,7 +158,7 @@ impl Reader {
     /// let reader = Reader::new().with_columns("id1=A,id2=B,force=-Fn".parse()?);
     /// let read = reader.compare(&packing, &b"A B Fn\n1 2 -0.46\n1 3 -0.46\n1 4 -0.46\n"[..])?;
     /// assert!(read.comparison.accepted(0.01));
-    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
     pub fn with_columns(mut self, columns: Columns) -> Self {
@@ -300,7 +300,7 @@ impl Reader {
     /// above and below it, a row of units, and decimal commas: its [`Dialect`]. Columns that are not needed may hold
     /// anything.
     ///
-    /// Memory is nine bytes for each contact of the pile, and 24 more if there are vectors. It is 64 bytes for each sphere. On a rough floor, it is 24 more for
+    /// Memory is 17 bytes for each contact of the pile, and 24 more if there are vectors. It is 64 bytes for each sphere. On a rough floor, it is 24 more for
     /// tangential forces, and 48 for each sphere. It is twice as much if pairs
     /// are in two rows with different forces. Matching by position takes about 60 more bytes for each sphere. If the
     /// frame differs from that of the scene, it also takes eight bytes for each contact and for each number of a row. A

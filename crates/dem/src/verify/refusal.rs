@@ -94,8 +94,8 @@ pub enum Fault {
     Twice {
         /// The numbers of the two spheres.
         ids: [u64; 2],
-        /// The line or the entry of the first occurrence, if it is known.
-        first: Option<u64>,
+        /// The line or the entry of the first occurrence.
+        first: u64,
     },
     /// No two spheres touch at a position.
     NoSphereAt {
@@ -126,7 +126,7 @@ impl fmt::Display for Refusal {
                 line,
                 fault: Fault::Twice {
                     ids: [a, b],
-                    first: Some(first),
+                    first,
                 },
             } => write!(
                 f,
@@ -204,15 +204,11 @@ impl fmt::Display for Fault {
             ),
             Self::Twice {
                 ids: [a, b],
-                first: Some(first),
+                first,
             } => write!(
                 f,
                 "spheres {a} and {b} are already in entry {first}: {ONCE}"
             ),
-            Self::Twice {
-                ids: [a, b],
-                first: None,
-            } => write!(f, "spheres {a} and {b} are already listed: {ONCE}{STEPS}"),
             Self::Bug { error } => error.fmt(f),
             Self::TooMany { limit } => write!(
                 f,

@@ -447,7 +447,7 @@ fn invalid_entries_are_rejected() {
         refused(Measured::new([1, 2], 0.0)),
         Fault::Twice {
             ids: [1, 2],
-            first: Some(1)
+            first: 1
         }
     );
     // Sphere 4 is above the bottom layer, so that it touches no wall.

@@ -252,7 +252,7 @@ fn a_third_row_or_another_force_in_the_same_order_is_refused() {
             [one, other.reversed(), one],
             [one.reversed(), other.reversed(), one],
         ] {
-            let first = Some(1);
+            let first = 1;
             assert_eq!(refused(&packing, &rows), Fault::Twice { ids, first });
         }
         assert!(Comparison::new(&packing, [one, other.reversed()]).is_ok());

@@ -418,48 +418,6 @@ fn invalid_tables_are_rejected_with_a_remedy() {
     }
 }
 
-/// A name that could be read as a sign or a factor is printed with a factor.
-#[test]
-fn printed_columns_parse_to_themselves() {
-    for text in [
-        "id1=A,id2=B,fx=-f_x",
-        "fx=2.5*a+b+-c",
-        "fy=#10+#13-#2,fz=-2*#1",
-        "fz=1*7*overlap",
-        "force=-1*7*overlap+3*-a+1*-a",
-        "id1=1*a*b,id2=1*-c",
-        "kind=2*-type:SS|SP",
-    ] {
-        let read = columns(text);
-        assert_eq!(read.to_string(), text);
-        assert_eq!(read.to_string().parse(), Ok(read));
-    }
-}
-
-/// The presets are not parsed. They are the columns of these texts.
-#[test]
-fn columns_of_presets_are_those_that_a_user_would_write() {
-    for (preset, text) in [
-        (
-            Preset::ExaDem,
-            "kind=#5:0|1|2|3,fx=-#10-#13,fy=-#11-#14,fz=-#12-#15,x1=#16,y1=#17,z1=#18,x2=#19,y2=#20,z2=#21",
-        ),
-        (
-            Preset::ExaDemVtp,
-            "fx=-fn_x+-ft_x,fy=-fn_y+-ft_y,fz=-fn_z+-ft_z",
-        ),
-        (
-            Preset::DemEngine,
-            "kind=contact_type:SS,fx=f_x,fy=f_y,fz=f_z,x=X,y=Y,z=Z",
-        ),
-        (Preset::Kratos, "force=local_contact_force_z"),
-        (Preset::Mddem, "x=cx,y=cy,z=cz,force=overlap"),
-    ] {
-        assert_eq!(preset.columns(), columns(text), "{preset}");
-        assert_eq!(preset.columns().to_string(), text);
-    }
-}
-
 #[test]
 fn every_preset_reads_its_code_and_reports_a_wrong_force() {
     let pile = Pile::triangular(4).unwrap();
