@@ -114,7 +114,6 @@ mod moments;
 mod placed;
 mod places;
 mod read;
-mod reading;
 mod refinement;
 mod refusal;
 mod registration;
@@ -138,7 +137,6 @@ pub use frame::Frame;
 pub use measured::{MAX_ENTRIES, Measured};
 pub use placed::Placed;
 pub use read::{Compared, Reader, read};
-pub use reading::Reading;
 pub use refinement::{
     Fit, Level, LevelPlace, Limit, MAX_LEVELS, NoOrder, NoRefinement, NoRefinementFiles, Norm,
     Refinement, RefinementFile, RefinementFiles, RefinementReport, RefinementStudy,

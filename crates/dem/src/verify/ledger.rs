@@ -417,7 +417,7 @@ impl Ledger<'_> {
 }
 
 /// Returns the numbers of the spheres of a row.
-fn numbers(row: &Contact) -> Result<[i64; 2], Error> {
+pub(super) fn numbers(row: &Contact) -> Result<[i64; 2], Error> {
     match row.spheres {
         Spheres::Numbers(ids) => Ok(ids),
         Spheres::Places(_) => Err(bug("a table is read by numbers, or by place")),

@@ -11,15 +11,15 @@ use contact_tables::{
 use super::comparison::{Comparison, of_entry};
 use super::frame::Frame;
 use super::gathering::Gathering;
-use super::ledger::{FloorRows, Ledger};
+use super::ledger::{FloorRows, Ledger, numbers};
+use super::measured::{MAX_ENTRIES, Measured};
 use super::placed::Placed;
-use super::reading::Reading;
-use super::refusal::Refusal;
+use super::refusal::{Fault, Refusal};
 use super::unbalanced::Unbalanced;
 use crate::scene::Floor;
 use cannonpile::{Interrupt, Packing};
 
-/// Reads measured forces from a file of any kind, without a pile to compare them with.
+/// Reads measured forces from a file of any kind, without a pile to compare them with, in the order of the file.
 ///
 /// # Errors
 /// Those of [`Reader::compare`] that do not depend on a pile.
@@ -27,15 +27,43 @@ use cannonpile::{Interrupt, Packing};
 /// # Examples
 /// ```
 /// use cannonpile_dem::verify;
+/// use cannonpile_dem::verify::Measured;
 ///
-/// let reading = verify::read(&b"id1,id2,force\n1,2,0.5\n"[..])?;
-/// assert_eq!(reading.entries().len(), 1);
+/// let measured = verify::read(&b"id1,id2,force\n3,1,0.25\n1,2,0.5\n"[..])?;
+/// assert_eq!(measured, [Measured::new([3, 1], 0.25), Measured::new([1, 2], 0.5)]);
 /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
 /// ```
-pub fn read(input: impl Read) -> Result<Reading, Refusal> {
-    let mut reading = Reading::default();
-    read_each(input, &Format::default(), |row| reading.take(row))?;
-    Ok(reading)
+pub fn read(input: impl Read) -> Result<Vec<Measured>, Refusal> {
+    let mut all = Vec::new();
+    read_each(input, &Format::default(), |row| {
+        let fault = if all.len() as u64 >= MAX_ENTRIES {
+            let limit = MAX_ENTRIES;
+            Fault::TooMany { limit }
+        } else {
+            let measured = Measured::of(unsigned(row)?, row);
+            // The length of a vector may overflow.
+            if measured.force.is_finite() {
+                all.push(measured);
+                return Ok(());
+            }
+            let (column, value) = ("force", measured.force);
+            Fault::NotFinite { column, value }
+        };
+        Err(fault.at(row.line))
+    })?;
+    Ok(all)
+}
+
+/// Returns the numbers of the two spheres of a row, if none is negative.
+fn unsigned(row: &Contact) -> Result<[u64; 2], Refusal> {
+    let [one, other] = numbers(row)?;
+    let unsigned = |column, id: i64| {
+        u64::try_from(id).map_err(|_| contact_tables::Error::Line {
+            line: row.line,
+            reason: format!("{column} '{id}' is not a number of at least 0"),
+        })
+    };
+    Ok([unsigned("id1", one)?, unsigned("id2", other)?])
 }
 
 /// A reader of a code's tables: the meaning of the columns, and the method that matches contacts.

@@ -202,10 +202,7 @@ impl fmt::Display for Fault {
                 f,
                 "sphere {id} is in an earlier row too: list each sphere once, with a column step if there are several steps"
             ),
-            Self::Twice {
-                ids: [a, b],
-                first,
-            } => write!(
+            Self::Twice { ids: [a, b], first } => write!(
                 f,
                 "spheres {a} and {b} are already in entry {first}: {ONCE}"
             ),

@@ -41,16 +41,15 @@ pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
         }
     };
     match verify::read(&*file) {
-        Ok(reading) => {
-            let entries = reading.entries();
-            for one in entries {
+        Ok(entries) => {
+            for one in &entries {
                 let [x, y, z] = one.vector.unwrap_or_default();
                 let numbers = [one.force, x, y, z].iter().all(|x| x.is_finite());
                 demand(numbers, || format!("{one:?} was read"))?;
             }
             same(
                 "the entries",
-                &verify::read(csv(entries).as_bytes())?.entries(),
+                &verify::read(csv(&entries).as_bytes())?,
                 &entries,
             )
         }
@@ -331,11 +330,7 @@ const PICTURES: [&[u8]; 8] = [
 pub fn a_file(u: &mut Unstructured<'_>) -> Checked {
     let entries = entries(u)?;
     let file = written(u, &entries)?;
-    same(
-        "the entries",
-        &verify::read(file.as_bytes())?.entries(),
-        &&*entries,
-    )
+    same("the entries", &verify::read(file.as_bytes())?, &entries)
 }
 
 /// The exact forces of a small pile are accepted in any order. One fault among them is found.

@@ -187,7 +187,7 @@ fn read_or_refused(packing: &Packing<'_>, file: &[u8]) -> Checked {
     // Rows of another kind are passed over.
     let has_kinds = file.windows(4).any(|part| part == b"kind");
     if let Ok(reading) = verify::read(file) {
-        let is_empty = reading.entries().is_empty();
+        let is_empty = reading.is_empty();
         demand(!is_vtk || has_kinds || !is_empty, || {
             "no contact was read".to_owned()
         })?;

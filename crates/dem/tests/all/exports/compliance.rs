@@ -365,19 +365,14 @@ fn lammps_measured_the_compliance() {
     let exact: Vec<_> = numbered.contacts().unwrap().map(Result::unwrap).collect();
     for (contact, exact) in contacts.iter().zip(&exact) {
         let same = |ids: [u64; 2]| BTreeSet::from(ids) == BTreeSet::from(contact.ids);
-        let entry = reading
-            .entries()
-            .iter()
-            .find(|entry| same(entry.ids))
-            .unwrap();
+        let entry = reading.iter().find(|entry| same(entry.ids)).unwrap();
         let measured = (entry.force / exact.force - 1.0) * 1e7;
         assert!(
             (measured - contact.coefficient).abs() < 0.06,
             "{contact:?}: {measured}"
         );
     }
-    let comparison: Comparison =
-        Comparison::new(&packing, reading.entries().iter().copied()).unwrap();
+    let comparison: Comparison = Comparison::new(&packing, reading.iter().copied()).unwrap();
     let [largest, rms] = [
         comparison.largest_error().unwrap(),
         comparison.rms_error().unwrap(),

@@ -7,7 +7,7 @@ use super::{packing, ratio};
 
 #[track_caller]
 fn read(text: &str) -> Vec<Measured> {
-    verify::read(text.as_bytes()).unwrap().entries().to_vec()
+    verify::read(text.as_bytes()).unwrap()
 }
 
 #[track_caller]

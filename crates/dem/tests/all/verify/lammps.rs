@@ -35,7 +35,7 @@ fn lammps_is_accepted_within_the_error_of_its_springs() {
         let error = comparison.largest_error().unwrap();
         assert!((5e-8..3e-7).contains(&error), "{error}");
         // The vectors and their signs are correct too.
-        let alone = magnitudes(reading.entries());
+        let alone = magnitudes(&reading);
         let alone = verify::Comparison::new(packing, alone).unwrap();
         assert!(alone.largest_error().unwrap() <= error);
     });
@@ -93,6 +93,6 @@ fn dumps_may_have_any_line_ends_and_labels() {
     ];
     for spelling in spellings {
         let again = verify::read(spelling.as_bytes()).unwrap();
-        assert_eq!(again.entries(), reading.entries());
+        assert_eq!(again, reading);
     }
 }

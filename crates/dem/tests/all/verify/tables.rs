@@ -333,12 +333,18 @@ fn columns_may_have_any_name_sign_factor_and_sum() {
     let sum = reader("force=normal+2*half");
     let table = "id1,id2,normal,half\n1,2,0.4,0.031125\n1,3,0.4,0.031125\n1,4,0.46225,0\n";
     assert!(read(&sum, table).comparison.accepted(1e-5));
-    for text in [
-        "id1=A,id2=B,fx=-f_x,fy=-f_y,fz=-f_z",
-        "id1=#1,id2=#2,force=-#3+0.5*#4",
-        "force=a+-b,kind=type:0|1|SS",
+    for (text, same) in [
+        (
+            "id1=A,fx=-f_x,fy=\"-f_y\"",
+            "id1 = A, fx = -1*f_x, fy = 1*-f_y",
+        ),
+        ("force=-#3-#4+2.5*#5", "force=-1*#3+-1*#4+25e-1*#5"),
+        (
+            "force=a+-b,kind=type:0|1|SS",
+            "force=a+-1*b,kind=type: 0 | 1 | SS",
+        ),
     ] {
-        assert_eq!(columns(text).to_string(), text);
+        assert_eq!(columns(text), columns(same), "{text}");
     }
 }
 

@@ -109,7 +109,7 @@ fn xml_in_utf_16_is_read() {
 /// The forces of the rows that are read by the numbers of the spheres.
 fn forces(file: &str) -> Result<Vec<f64>, String> {
     let reading = verify::read(file.as_bytes()).map_err(|refusal| refusal.to_string())?;
-    Ok(reading.entries().iter().map(|entry| entry.force).collect())
+    Ok(reading.iter().map(|entry| entry.force).collect())
 }
 
 fn by_place(file: &str) -> Result<Compared, Refusal> {
