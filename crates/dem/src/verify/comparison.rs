@@ -1,10 +1,9 @@
 //! Comparison of measured forces with exact forces.
 
-use core::fmt;
+mod findings;
+mod verdict;
 
 use super::difference::{Difference, Extra};
-use super::finding::{Finding, FindingKind, counted, short};
-use super::friction::WithFriction;
 use super::ledger::Ledger;
 use super::measured::{Measured, over};
 use super::refusal::Refusal;
@@ -530,123 +529,6 @@ impl Comparison {
         over(&self.0.errors, tolerance)
     }
 
-    /// Returns the common factor between measured and exact forces, if it differs from 1 by more than `tolerance`, and takes away
-    /// most of the error. Forces of 0 are left out. `None` for fewer than two contacts with a force.
-    ///
-    /// # Examples
-    /// ```
-    /// # use cannonpile::geometry::Spacing;
-    /// # use cannonpile_dem::verify::{Comparison, Measured};
-    /// # use cannonpile::{Packing, Pile};
-    /// # use num_rational::BigRational;
-    /// let pile = Pile::triangular(2)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // A simulation at g = 9.81 m/s², compared with a pile at 1 m/s².
-    /// let measured = [2, 3, 4].map(|id| Measured::new([1, id], 9.81 * 0.462250163));
-    /// let comparison = Comparison::new(&packing, measured)?;
-    /// assert!((comparison.common_factor(1e-6).unwrap() - 9.81).abs() < 1e-6);
-    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
-    /// ```
-    #[must_use]
-    pub fn common_factor(&self, tolerance: f64) -> Option<f64> {
-        Some(self.0.symptoms.factor(tolerance)?.0)
-    }
-
-    /// Explains the differences: one wrong factor, swapped axes, a missing layer (see [`Finding`]). The list
-    /// is empty if the comparison is accepted at `tolerance`.
-    ///
-    /// # Examples
-    /// ```
-    /// # use cannonpile::geometry::Spacing;
-    /// # use cannonpile_dem::verify::{Comparison, FindingKind, Measured};
-    /// # use cannonpile::{Packing, Pile};
-    /// # use num_rational::BigRational;
-    /// let pile = Pile::triangular(2)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let weighed = [2, 3, 4].map(|id| Measured::new([1, id], 9.81 * 0.46225016352102427));
-    /// let comparison = Comparison::new(&packing, weighed)?;
-    /// let [finding] = &comparison.findings(1e-6)[..] else { panic!() };
-    /// assert_eq!(finding.kind, FindingKind::Factor);
-    /// assert!(finding.text.starts_with("all forces are 9.81 times the exact ones"));
-    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
-    /// ```
-    #[must_use]
-    pub fn findings(&self, tolerance: f64) -> Vec<Finding> {
-        if self.accepted(tolerance) {
-            return Vec::new();
-        }
-        let error = self.largest_error().unwrap_or(0.0);
-        let digits = self.0.symptoms.digits.explain(error, self.0.difference);
-        let mut findings = match digits.filter(|_| error > tolerance) {
-            Some(digits) => vec![digits],
-            None => self.0.symptoms.findings(tolerance),
-        };
-        let pairs = self.contradictory(tolerance);
-        findings.extend((pairs > 0).then(|| {
-            let text = format!("two rows disagree on the force of {pairs} of the pairs: does the table hold several steps?");
-            Finding::new(FindingKind::Contradiction, text)
-        }));
-        if !findings.iter().any(Finding::hides_others) {
-            findings.extend(self.of_forces(error, tolerance));
-        }
-        findings.extend(self.0.off_floor.map(|(spheres, first)| {
-            let spheres = counted(spheres, "bottom sphere");
-            let text = format!("the force of the floor is missing below {spheres}, first sphere {first}: do they touch the floor?");
-            Finding::new(FindingKind::OffFloor, text)
-        }));
-        let fallen: Vec<u64> = self.0.fallen(tolerance).collect();
-        findings.extend(fallen.first().map(|first| {
-            let (others, are) = match fallen.len() {
-                1 => ("touches".to_owned(), "is"),
-                2 => ("and another touch".to_owned(), "are"),
-                more => (format!("and {} others touch", more - 1), "are"),
-            };
-            let text = format!("sphere {first} {others} the floor, but {are} above the bottom layer: has the pile fallen?");
-            Finding::new(FindingKind::Fallen, text)
-        }));
-        findings
-    }
-
-    /// Returns the explanations of the values of the forces: the first that fits.
-    fn of_forces(&self, error: f64, tolerance: f64) -> Vec<Finding> {
-        let (judged, is_right) = (&self.0, error <= tolerance);
-        let mut findings = Vec::new();
-        let is_soft = !is_right && judged.loads.may_be_soft(error);
-        if let Some(stiffness) = judged.stiffness.filter(|_| is_soft) {
-            let text = format!(
-                "springs of {stiffness:.2e} N/m explain the errors: they are too soft; the errors shrink as the stiffness grows"
-            );
-            findings.push(Finding::new(FindingKind::Springs, text));
-        } else if let Some(friction) = &judged.friction {
-            let factor = judged.symptoms.factor(tolerance);
-            let explains =
-                |(factor, left): &(f64, f64)| friction.has_factor(*factor, left.max(tolerance));
-            if !factor.as_ref().is_some_and(explains) {
-                findings = friction.findings(tolerance, is_right);
-            }
-            let of_contacts = [FindingKind::Moment, FindingKind::Friction];
-            if !findings
-                .iter()
-                .any(|finding| of_contacts.contains(&finding.kind))
-            {
-                findings.splice(0..0, factor.map(Finding::factor));
-            }
-        } else if !is_right {
-            findings = judged.loads.findings(&judged.symptoms, error, tolerance);
-        }
-        // What explains the contacts explains the floor too.
-        let floor = self.floor_error().filter(|error| *error > tolerance);
-        if let Some(error) = floor.filter(|_| is_right || findings.is_empty()) {
-            let spheres = over(&judged.floor_errors, tolerance);
-            let text = format!(
-                "the normal force of the floor is wrong at {spheres} of the bottom spheres, by up to {error:.1e} of the exact \
-                 force: are they held in place by other means?"
-            );
-            findings.push(Finding::new(FindingKind::Floor, text));
-        }
-        findings
-    }
-
     /// Returns the root mean square of the relative errors of the measured contacts, accurate to about 1e-8 of its
     /// value. `None` if no contact was measured.
     ///
@@ -691,83 +573,6 @@ impl Comparison {
     pub fn worst(&self) -> Option<&Difference> {
         self.0.worst.as_ref()
     }
-
-    /// Returns the reason why the comparison is not accepted, or the error up to which it is.
-    pub(super) fn reason(&self, tolerance: f64) -> String {
-        let error = short(self.largest_error().unwrap_or(0.0));
-        if self.accepted(tolerance) {
-            let floor = match self.floor() {
-                0 => String::new(),
-                floor => format!(" and {floor} with the floor"),
-            };
-            let agree = counted(self.matched(), "contact") + &floor;
-            return format!("{agree} agree within {tolerance:?}, the largest error is {error:?}");
-        }
-        let contacts = format!("of {}", counted(self.contacts(), "contact"));
-        let off = format!("{contacts} ARE off by more than {tolerance:?}, by up to {error:?}");
-        let reasons = [
-            (self.missing(), contacts + " ARE missing"),
-            (
-                self.extra(tolerance),
-                "of the other pairs HAVE a force".to_owned(),
-            ),
-            (self.beyond(tolerance), off),
-        ];
-        let reasons = reasons.into_iter().filter(|(count, _)| *count > 0);
-        let reasons = reasons.map(|(count, reason)| {
-            let [are, have] = if count == 1 {
-                ["is", "has"]
-            } else {
-                ["are", "have"]
-            };
-            format!(
-                "{count} {}",
-                reason.replace("ARE", are).replace("HAVE", have)
-            )
-        });
-        let reasons: Vec<_> = reasons.collect();
-        match self.findings(tolerance).first() {
-            Some(first) if reasons.is_empty() => first.to_string(),
-            _ => reasons.join("; "),
-        }
-    }
-
-    /// Returns whether no contact is missing, no pair is extra or contradictory, and every relative error is at most
-    /// `tolerance`, also that of the floor.
-    ///
-    /// If one bottom sphere has a force of the floor, every other one that presses on the floor needs one too. On a rough floor all
-    /// need one; the tangential force of every measured contact must be known, and the whole force of the floor. No sphere above
-    /// may touch it. The net moment is not part of the verdict: it follows from the forces.
-    ///
-    /// # Examples
-    /// ```
-    /// # use cannonpile::geometry::Spacing;
-    /// # use cannonpile_dem::verify::{Comparison, Measured};
-    /// # use cannonpile::{Packing, Pile};
-    /// # use num_rational::BigRational;
-    /// let pile = Pile::triangular(2)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let measured = [2, 3, 4].map(|id| Measured::new([1, id], 0.462));
-    /// let comparison = Comparison::new(&packing, measured)?;
-    /// assert!(comparison.accepted(1e-3) && !comparison.accepted(1e-4));
-    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
-    /// ```
-    #[must_use]
-    pub fn accepted(&self, tolerance: f64) -> bool {
-        let errors = [
-            self.largest_error(),
-            self.floor_error(),
-            self.tangential_error(),
-            self.floor_friction_error(),
-        ];
-        self.missing() == 0
-            && self.0.fallen(tolerance).next().is_none()
-            && self.0.off_floor.is_none()
-            && self.0.friction.as_ref().is_none_or(WithFriction::is_known)
-            && self.extra(tolerance) == 0
-            && self.contradictory(tolerance) == 0
-            && errors.into_iter().flatten().all(|error| error <= tolerance)
-    }
 }
 
 /// Converts the line of an error to the number of an entry.
@@ -775,47 +580,5 @@ pub(super) fn of_entry(refusal: Refusal) -> Refusal {
     match refusal {
         Refusal::Line { line, fault } => Refusal::Entry { entry: line, fault },
         other => other,
-    }
-}
-
-impl fmt::Display for Comparison {
-    /// Writes one line, for the message of an assertion.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Judged {
-            contacts, missing, ..
-        } = self.0;
-        let (matched, extra) = (self.matched(), self.0.strays.len());
-        write!(
-            f,
-            "{matched} of {contacts} contacts measured, {missing} missing, {extra} pairs besides them"
-        )?;
-        for (name, error) in [
-            ("largest error", self.largest_error()),
-            ("rms", self.rms_error()),
-            (
-                "of the floor",
-                self.floor_error().filter(|error| *error > 0.0),
-            ),
-            ("of tangential forces", self.tangential_error()),
-            ("of the friction of the floor", self.floor_friction_error()),
-        ] {
-            if let Some(error) = error {
-                write!(
-                    f,
-                    "{} {name} {error:e}",
-                    if name == "rms" { "," } else { ";" }
-                )?;
-            }
-        }
-        if let Some(worst) = self.worst() {
-            write!(f, "; worst: {worst}")?;
-        }
-        if let Some(missing) = self.0.first_missing.first() {
-            write!(f, "; missing: {missing}")?;
-        }
-        if let Some(extra) = self.0.greatest_strays.first() {
-            write!(f, "; extra: {extra}")?;
-        }
-        Ok(())
     }
 }

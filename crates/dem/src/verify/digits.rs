@@ -26,19 +26,18 @@ impl Digits {
         let force = Some(measured.force).filter(|_| !measured.is_length);
         let numbers = measured.vector.into_iter().flatten().chain(force);
         for number in numbers.filter(|number| *number != 0.0) {
-            let text = format!("{:e}", number.abs());
-            let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-            let digits = mantissa.len() - usize::from(mantissa.contains('.'));
-            let exponent: isize = exponent.parse().unwrap_or(0);
-            let decimals = digits.saturating_add_signed(-1 - exponent);
+            // Without an exponent.
+            let text = number.abs().to_string();
+            let (whole, decimals) = text.split_once('.').unwrap_or((&text, ""));
+            let digits = format!("{whole}{decimals}").trim_matches('0').len();
             self.most = self.most.max(digits);
-            self.decimals = self.decimals.max(decimals);
+            self.decimals = self.decimals.max(decimals.len());
         }
     }
 
     /// Returns the finding of few digits, if they explain a relative error of a force or a difference in N.
     pub(super) fn explain(self, error: f64, difference: f64) -> Option<Finding> {
-        let last = |digits: usize| i32::try_from(digits).map_or(0.0, |digits| 0.1_f64.powi(digits));
+        let last = |digits: usize| (0..digits).fold(1.0, |unit, _| unit / 10.0);
         // Half a unit of the last digit, and the length of three halves.
         let is_explained = error <= 5.0 * last(self.most) || difference <= last(self.decimals);
         let digits = self.most;

@@ -9,24 +9,11 @@ use super::comparison::Comparison;
 use super::difference::{Difference, Extra};
 use super::finding::{counted, short};
 use super::read::Compared;
-use super::unbalanced::float;
 use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 use cannonpile::lattice::{Dimension, Site};
 
 /// The number of missing contacts, and of extra pairs, that the text shows.
 const SHOWN: usize = 5;
-
-const INFINITE: &str = "inf";
-
-/// The entries of the csv, around those of a rough floor.
-const FIRST: &str = "accepted accept contacts matched repeated missing extra noise fixed largest_error rms_error worst \
-    beyond factor walls floor floor_error";
-const FRICTION: &str = "tangential tangential_error floor_friction_error net_moment";
-const LAST: &str = "frame unbalanced findings rows left_out table step";
-
-/// The entries of the text that are not 0.
-const LINES: &str = "rms_error floor_error tangential_error floor_friction_error net_moment repeated shares noise \
-    not_judged frame left_out table step scene_file";
 
 /// The report of a comparison at an accepted error.
 ///
@@ -224,57 +211,80 @@ impl<'c> Report<'c> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn write(self, format: FileFormat, out: &mut dyn Write) -> Result<(), WriteError> {
-        let record = self.record();
         match format {
             FileFormat::Json => {
-                serde_json::to_writer_pretty(&mut *out, &self.json(record))?;
+                serde_json::to_writer_pretty(&mut *out, &json!([self.json()]))?;
                 Ok(writeln!(out)?)
             }
-            FileFormat::Csv => self.table(&record).write(format, NumberFormat::F64, out),
-            FileFormat::Text => self.write_text(&record, out),
+            FileFormat::Csv => self.table().write(format, NumberFormat::F64, out),
+            FileFormat::Text => self.write_text(out),
         }
     }
 
-    fn write_text(self, record: &Value, out: &mut dyn Write) -> Result<(), WriteError> {
-        let comparison = self.comparison;
-        let verdict = if record["accepted"] == true {
+    fn write_text(self, out: &mut dyn Write) -> Result<(), WriteError> {
+        let Self {
+            comparison, accept, ..
+        } = self;
+        let verdict = if comparison.accepted(accept) {
             "yes"
         } else {
             "no"
         };
-        let reason = record["reason"].as_str().unwrap_or_default();
+        let reason = comparison.reason(accept);
         writeln!(out, "{verdict}: {reason}")?;
-        let findings = comparison
-            .findings(self.accept)
-            .into_iter()
-            .map(|finding| finding.to_string());
-        for finding in findings.filter(|finding| finding != reason) {
+        let findings = self.findings().into_iter();
+        for finding in findings.filter(|finding| *finding != reason) {
             writeln!(out, "finding: {finding}")?;
         }
-        let (missing, extra) = (comparison.missing(), comparison.extra(self.accept));
+        let (missing, extra) = (comparison.missing(), comparison.extra(accept));
         list("missing", comparison.missing_contacts(), missing, out)?;
         list("extra", self.extra_pairs(), extra, out)?;
         if let Some(worst) = comparison.worst().filter(|worst| worst.error > 0.0) {
             writeln!(out, "worst: {worst}")?;
         }
-        for key in LINES.split_whitespace() {
-            let meaning = match key {
-                "repeated" => " rows list a contact again",
-                "shares" => " rows are shares of a force, and were added up",
-                "noise" => " other pairs with a force below the accepted error",
-                "scene_file" => ", beside the table",
-                _ => "",
-            };
-            let words = match value(record, key) {
-                Value::String(words) => words.clone(),
-                Value::Number(number) => match number.as_u64() {
-                    Some(count) => count.to_string(),
-                    None => format!("{:?}", short(number.as_f64().unwrap_or_default())),
-                },
-                _ => continue,
-            };
-            if words != "0" && words != "0.0" {
-                writeln!(out, "{key}: {words}{meaning}")?;
+        for (key, error) in [
+            ("rms_error", comparison.rms_error()),
+            ("floor_error", comparison.floor_error()),
+            ("tangential_error", comparison.tangential_error()),
+            ("floor_friction_error", comparison.floor_friction_error()),
+            ("net_moment", self.net_moment()),
+        ] {
+            if let Some(error) = error.filter(|error| *error != 0.0) {
+                writeln!(out, "{key}: {:?}", short(error))?;
+            }
+        }
+        let [repeated, shares] = [comparison.repeated(), comparison.shares()];
+        let noise = comparison.noise(accept);
+        for (count, key, meaning) in [
+            (repeated, "repeated", "rows list a contact again"),
+            (
+                shares,
+                "shares",
+                "rows are shares of a force, and were added up",
+            ),
+            (
+                noise,
+                "noise",
+                "other pairs with a force below the accepted error",
+            ),
+        ] {
+            if count > 0 {
+                writeln!(out, "{key}: {count} {meaning}")?;
+            }
+        }
+        let scene_file = self
+            .scene_file
+            .map(|file| format!("{file}, beside the table"));
+        for (key, words) in [
+            ("not_judged", self.not_judged()),
+            ("frame", self.frame()),
+            ("left_out", self.left_out()),
+            ("table", self.kind()),
+            ("step", self.step()),
+            ("scene_file", scene_file),
+        ] {
+            if let Some(words) = words {
+                writeln!(out, "{key}: {words}")?;
             }
         }
         Ok(())
@@ -301,61 +311,121 @@ impl<'c> Report<'c> {
         self.file.map_or(0, |file| file.walls)
     }
 
-    fn table(self, record: &Value) -> Table<'static> {
-        let friction = if self.comparison.has_friction() {
-            FRICTION
+    fn net_moment(self) -> Option<f64> {
+        self.comparison.net_moment().map(|(_, moment)| moment)
+    }
+
+    fn findings(self) -> Vec<String> {
+        let findings = self.comparison.findings(self.accept);
+        findings.iter().map(ToString::to_string).collect()
+    }
+
+    fn frame(self) -> Option<String> {
+        Some(self.file?.frame?.to_string())
+    }
+
+    fn left_out(self) -> Option<String> {
+        let rows = self.file?.rows.to_string();
+        Some(rows).filter(|rows| !rows.is_empty())
+    }
+
+    /// Returns the dialect of a text table, or the kind of another file.
+    fn kind(self) -> Option<String> {
+        let file = self.file?;
+        let dialect = file.dialect.as_ref().map(ToString::to_string);
+        Some(dialect.unwrap_or_else(|| file.kind.to_string()))
+    }
+
+    fn step(self) -> Option<String> {
+        self.file?.step.clone()
+    }
+
+    fn table(self) -> Table<'static> {
+        let Self {
+            comparison,
+            accept,
+            file,
+            ..
+        } = self;
+        let count = |count: u64| Cell::Integer(count.into());
+        let number = |number: Option<f64>| number.map_or(Cell::Missing, Cell::F64);
+        let word =
+            |word: Option<String>| word.map_or(Cell::Missing, |word| Cell::Word(word.into()));
+        let accepted = if comparison.accepted(accept) {
+            "yes"
         } else {
-            ""
+            "no"
         };
-        let keys = [FIRST, friction, LAST]
-            .into_iter()
-            .flat_map(str::split_whitespace);
-        let entries = keys.map(|key| {
-            let word = |text: String| Cell::Word(text.into());
-            let cell = match value(record, key) {
-                Value::Null => Cell::Missing,
-                Value::Bool(is) => if *is { "yes" } else { "no" }.into(),
-                Value::Number(number) => match number.as_u64() {
-                    Some(count) => Cell::Integer(count.into()),
-                    None => float(number.as_f64().unwrap_or_default()),
-                },
-                Value::String(text) => word(text.clone()),
-                Value::Array(findings) if findings.is_empty() => Cell::Missing,
-                Value::Array(findings) => {
-                    let findings = findings.iter().filter_map(Value::as_str);
-                    word(findings.collect::<Vec<_>>().join("; "))
-                }
-                Value::Object(_) => word(
-                    self.comparison
-                        .worst()
-                        .map_or(String::new(), ToString::to_string),
+        let findings = Some(self.findings().join("; ")).filter(|findings| !findings.is_empty());
+        let mut entries = vec![
+            ("accepted", accepted.into()),
+            ("accept", Cell::F64(accept)),
+            ("contacts", count(comparison.contacts())),
+            ("matched", count(comparison.matched())),
+            ("repeated", count(comparison.repeated())),
+            ("missing", count(comparison.missing())),
+            ("extra", count(comparison.extra(accept))),
+            ("noise", count(comparison.noise(accept))),
+            ("fixed", count(comparison.fixed())),
+            ("largest_error", number(comparison.largest_error())),
+            ("rms_error", number(comparison.rms_error())),
+            ("worst", word(comparison.worst().map(ToString::to_string))),
+            ("beyond", count(comparison.beyond(accept))),
+            ("factor", number(comparison.common_factor(accept))),
+            ("walls", count(self.walls())),
+            ("floor", count(comparison.floor())),
+            ("floor_error", number(comparison.floor_error())),
+        ];
+        if comparison.has_friction() {
+            entries.extend([
+                ("tangential", count(comparison.tangential())),
+                ("tangential_error", number(comparison.tangential_error())),
+                (
+                    "floor_friction_error",
+                    number(comparison.floor_friction_error()),
                 ),
-            };
-            (Column::plain(key), cell)
-        });
+                ("net_moment", number(self.net_moment())),
+            ]);
+        }
+        entries.extend([
+            ("frame", word(self.frame())),
+            (
+                "unbalanced",
+                word(file.map(|file| file.unbalanced.to_string())),
+            ),
+            ("findings", word(findings)),
+            (
+                "rows",
+                file.map_or(Cell::Missing, |file| count(file.rows.used)),
+            ),
+            ("left_out", word(self.left_out())),
+            ("table", word(self.kind())),
+            ("step", word(self.step())),
+        ]);
+        let entries = entries
+            .into_iter()
+            .map(|(key, cell)| (Column::plain(key), cell));
         Table::record(entries.collect())
     }
 
-    /// Returns the whole record. An infinite error is `inf`.
-    fn record(self) -> Value {
+    /// Returns the whole record. An infinite error is `null`.
+    fn json(self) -> Value {
         let Self {
-            comparison, accept, ..
+            comparison,
+            accept,
+            file,
+            ..
         } = self;
-        let error = |error: Option<f64>| match error {
-            Some(error) if error.is_infinite() => INFINITE.into(),
-            error => json!(error),
-        };
-        let file = self.file;
-        let findings: Vec<_> = comparison.findings(accept);
-        let moment = comparison.net_moment();
         let friction = json!({
             "tangential": comparison.tangential(),
-            "tangential_error": error(comparison.tangential_error()),
-            "floor_friction_error": error(comparison.floor_friction_error()),
-            "net_moment": error(moment.map(|(_, moment)| moment)),
-            "net_moment_sphere": moment.map(|(sphere, _)| sphere),
+            "tangential_error": comparison.tangential_error(),
+            "floor_friction_error": comparison.floor_friction_error(),
+            "net_moment": self.net_moment(),
+            "net_moment_sphere": comparison.net_moment().map(|(sphere, _)| sphere),
         });
-        json!({
+        let missing = comparison.missing_contacts().iter().map(contact);
+        let extra = self.extra_pairs().iter().map(pair);
+        let mut record = json!({
             "accepted": comparison.accepted(accept),
             "reason": comparison.reason(accept),
             "accept": accept,
@@ -368,34 +438,27 @@ impl<'c> Report<'c> {
             "noise": comparison.noise(accept),
             "fixed": comparison.fixed(),
             "largest_force": comparison.largest_force(),
-            "largest_error": error(comparison.largest_error()),
-            "rms_error": error(comparison.rms_error()),
+            "largest_error": comparison.largest_error(),
+            "rms_error": comparison.rms_error(),
             "worst": comparison.worst().map(contact),
             "beyond": comparison.beyond(accept),
             "factor": comparison.common_factor(accept),
             "walls": self.walls(),
             "floor": comparison.floor(),
-            "floor_error": error(comparison.floor_error()),
+            "floor_error": comparison.floor_error(),
             "friction": Some(friction).filter(|_| comparison.has_friction()),
-            "frame": file.and_then(|file| file.frame).map(|frame| frame.to_string()),
+            "frame": self.frame(),
             "unbalanced": file.map(|file| file.unbalanced.to_string()),
-            "findings": findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "findings": self.findings(),
             "not_judged": self.not_judged(),
             "rows": file.map(|file| file.rows.used),
-            "left_out": file.map(|file| file.rows.to_string()).filter(|rows| !rows.is_empty()),
-            "table": file.map(|file| match &file.dialect {
-                Some(dialect) => dialect.to_string(),
-                None => file.kind.to_string(),
-            }),
-            "step": file.and_then(|file| file.step.clone()),
+            "left_out": self.left_out(),
+            "table": self.kind(),
+            "step": self.step(),
             "scene_file": self.scene_file,
-        })
-    }
-
-    fn json(self, mut record: Value) -> Value {
-        let missing = self.comparison.missing_contacts();
-        record["missing_contacts"] = missing.iter().map(contact).collect();
-        record["extra_pairs"] = self.extra_pairs().iter().map(pair).collect();
+            "missing_contacts": missing.collect::<Value>(),
+            "extra_pairs": extra.collect::<Value>(),
+        });
         if let Some(source) = self.source {
             let of = |source: &Source| {
                 json!({
@@ -412,8 +475,7 @@ impl<'c> Report<'c> {
             }
             record["source"] = origin;
         }
-        without_infinite(&mut record);
-        Value::Array(vec![record])
+        record
     }
 
     /// Returns the pairs without a contact whose force is more than noise.
@@ -422,21 +484,6 @@ impl<'c> Report<'c> {
         let extra = pairs.partition_point(|pair| pair.error > self.accept);
         // A partition point is at most the length.
         &pairs[..extra]
-    }
-}
-
-/// Returns an entry of a record, or one of its entries for a rough floor.
-fn value<'r>(record: &'r Value, key: &str) -> &'r Value {
-    record["friction"].get(key).unwrap_or(&record[key])
-}
-
-/// Replaces infinite errors by null.
-fn without_infinite(record: &mut Value) {
-    for (_, value) in record.as_object_mut().into_iter().flatten() {
-        without_infinite(value);
-        if value == INFINITE {
-            *value = Value::Null;
-        }
     }
 }
 
