@@ -205,7 +205,7 @@ pub fn mean(bytes: &[u8]) -> Corpus {
 }
 
 /// Tables of measured forces are read correctly or rejected. Exact forces are accepted, and a wrong force is found.
-/// Refinement studies have the order of their generator, and their records are read back or rejected.
+/// Refinement studies have the order of their generator.
 #[cfg(feature = "all")]
 #[must_use]
 pub fn measured(bytes: &[u8]) -> Corpus {
@@ -213,7 +213,6 @@ pub fn measured(bytes: &[u8]) -> Corpus {
         bytes,
         &[
             claims::measured::any_file,
-            claims::refinement::any_record,
             claims::refinement::any_levels,
             claims::refinement::given_order,
             claims::measured::any_table,

@@ -118,6 +118,7 @@ mod refinement;
 mod refusal;
 mod registration;
 mod report;
+mod shown;
 mod slots;
 mod soft;
 mod symptoms;
@@ -138,8 +139,8 @@ pub use measured::{MAX_ENTRIES, Measured};
 pub use placed::Placed;
 pub use read::{Compared, Reader, read};
 pub use refinement::{
-    Fit, Level, LevelPlace, Limit, MAX_LEVELS, NoOrder, NoRefinement, NoRefinementFiles, Norm,
-    Refinement, RefinementFile, RefinementFiles, RefinementReport, RefinementStudy,
+    Fit, Level, LevelPlace, MAX_LEVELS, NoRefinement, Norm, Refinement, RefinementReport,
+    RefinementStudy,
 };
 pub use refusal::{Fault, Refusal};
 pub use report::{Report, Source};

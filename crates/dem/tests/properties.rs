@@ -34,8 +34,7 @@ properties! {
     exact_tables_are_read_whole_in_any_dialect: claims::dialect::exact_table, 10_000;
     a_fault_is_found_in_any_dialect: claims::dialect::planted_fault, 10_000;
     a_planted_order_of_accuracy_is_found: claims::refinement::given_order, 1024;
-    any_refinement_comes_back_from_its_record: claims::refinement::any_levels, 1024;
-    any_record_of_a_refinement_is_read_or_refused: claims::refinement::any_record, 1024;
+    any_refinement_study_is_reported: claims::refinement::any_levels, 1024;
 }
 
 /// Few dialects are refused.

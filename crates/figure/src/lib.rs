@@ -33,7 +33,6 @@
 //! | [`response()`] | the forces in a layer under a load on the top |
 //! | [`mean_response()`], [`mean_profile()`] | the mean response of the base over random stackings: as maps, and by distance |
 //! | [`distribution()`] | the distribution of contact forces or base normal forces over random stackings |
-//! | [`refinement()`] | the errors of a code at several stiffnesses or time steps, and their order of accuracy |
 //! | [`viewer`] | an HTML viewer of the pile and its forces |
 //! | [`Error`] | the errors of this crate |
 //!
@@ -62,7 +61,6 @@ mod network;
 mod page;
 mod panel;
 mod pile;
-mod refinement;
 mod response;
 mod shear;
 mod sphere;
@@ -82,7 +80,6 @@ pub use mean::{mean_profile, mean_response};
 pub use network::{layer, section};
 pub use page::{Figure, Layout};
 pub use pile::pile;
-pub use refinement::refinement;
 pub use response::{response, with_load_on_top};
 pub use shear::shear;
 pub use sphere::{example_site, sphere};

@@ -8,7 +8,6 @@ use cannonpile::stacking::Pattern;
 use cannonpile::{Load, Pile};
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use cannonpile_dem::table::WriteError;
-use cannonpile_dem::verify::RefinementStudy;
 use cannonpile_disorder::Shard;
 use cannonpile_figure as figure;
 use cannonpile_figure::{Figure, Layout, Subject};
@@ -18,7 +17,7 @@ use num_rational::BigRational;
 use super::ensemble::HistogramForces;
 use super::{fault_probability, of_weight};
 use crate::args::{SceneOptions, UnitSystem, parse_site};
-use crate::output::{Failure, InputError, READABLE_FILE, open, print_message, unusable, write_to};
+use crate::output::{Failure, InputError, print_message, write_to};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
 
@@ -35,8 +34,7 @@ Examples:
   cannonpile plot stability --stacking=+-+++ --output stability.svg
   cannonpile plot response --fault-probability 0,1/4,1/2,1 --layers 17 --output mean.svg
   cannonpile plot response --fault-probability 1/4,1/2,3/4 --layers 61 --profile --output wave.svg
-  cannonpile ensemble --layers 12 --all --output all.json; cannonpile plot distribution all.json --output forces.svg
-  cannonpile verify --refinement 1e5=soft.csv,1e6=stiff.csv --format json --output refinement.json; cannonpile plot refinement refinement.json";
+  cannonpile ensemble --layers 12 --all --output all.json; cannonpile plot distribution all.json --output forces.svg";
 
 /// A kind of figure.
 #[derive(Subcommand)]
@@ -119,14 +117,6 @@ pub(crate) enum Plot {
         /// Probability q that a sign differs from the one before [default: that of the record]
         #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = fault_probability)]
         fault_probability: Option<BigRational>,
-        #[command(flatten)]
-        output: FigureOutput,
-    },
-    /// Draw the errors of a refinement study and their order of accuracy
-    Refinement {
-        /// JSON record of verify --refinement
-        #[arg(value_name = "FILE")]
-        record: PathBuf,
         #[command(flatten)]
         output: FigureOutput,
     },
@@ -262,7 +252,7 @@ impl Plot {
     /// Returns the scene options, if the figure has them, and the output options.
     const fn parts(&self) -> (Option<&SceneOptions>, &FigureOutput) {
         let of = match self {
-            Self::Distribution { output, .. } | Self::Refinement { output, .. } => {
+            Self::Distribution { output, .. } => {
                 return (None, output);
             }
             Self::Pile(of)
@@ -375,19 +365,8 @@ impl Plot {
                     Failure::Message(format!("{} {reason}", file.display()))
                 })
             }
-            Self::Refinement { record, .. } => Ok(figure::refinement(&read_study(record)?)),
         }
     }
-}
-
-/// Reads the record of a refinement study.
-fn read_study(path: &Path) -> Result<RefinementStudy, Failure> {
-    let expected = [
-        "a refinement study",
-        "'cannonpile verify --refinement K1=FILE1,K2=FILE2 --format json' writes one",
-    ];
-    RefinementStudy::read(open(path)?)
-        .map_err(|error| unusable(path.display(), &error, expected, READABLE_FILE))
 }
 
 /// Parses the lengths of runs of equal signs. The first run has the sign +.

@@ -9,12 +9,13 @@ use cannonpile::Packing;
 use cannonpile_dem::scene::{Floor, Scene};
 use cannonpile_dem::table::{FileFormat, NumberFormat};
 use cannonpile_dem::verify::{
-    Columns, Compared, DialectOptions, Mark, Preset, Reader, RefinementFiles, Refusal, Report,
-    Separator, Source, TextEncoding,
+    Columns, Compared, DialectOptions, Mark, Preset, Reader, Refusal, Report, Separator, Source,
+    TextEncoding,
 };
 use clap::{Args, ValueEnum};
 use contact_tables::Error;
 
+use self::refinement::LevelFile;
 use super::note_instability;
 use crate::args::{Format, Output, SceneOptions, in_state};
 use crate::input::{Input, name_of};
@@ -50,8 +51,8 @@ this column; the other rows are contacts with walls. step=time names the column 
 that of --step. With two centres x1…z2, fx,fy,fz is the force on the first sphere. With a contact point x,y,z, the force is
 compressive unless force is negative.
 
-Refinement study: --refinement takes a file for each stiffness or time step. It prints the error of each level, the observed
-order of accuracy and the extrapolated error. The exit status is 1 if the errors show no order.
+Refinement study: --refinement takes a file for each stiffness or time step. It prints the error of each level and the observed
+order of accuracy. The exit status is 1 if the errors show no order.
 
 Examples:
   cannonpile verify pile/forces.dump --layers 10 --spacing 1.2
@@ -73,10 +74,12 @@ pub(crate) struct Verify {
     #[arg(
         long,
         value_name = "K1=FILE1,K2=FILE2,...",
+        value_delimiter = ',',
+        value_parser = refinement::level_file,
         conflicts_with_all = ["measured", "unbalanced"],
         help_heading = "Refinement study"
     )]
-    refinement: Option<RefinementFiles>,
+    refinement: Option<Vec<LevelFile>>,
     /// Refinement parameter of --refinement [default: stiffness]
     #[arg(
         long,

@@ -9,8 +9,6 @@
 //!   square ([`Norm`]).
 //! * The observed order between neighbouring levels is p = ln(e₁/e₂)/ln(h₁/h₂). The order of the whole study is the
 //!   slope of the line ln e = ln C + p ln h through the levels above the floor ([`Fit`]).
-//! * The extrapolated error for h → 0 is e∞ in e = e∞ + C hᵖ ([`Limit`]). For a correct code it is 0 within its
-//!   standard error.
 //!
 //! # The error floor
 //! An error falls until another error dominates: rounding, an iteration that stops early, a spurious force. One rule
@@ -26,24 +24,25 @@
 //!
 //! So the rule treats a method of an order below ½ as not converging.
 
-mod files;
-mod fit;
-mod limit;
-mod read;
 mod report;
 
-pub use files::{NoRefinementFiles, RefinementFile, RefinementFiles};
-pub use fit::{Fit, NoOrder};
-pub use limit::Limit;
 pub use report::RefinementReport;
 
-use crate::Each;
 use core::fmt;
 
 use super::comparison::Comparison;
 
 /// The largest number of levels of a refinement study.
 pub const MAX_LEVELS: usize = 1000;
+
+/// The smallest order at which an error counts as falling.
+const MIN_ORDER: f64 = 0.5;
+
+/// The share of the order so far that the error must keep until the floor is reached.
+const KEPT_ORDER: f64 = 2.0 / 3.0;
+
+/// An error below this multiple of the floor is partly due to the floor.
+const NEAR: f64 = 3.0;
 
 /// The parameter that changes from level to level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,42 +55,11 @@ pub enum Refinement {
 
 impl Refinement {
     /// Returns the name of the parameter, as in columns: `stiffness` or `timestep`.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::Refinement;
-    ///
-    /// assert_eq!(Refinement::TimeStep.name(), "timestep");
-    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Stiffness => "stiffness",
             Self::TimeStep => "timestep",
-        }
-    }
-
-    /// Returns the refinement parameter h for a stiffness or a time step.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::Refinement;
-    ///
-    /// assert_eq!([Refinement::Stiffness, Refinement::TimeStep].map(|of| of.h(4.0)), [0.25, 4.0]);
-    /// ```
-    #[must_use]
-    pub const fn h(self, parameter: f64) -> f64 {
-        match self {
-            Self::Stiffness => 1.0 / parameter,
-            Self::TimeStep => parameter,
-        }
-    }
-
-    /// Returns ln h. The logarithm of the parameter never overflows, although 1/k may.
-    fn ln_h(self, parameter: f64) -> f64 {
-        match self {
-            Self::Stiffness => -parameter.ln(),
-            Self::TimeStep => parameter.ln(),
         }
     }
 }
@@ -109,35 +77,10 @@ pub enum Norm {
 impl Norm {
     /// Both norms, in the order of the columns in tables.
     pub const ALL: [Self; 2] = [Self::Largest, Self::Rms];
-
-    /// Returns the name of the norm, as in tables: `largest` or `rms`.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::Norm;
-    ///
-    /// assert_eq!(Norm::ALL.map(Norm::name), ["largest", "rms"]);
-    /// ```
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Largest => "largest",
-            Self::Rms => "rms",
-        }
-    }
 }
 
 /// One simulation of a refinement study: its parameter, and the summary of its comparison with the exact forces.
-///
-/// # Examples
-/// ```
-/// use cannonpile_dem::verify::{Norm, Level};
-///
-/// let level = Level::of_errors(1e6, 495, 4e-6, 1e-6);
-/// assert!(level.is_whole());
-/// assert_eq!(level.error(Norm::Rms), 1e-6);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Level {
     /// The stiffness or the time step, in the unit of the simulation.
     pub parameter: f64,
@@ -163,13 +106,11 @@ impl Level {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::Spacing;
     /// use cannonpile_dem::verify::{Comparison, Measured, Level};
     /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
     ///
     /// let pile = Pile::triangular(2)?;
-    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
     /// let measured = [2, 3].map(|id| Measured::new([1, id], 0.46225016352102427));
     /// let level = Level::new(1e6, &Comparison::new(&packing, measured)?, 1e-6);
     /// assert_eq!((level.matched, level.missing, level.largest_error), (2, 1, 0.0));
@@ -190,58 +131,14 @@ impl Level {
         }
     }
 
-    /// Returns a level with known errors and all contacts measured.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::Level;
-    ///
-    /// let level = Level::of_errors(1e-3, 30, 2e-5, 1e-5);
-    /// assert_eq!((level.parameter, level.matched), (1e-3, 30));
-    /// ```
-    #[must_use]
-    pub const fn of_errors(
-        parameter: f64,
-        contacts: u64,
-        largest_error: f64,
-        rms_error: f64,
-    ) -> Self {
-        Self {
-            parameter,
-            contacts,
-            matched: contacts,
-            missing: 0,
-            extra: 0,
-            largest_error,
-            rms_error,
-            predicted_error: None,
-        }
-    }
-
     /// Returns whether the comparison covers the whole pile: some contacts were measured, none is missing and no pair
     /// is extra. Soft springs can let a pile collapse; its errors are then those of another pile.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::Level;
-    ///
-    /// let level = Level::of_errors(10.0, 30, 0.1, 0.05);
-    /// assert!(level.is_whole() && !Level { missing: 3, matched: 27, ..level }.is_whole());
-    /// ```
     #[must_use]
     pub const fn is_whole(&self) -> bool {
         self.matched > 0 && self.missing == 0 && self.extra == 0
     }
 
     /// Returns the relative error in a norm.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::{Norm, Level};
-    ///
-    /// let level = Level::of_errors(1e6, 30, 2e-5, 1e-5);
-    /// assert_eq!(Norm::ALL.map(|norm| level.error(norm)), [2e-5, 1e-5]);
-    /// ```
     #[must_use]
     pub const fn error(&self, norm: Norm) -> f64 {
         match norm {
@@ -266,13 +163,6 @@ pub enum LevelPlace {
 
 impl LevelPlace {
     /// Returns the name, as in tables: `above`, `floor`, `incomplete` or `no logarithm`.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::LevelPlace;
-    ///
-    /// assert_eq!(LevelPlace::Floor.name(), "floor");
-    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -293,14 +183,14 @@ impl LevelPlace {
 /// // Errors of 5/k, above a floor of rounding that rises with k.
 /// let levels = [1e3, 1e4, 1e5, 1e6, 1e7].map(|k| {
 ///     let error = 5.0 / k + 1e-12 * k;
-///     Level::of_errors(k, 30, error, error / 3.0)
+///     Level { parameter: k, contacts: 30, matched: 30, largest_error: error, rms_error: error / 3.0, ..Level::default() }
 /// });
 /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
 /// let fit = study.fit(Norm::Largest)?;
 /// assert!((fit.order - 1.0).abs() < 1e-3 && (fit.constant / 5.0 - 1.0).abs() < 0.01);
 /// assert_eq!(fit.levels, 3);
 /// assert_eq!(study.places(Norm::Largest).last(), Some(&LevelPlace::Floor));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// # Ok::<(), cannonpile_dem::verify::NoRefinement>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RefinementStudy {
@@ -314,18 +204,6 @@ impl RefinementStudy {
     /// # Errors
     /// [`NoRefinement`] for no levels or more than [`MAX_LEVELS`], for an error that is negative or not a number, and for
     /// a parameter that is not positive and normal, or that occurs twice.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
-    ///
-    /// let levels = [1e3, 1e5, 1e4].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
-    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?;
-    /// assert_eq!(study.levels().iter().map(|level| level.parameter).collect::<Vec<_>>(), [1e3, 1e4, 1e5]);
-    /// let twice = RefinementStudy::new(Refinement::Stiffness, [levels[0], levels[0]]);
-    /// assert_eq!(twice, Err(NoRefinement::Twice { parameter: 1e3 }));
-    /// # Ok::<(), NoRefinement>(())
-    /// ```
     pub fn new(
         refinement: Refinement,
         levels: impl IntoIterator<Item = Level>,
@@ -338,16 +216,18 @@ impl RefinementStudy {
             return Err(NoRefinement::TooMany { limit: MAX_LEVELS });
         }
         for level in &levels {
-            check_parameter(level.parameter)?;
-            let predicted = level.predicted_error;
-            for error in Norm::ALL
-                .each(|norm| level.error(norm))
-                .into_iter()
-                .chain(predicted)
-            {
-                if error.is_nan() || error < 0.0 {
-                    return Err(NoRefinement::Error { error });
-                }
+            let parameter = level.parameter;
+            if !(parameter.is_normal() && parameter > 0.0) {
+                return Err(NoRefinement::Parameter { parameter });
+            }
+            let errors = [
+                Some(level.largest_error),
+                Some(level.rms_error),
+                level.predicted_error,
+            ];
+            let is_wrong = |error: &f64| error.is_nan() || *error < 0.0;
+            if let Some(error) = errors.into_iter().flatten().find(is_wrong) {
+                return Err(NoRefinement::Error { error });
             }
         }
         // Sorted by the parameter itself: two neighbouring floats may have the same logarithm.
@@ -355,61 +235,16 @@ impl RefinementStudy {
             Refinement::Stiffness => a.parameter.total_cmp(&b.parameter),
             Refinement::TimeStep => b.parameter.total_cmp(&a.parameter),
         });
-        let parameters = levels.iter().map(|level| level.parameter);
-        match repeated(parameters) {
-            Some(parameter) => Err(NoRefinement::Twice { parameter }),
+        let mut pairs = levels.iter().zip(levels.iter().skip(1));
+        match pairs.find(|(one, next)| one.parameter.total_cmp(&next.parameter).is_eq()) {
+            Some((Level { parameter, .. }, _)) => Err(NoRefinement::Twice {
+                parameter: *parameter,
+            }),
             None => Ok(Self { refinement, levels }),
         }
     }
 
-    /// Returns the refinement study with the largest error that theory predicts at each parameter.
-    ///
-    /// # Errors
-    /// [`NoRefinement::Error`] for a prediction that is negative or not a number.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
-    ///
-    /// let levels = [1e3, 1e4].map(|k| Level::of_errors(k, 30, 5.0 / k, 2.0 / k));
-    /// let study = RefinementStudy::new(Refinement::Stiffness, levels)?.predicted(|k| 4.8 / k)?;
-    /// assert_eq!(study.levels()[0].predicted_error, Some(4.8e-3));
-    /// # Ok::<(), NoRefinement>(())
-    /// ```
-    pub fn predicted(self, error: impl Fn(f64) -> f64) -> Result<Self, NoRefinement> {
-        let levels = self.levels.into_iter().map(|level| Level {
-            predicted_error: Some(error(level.parameter)),
-            ..level
-        });
-        Self::new(self.refinement, levels)
-    }
-
-    /// Returns the parameter that changes from level to level.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
-    ///
-    /// let study = RefinementStudy::new(Refinement::TimeStep, [Level::of_errors(1e-3, 30, 0.1, 0.05)])?;
-    /// assert_eq!(study.refinement(), Refinement::TimeStep);
-    /// # Ok::<(), NoRefinement>(())
-    /// ```
-    #[must_use]
-    pub const fn refinement(&self) -> Refinement {
-        self.refinement
-    }
-
     /// Returns the levels, from the coarsest, with the greatest h, to the finest.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Refinement, Level};
-    ///
-    /// let levels = [1e-4, 1e-3].map(|step| Level::of_errors(step, 30, step, step / 3.0));
-    /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
-    /// assert_eq!(study.levels()[0].parameter, 1e-3);
-    /// # Ok::<(), NoRefinement>(())
-    /// ```
     #[must_use]
     pub fn levels(&self) -> &[Level] {
         &self.levels
@@ -422,7 +257,7 @@ impl RefinementStudy {
     /// ```
     /// use cannonpile_dem::verify::{RefinementStudy, NoRefinement, Norm, Refinement, Level};
     ///
-    /// let levels = [0.1, 0.01].map(|step| Level::of_errors(step, 30, step * step, 0.0));
+    /// let levels = [0.1, 0.01].map(|step| Level { parameter: step, largest_error: step * step, ..Level::default() });
     /// let study = RefinementStudy::new(Refinement::TimeStep, levels)?;
     /// let [none, order] = study.orders(Norm::Largest)[..] else { panic!() };
     /// assert!(none.is_none() && (order.unwrap() - 2.0).abs() < 1e-12);
@@ -431,25 +266,61 @@ impl RefinementStudy {
     /// ```
     #[must_use]
     pub fn orders(&self, norm: Norm) -> Vec<Option<f64>> {
-        let logs: Vec<_> = self
-            .levels
-            .iter()
-            .map(|level| self.log(level, norm))
-            .collect();
-        let between = logs.windows(2).map(|pair| match pair {
-            [Some(coarse), Some(fine)] => Some(coarse.order_to(*fine)).filter(|p| p.is_finite()),
-            _ => None,
+        let logs = self.levels.iter().map(|level| self.log(level, norm));
+        let finer = logs.clone().skip(1);
+        let between = logs.zip(finer).map(|(coarse, fine)| {
+            let order = coarse?.order_to(fine?);
+            Some(order).filter(|order| order.is_finite())
         });
         core::iter::once(None).chain(between).collect()
+    }
+
+    /// Returns the position of each level relative to the floor. The order is fitted to the levels above it.
+    #[must_use]
+    pub fn places(&self, norm: Norm) -> Vec<LevelPlace> {
+        let mut above = above(&self.points(norm));
+        let places = self.levels.iter().map(|level| {
+            if !level.is_whole() {
+                LevelPlace::Incomplete
+            } else if self.log(level, norm).is_none() {
+                LevelPlace::NoLogarithm
+            } else if above == 0 {
+                LevelPlace::Floor
+            } else {
+                above -= 1;
+                LevelPlace::Above
+            }
+        });
+        places.collect()
+    }
+
+    /// Returns the line through the levels above the floor.
+    ///
+    /// # Errors
+    /// [`NoRefinement::Few`] for fewer than two such levels, and [`NoRefinement::Alike`] for parameters too close to
+    /// each other to show a slope.
+    pub fn fit(&self, norm: Norm) -> Result<Fit, NoRefinement> {
+        let mut points = self.points(norm);
+        points.truncate(above(&points));
+        Fit::through(&points)
+    }
+
+    /// Returns the points of the levels that are complete and have a logarithm.
+    fn points(&self, norm: Norm) -> Vec<Log> {
+        let whole = self.levels.iter().filter(|level| level.is_whole());
+        whole.filter_map(|level| self.log(level, norm)).collect()
     }
 
     /// Returns ln h and ln e, if the error has a logarithm.
     fn log(&self, level: &Level, norm: Norm) -> Option<Log> {
         let error = level.error(norm);
-        (error > 0.0 && error.is_finite()).then(|| Log {
-            h: self.refinement.ln_h(level.parameter),
-            e: error.ln(),
-        })
+        // The logarithm of the parameter never overflows, although 1/k may.
+        let h = match self.refinement {
+            Refinement::Stiffness => -level.parameter.ln(),
+            Refinement::TimeStep => level.parameter.ln(),
+        };
+        let e = error.ln();
+        (error > 0.0 && error.is_finite()).then_some(Log { h, e })
     }
 }
 
@@ -469,7 +340,70 @@ impl Log {
     }
 }
 
-/// The reason why levels form no refinement study: one line with the remedy.
+/// Returns the number of points above the floor, by the rule in [`refinement`](self).
+fn above(points: &[Log]) -> usize {
+    let last = points.iter().enumerate().position(|(n, from)| {
+        let until_here = points.first().filter(|_| n >= 2);
+        let until_here = until_here.map(|first| KEPT_ORDER * first.order_to(*from));
+        let least = until_here.map_or(MIN_ORDER, |order| order.max(MIN_ORDER));
+        let mut finer = points.iter().skip(n + 1);
+        !finer.any(|finer| from.order_to(*finer) >= least)
+    });
+    let (above, floor) = points.split_at(last.map_or(0, |last| last + 1));
+    let (Some(last), Some(floor)) = (above.last(), floor.first()) else {
+        return above.len();
+    };
+    let bound = last.e.min(floor.e) + NEAR.ln();
+    let is_near = |point: &&Log| point.e < bound;
+    let near = above.iter().skip(2).rev().take_while(is_near).count();
+    above.len() - near
+}
+
+/// The fitted line e = C hᵖ through the levels above the floor: least squares of ln e = ln C + p ln h, with equal
+/// weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Fit {
+    /// The observed order p.
+    pub order: f64,
+    /// The standard error of the order, √(Σr²/(n − 2)/Σ(ln h − mean)²), with the residuals r of n levels. For two
+    /// levels it is not defined, because the line goes through both.
+    pub standard_error: Option<f64>,
+    /// The constant C, the error at h = 1. For springs and p = 1 it has the unit of the stiffness. It is infinite or 0
+    /// if the value overflows or underflows.
+    pub constant: f64,
+    /// The number of levels above the floor.
+    pub levels: usize,
+}
+
+impl Fit {
+    /// Returns the least-squares line through these points.
+    fn through(points: &[Log]) -> Result<Self, NoRefinement> {
+        let levels = points.len();
+        if levels < 2 {
+            return Err(NoRefinement::Few { levels });
+        }
+        let count: f64 = points.iter().map(|_| 1.0).sum();
+        let mean = |of: fn(&Log) -> f64| points.iter().map(of).sum::<f64>() / count;
+        let (h, e) = (mean(|point| point.h), mean(|point| point.e));
+        let apart = points.iter().map(|point| (point.h - h, point.e - e));
+        let spread: f64 = apart.clone().map(|(h, _)| h * h).sum();
+        let slope: f64 = apart.clone().map(|(h, e)| h * e).sum();
+        let order = slope / spread;
+        if !order.is_finite() {
+            return Err(NoRefinement::Alike);
+        }
+        let squares: f64 = apart.map(|(h, e)| (e - order * h).powi(2)).sum();
+        Ok(Self {
+            order,
+            standard_error: (levels > 2).then(|| (squares / (count - 2.0) / spread).sqrt()),
+            constant: (e - order * h).exp(),
+            levels,
+        })
+    }
+}
+
+/// The reason why levels form no refinement study, or show no order: one line with the remedy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoRefinement {
@@ -495,6 +429,13 @@ pub enum NoRefinement {
         /// The error.
         error: f64,
     },
+    /// Fewer than two levels above the floor: no order.
+    Few {
+        /// The number of levels above the floor.
+        levels: usize,
+    },
+    /// Parameters too close to each other to show a slope: no order.
+    Alike,
 }
 
 impl fmt::Display for NoRefinement {
@@ -506,38 +447,22 @@ impl fmt::Display for NoRefinement {
                 f,
                 "{parameter:e} is not a stiffness or a time step: give a positive number, at least 2.3e-308"
             ),
-            Self::Twice { parameter } => write!(
-                f,
-                "two levels at {parameter:e}: give each stiffness or time step once"
-            ),
-            Self::Error { error } => {
-                write!(
-                    f,
-                    "{error:e} is not a relative error: give a number of 0 or more"
-                )
+            Self::Twice { parameter } => {
+                write!(f, "two levels at {parameter:e}: give each stiffness or time step once")
             }
+            Self::Error { error } => {
+                write!(f, "{error:e} is not a relative error: give a number of 0 or more")
+            }
+            Self::Few { levels } => write!(
+                f,
+                "only {levels} of the 2 levels needed have all contacts and a falling error: add coarser levels, which are \
+                 farther above the floor"
+            ),
+            Self::Alike => f.write_str(
+                "the parameters are too close to each other: choose them a factor of 2 or more apart",
+            ),
         }
     }
 }
 
 impl core::error::Error for NoRefinement {}
-
-fn check_parameter(parameter: f64) -> Result<(), NoRefinement> {
-    if parameter.is_normal() && parameter > 0.0 {
-        Ok(())
-    } else {
-        Err(NoRefinement::Parameter { parameter })
-    }
-}
-
-/// Returns the first number that occurs twice in a sorted sequence.
-fn repeated(sorted: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut before = None;
-    for number in sorted {
-        if before == Some(number) {
-            return Some(number);
-        }
-        before = Some(number);
-    }
-    None
-}

@@ -3,13 +3,14 @@
 use crate::Each;
 use std::io::Write;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::comparison::Comparison;
 use super::difference::{Difference, Extra};
 use super::finding::{counted, short};
 use super::read::Compared;
-use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
+use super::shown::{Entries, Shown, cells, object};
+use crate::table::{Cell, FileFormat, NumberFormat, Table, WriteError};
 use cannonpile::lattice::{Dimension, Site};
 
 /// The number of missing contacts, and of extra pairs, that the text shows.
@@ -340,125 +341,100 @@ impl<'c> Report<'c> {
         self.file?.step.clone()
     }
 
-    fn table(self) -> Table<'static> {
+    /// Returns the record in three parts: the middle one is about friction.
+    fn entries(self) -> [Entries; 3] {
         let Self {
             comparison,
             accept,
             file,
             ..
         } = self;
-        let count = |count: u64| Cell::Integer(count.into());
-        let number = |number: Option<f64>| number.map_or(Cell::Missing, Cell::F64);
-        let word =
-            |word: Option<String>| word.map_or(Cell::Missing, |word| Cell::Word(word.into()));
-        let accepted = if comparison.accepted(accept) {
-            "yes"
-        } else {
-            "no"
+        let accepted = comparison.accepted(accept);
+        let yes = if accepted { "yes" } else { "no" };
+        let worst = comparison.worst();
+        let worst_text = worst.map_or(Cell::Missing, |worst| Cell::Word(worst.to_string().into()));
+        let findings = self.findings();
+        let all_findings = match &findings[..] {
+            [] => Cell::Missing,
+            findings => Cell::Word(findings.join("; ").into()),
         };
-        let findings = Some(self.findings().join("; ")).filter(|findings| !findings.is_empty());
-        let mut entries = vec![
-            ("accepted", accepted.into()),
-            ("accept", Cell::F64(accept)),
-            ("contacts", count(comparison.contacts())),
-            ("matched", count(comparison.matched())),
-            ("repeated", count(comparison.repeated())),
-            ("missing", count(comparison.missing())),
-            ("extra", count(comparison.extra(accept))),
-            ("noise", count(comparison.noise(accept))),
-            ("fixed", count(comparison.fixed())),
-            ("largest_error", number(comparison.largest_error())),
-            ("rms_error", number(comparison.rms_error())),
-            ("worst", word(comparison.worst().map(ToString::to_string))),
-            ("beyond", count(comparison.beyond(accept))),
-            ("factor", number(comparison.common_factor(accept))),
-            ("walls", count(self.walls())),
-            ("floor", count(comparison.floor())),
-            ("floor_error", number(comparison.floor_error())),
-        ];
-        if comparison.has_friction() {
-            entries.extend([
-                ("tangential", count(comparison.tangential())),
-                ("tangential_error", number(comparison.tangential_error())),
-                (
-                    "floor_friction_error",
-                    number(comparison.floor_friction_error()),
+        let friction = vec![
+            ("tangential", Shown::count(comparison.tangential())),
+            (
+                "tangential_error",
+                Shown::number(comparison.tangential_error()),
+            ),
+            (
+                "floor_friction_error",
+                Shown::number(comparison.floor_friction_error()),
+            ),
+            ("net_moment", Shown::number(self.net_moment())),
+            (
+                "net_moment_sphere",
+                Shown::new(
+                    None,
+                    json!(comparison.net_moment().map(|(sphere, _)| sphere)),
                 ),
-                ("net_moment", number(self.net_moment())),
-            ]);
-        }
-        entries.extend([
-            ("frame", word(self.frame())),
-            (
-                "unbalanced",
-                word(file.map(|file| file.unbalanced.to_string())),
             ),
-            ("findings", word(findings)),
+        ];
+        let first = vec![
+            ("accepted", Shown::new(Cell::from(yes), json!(accepted))),
+            ("reason", Shown::new(None, json!(comparison.reason(accept)))),
+            ("accept", Shown::number(accept)),
+            ("contacts", Shown::count(comparison.contacts())),
+            ("matched", Shown::count(comparison.matched())),
+            ("repeated", Shown::count(comparison.repeated())),
+            ("shares", Shown::new(None, json!(comparison.shares()))),
+            ("missing", Shown::count(comparison.missing())),
+            ("extra", Shown::count(comparison.extra(accept))),
+            ("noise", Shown::count(comparison.noise(accept))),
+            ("fixed", Shown::count(comparison.fixed())),
             (
-                "rows",
-                file.map_or(Cell::Missing, |file| count(file.rows.used)),
+                "largest_force",
+                Shown::new(None, json!(comparison.largest_force())),
             ),
-            ("left_out", word(self.left_out())),
-            ("table", word(self.kind())),
-            ("step", word(self.step())),
-        ]);
-        let entries = entries
-            .into_iter()
-            .map(|(key, cell)| (Column::plain(key), cell));
-        Table::record(entries.collect())
+            ("largest_error", Shown::number(comparison.largest_error())),
+            ("rms_error", Shown::number(comparison.rms_error())),
+            ("worst", Shown::new(worst_text, json!(worst.map(contact)))),
+            ("beyond", Shown::count(comparison.beyond(accept))),
+            ("factor", Shown::number(comparison.common_factor(accept))),
+            ("walls", Shown::count(self.walls())),
+            ("floor", Shown::count(comparison.floor())),
+            ("floor_error", Shown::number(comparison.floor_error())),
+        ];
+        let unbalanced = file.map(|file| file.unbalanced.to_string());
+        let last = vec![
+            ("frame", Shown::text(self.frame())),
+            ("unbalanced", Shown::text(unbalanced)),
+            ("findings", Shown::new(all_findings, json!(findings))),
+            ("not_judged", Shown::new(None, json!(self.not_judged()))),
+            ("rows", Shown::count(file.map(|file| file.rows.used))),
+            ("left_out", Shown::text(self.left_out())),
+            ("table", Shown::text(self.kind())),
+            ("step", Shown::text(self.step())),
+            ("scene_file", Shown::new(None, json!(self.scene_file))),
+        ];
+        [first, friction, last]
+    }
+
+    fn table(self) -> Table<'static> {
+        let [first, friction, last] = self.entries();
+        let friction = Some(friction).filter(|_| self.comparison.has_friction());
+        let parts = [Some(first), friction, Some(last)].into_iter().flatten();
+        Table::record(parts.flat_map(cells).collect())
     }
 
     /// Returns the whole record. An infinite error is `null`.
-    fn json(self) -> Value {
-        let Self {
-            comparison,
-            accept,
-            file,
-            ..
-        } = self;
-        let friction = json!({
-            "tangential": comparison.tangential(),
-            "tangential_error": comparison.tangential_error(),
-            "floor_friction_error": comparison.floor_friction_error(),
-            "net_moment": self.net_moment(),
-            "net_moment_sphere": comparison.net_moment().map(|(sphere, _)| sphere),
-        });
-        let missing = comparison.missing_contacts().iter().map(contact);
+    fn json(self) -> Map<String, Value> {
+        let [first, friction, last] = self.entries();
+        let mut record = object(first);
+        let friction = Some(object(friction)).filter(|_| self.comparison.has_friction());
+        record.insert("friction".to_owned(), json!(friction));
+        record.extend(object(last));
+        let missing = self.comparison.missing_contacts().iter().map(contact);
+        record.insert("missing_contacts".to_owned(), missing.collect());
         let extra = self.extra_pairs().iter().map(pair);
-        let mut record = json!({
-            "accepted": comparison.accepted(accept),
-            "reason": comparison.reason(accept),
-            "accept": accept,
-            "contacts": comparison.contacts(),
-            "matched": comparison.matched(),
-            "repeated": comparison.repeated(),
-            "shares": comparison.shares(),
-            "missing": comparison.missing(),
-            "extra": comparison.extra(accept),
-            "noise": comparison.noise(accept),
-            "fixed": comparison.fixed(),
-            "largest_force": comparison.largest_force(),
-            "largest_error": comparison.largest_error(),
-            "rms_error": comparison.rms_error(),
-            "worst": comparison.worst().map(contact),
-            "beyond": comparison.beyond(accept),
-            "factor": comparison.common_factor(accept),
-            "walls": self.walls(),
-            "floor": comparison.floor(),
-            "floor_error": comparison.floor_error(),
-            "friction": Some(friction).filter(|_| comparison.has_friction()),
-            "frame": self.frame(),
-            "unbalanced": file.map(|file| file.unbalanced.to_string()),
-            "findings": self.findings(),
-            "not_judged": self.not_judged(),
-            "rows": file.map(|file| file.rows.used),
-            "left_out": self.left_out(),
-            "table": self.kind(),
-            "step": self.step(),
-            "scene_file": self.scene_file,
-            "missing_contacts": missing.collect::<Value>(),
-            "extra_pairs": extra.collect::<Value>(),
-        });
+        record.insert("extra_pairs".to_owned(), extra.collect());
         if let Some(source) = self.source {
             let of = |source: &Source| {
                 json!({
@@ -473,7 +449,7 @@ impl<'c> Report<'c> {
             if let Some(floor) = &source.floor {
                 origin["floor"] = of(floor);
             }
-            record["source"] = origin;
+            record.insert("source".to_owned(), origin);
         }
         record
     }

@@ -6,7 +6,6 @@ mod disorder;
 mod error;
 mod figure;
 mod horizontal;
-mod refinement;
 mod shear;
 mod svg;
 mod viewer;

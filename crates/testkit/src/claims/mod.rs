@@ -33,7 +33,7 @@
 //! | `numbered` | the sphere numbers of any pile have no gap |
 //! | `measured` | measured forces are read as written, and an injected fault is found (feature `dem`) |
 //! | `dialect` | a table of exact forces is read whole in any dialect, and a planted fault is found (feature `dem`) |
-//! | `refinement` | a refinement study finds a given order of accuracy and survives a round trip (feature `dem`) |
+//! | `refinement` | a refinement study finds a given order of accuracy (feature `dem`) |
 //! | `vtk` | contacts in files of VTK are read as written, or rejected (feature `dem`) |
 //! | `engine` | every way to compute the forces of a mixed pile solves the equations of equilibrium |
 //! | `disorder` | the mean over random stackings equals a plain average over all stackings (feature `disorder`) |

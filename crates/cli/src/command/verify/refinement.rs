@@ -1,60 +1,83 @@
 //! `verify --refinement`: the observed order of accuracy.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use cannonpile::Packing;
 use cannonpile_dem::Compliance;
 use cannonpile_dem::scene::Scene;
 use cannonpile_dem::table::{FileFormat, WriteError};
 use cannonpile_dem::verify::{
-    Level, NoRefinement, Norm, Refinement, RefinementFiles, RefinementReport, RefinementStudy,
-    Source,
+    Level, NoRefinement, Norm, Refinement, RefinementReport, RefinementStudy, Source,
 };
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::{Parameter, Verify, compare};
 use crate::output::Failure;
 use crate::progress::Progress;
 
+/// A file with the forces of one simulation, and its stiffness or time step.
+pub(super) type LevelFile = (f64, PathBuf);
+
+/// Parses `K=FILE`.
+pub(super) fn level_file(text: &str) -> Result<LevelFile, &'static str> {
+    let (parameter, path) = text
+        .split_once('=')
+        .filter(|(_, path)| !path.is_empty())
+        .ok_or("has no = with a file after it: write PARAMETER=FILE, as in 1e6=stiff.csv")?;
+    let parameter = parameter.trim().parse();
+    let parameter = parameter
+        .map_err(|_| "give the stiffness or the time step before the =, as in 1e6=stiff.csv")?;
+    Ok((parameter, path.into()))
+}
+
 impl Verify {
     /// Compares the files of a refinement study, and returns whether their errors show an order.
     pub(super) fn compare_refinement(
         &self,
-        RefinementFiles(files): &RefinementFiles,
+        files: &[LevelFile],
         scene: &Scene,
         packing: &Packing<'_>,
     ) -> Result<bool, Failure> {
-        let (format, reader) = (self.output.format()?, self.reader()?);
-        let progress = Progress::begin("reading the files of --refinement");
-        let (mut levels, mut sources, mut with_vectors) = (Vec::new(), Vec::new(), false);
-        for file in files {
-            let read = compare(&reader, packing, (&file.path, None), format);
-            let (read, source) =
-                read.map_err(|refusal| self.refused(refusal, &file.path, scene))?;
-            let worst = read.comparison.worst();
-            with_vectors |= worst.is_some_and(|worst| worst.exact_vector.is_some());
-            levels.push(Level::new(file.parameter, &read.comparison, self.accept));
-            sources.extend(source.map(|source| (file.parameter, source)));
-        }
         let refinement = match self.parameter {
             None | Some(Parameter::Stiffness) => Refinement::Stiffness,
             Some(Parameter::TimeStep) => Refinement::TimeStep,
         };
-        let blamed = |refusal: NoRefinement| Failure::Message(format!("--refinement: {refusal}"));
-        let mut study = RefinementStudy::new(refinement, levels).map_err(blamed)?;
+        let study = |levels: Vec<Level>| {
+            let blamed =
+                |refusal: NoRefinement| Failure::Message(format!("--refinement: {refusal}"));
+            RefinementStudy::new(refinement, levels).map_err(blamed)
+        };
+        // Wrong parameters are refused before the files are read.
+        let unread = files.iter().map(|(parameter, _)| Level {
+            parameter: *parameter,
+            ..Level::default()
+        });
+        study(unread.collect())?;
+        let (format, reader) = (self.output.format()?, self.reader()?);
+        let progress = Progress::begin("reading the files of --refinement");
+        let (mut levels, mut sources, mut with_vectors) = (Vec::new(), Vec::new(), false);
+        for (parameter, path) in files {
+            let read = compare(&reader, packing, (path, None), format);
+            let (read, source) = read.map_err(|refusal| self.refused(refusal, path, scene))?;
+            let worst = read.comparison.worst();
+            with_vectors |= worst.is_some_and(|worst| worst.exact_vector.is_some());
+            levels.push(Level::new(*parameter, &read.comparison, self.accept));
+            sources.extend(source.map(|source| (*parameter, source)));
+        }
         // The spring theory predicts the errors of some scenes only.
         if refinement == Refinement::Stiffness
             && let Ok(springs) = Compliance::new(packing)
         {
-            let error = |stiffness| {
-                if with_vectors {
-                    springs.largest_vector_error(stiffness)
+            for level in &mut levels {
+                level.predicted_error = Some(if with_vectors {
+                    springs.largest_vector_error(level.parameter)
                 } else {
-                    springs.largest_error(stiffness)
-                }
-            };
-            study = study.predicted(error).map_err(blamed)?;
+                    springs.largest_error(level.parameter)
+                });
+            }
         }
+        let study = study(levels)?;
         let report = RefinementReport::new(&study);
         self.output.write(&progress, |out| match format.into() {
             FileFormat::Json => record(report.json(), &sources, scene, out),
@@ -67,7 +90,7 @@ impl Verify {
 
 /// Writes the JSON record: the refinement study with its files and the scene.
 fn record(
-    study: Value,
+    mut record: Map<String, Value>,
     sources: &[(f64, Source)],
     scene: &Scene,
     out: &mut dyn Write,
@@ -83,12 +106,9 @@ fn record(
             })
         })
         .collect();
-    let mut record = study;
-    if let Value::Object(entries) = &mut record {
-        entries.insert("version".into(), env!("CARGO_PKG_VERSION").into());
-        entries.insert("files".into(), files.into());
-        entries.insert("scene".into(), scene.to_toml().into());
-    }
+    record.insert("version".into(), env!("CARGO_PKG_VERSION").into());
+    record.insert("files".into(), files.into());
+    record.insert("scene".into(), scene.to_toml().into());
     serde_json::to_writer_pretty(&mut *out, &record)?;
     Ok(writeln!(out)?)
 }

@@ -1,8 +1,6 @@
 //! The command `plot`: figures on stdout and in files, errors.
 
 use super::{Folder, cannonpile, refusal, stdout};
-use cannonpile_dem::table::FileFormat;
-use cannonpile_dem::verify::{Level, Refinement, RefinementReport, RefinementStudy};
 
 const KINDS: [&str; 7] = [
     "pile", "indexing", "sphere", "shear", "base", "network", "response",
@@ -197,31 +195,4 @@ fn distribution_of_a_record() {
     let refused = folder.refusal("plot distribution part.json");
     assert!(refused.contains("merge"), "{refused}");
     assert!(refusal("plot distribution nowhere.json").contains("nowhere.json"));
-}
-
-#[test]
-fn refinement_of_a_record() {
-    let levels = [1e4, 1e5, 1e6].map(|k| Level::of_errors(k, 30, 4.0 / k, 1.0 / k));
-    let study = RefinementStudy::new(Refinement::Stiffness, levels).unwrap();
-    let mut json = Vec::new();
-    RefinementReport::new(&study)
-        .write(FileFormat::Json, &mut json)
-        .unwrap();
-    let folder = Folder::with("whole.json", &json);
-    folder.write("cut.json", &json[..json.len() / 2]);
-    folder.write("Cargo.toml", "[package]\nname = \"cannonpile-cli\"\n");
-    let svg = folder.stdout("plot refinement whole.json");
-    assert_eq!(
-        svg,
-        cannonpile_figure::refinement(&study).to_string() + "\n"
-    );
-    for wrong in ["cut.json", "Cargo.toml"] {
-        let refused = folder.refusal(&format!("plot refinement {wrong}"));
-        assert!(
-            refused.contains("is not a refinement study")
-                && refused.contains("verify --refinement"),
-            "{refused}"
-        );
-    }
-    assert!(refusal("plot refinement nowhere.json").contains("nowhere.json cannot be read"));
 }
