@@ -30,11 +30,6 @@ pub(crate) fn unit(vector: [f64; 3]) -> [f64; 3] {
     vector.each(|x| x / length)
 }
 
-/// Returns the matrix with rows and columns exchanged.
-pub(crate) fn transposed(matrix: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    [0, 1, 2].each(|column| matrix.each(|row| row[column]))
-}
-
 /// Returns the solution x of A x = b for a matrix A, by Cramer's rule.
 pub(crate) fn solved(matrix: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
     let [u, v, w] = matrix;
@@ -42,16 +37,4 @@ pub(crate) fn solved(matrix: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
     let [vw, wu, uv] = [cross(v, w), cross(w, u), cross(u, v)];
     let determinant = dot(u, vw);
     [0, 1, 2].each(|n| (b[0] * vw[n] + b[1] * wu[n] + b[2] * uv[n]) / determinant)
-}
-
-/// Returns a vector turned about a second one. The angle, in radians, is the length of the second vector.
-pub(crate) fn turned(vector: [f64; 3], about: [f64; 3]) -> [f64; 3] {
-    let angle = dot(about, about).sqrt();
-    if angle == 0.0 {
-        return vector;
-    }
-    let (sin, cos) = angle.sin_cos();
-    let axis = about.each(|x| x / angle);
-    let (aside, along) = (cross(axis, vector), dot(axis, vector) * (1.0 - cos));
-    [0, 1, 2].each(|n| vector[n] * cos + aside[n] * sin + axis[n] * along)
 }

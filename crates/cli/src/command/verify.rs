@@ -202,7 +202,7 @@ enum Parameter {
 enum Matching {
     /// Numbers of the two spheres, in the order of the exports
     Numbers,
-    /// Positions: both centres or the contact point, in any frame: shifted, rotated about any axis, mirrored
+    /// Positions: both centres or the contact point, which may be shifted, turned about the vertical, mirrored, with any axes
     Place,
 }
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::{Each, vector::transposed};
+use crate::Each;
 
 /// One of the three coordinates of a position or a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,15 +17,6 @@ pub enum Coordinate {
 
 impl Coordinate {
     const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
-
-    /// Returns the next coordinate, in cyclic order: x follows z.
-    const fn next(self) -> Self {
-        match self {
-            Self::X => Self::Y,
-            Self::Y => Self::Z,
-            Self::Z => Self::X,
-        }
-    }
 
     /// Returns this coordinate of a vector.
     const fn of(self, [x, y, z]: [f64; 3]) -> f64 {
@@ -86,7 +77,7 @@ pub struct Axes([TableAxis; 3]);
 
 impl Axes {
     /// The identity: x, y and z of the table are those of the scene.
-    pub(super) const OWN: Self = Self::ordered([Coordinate::X, Coordinate::Y, Coordinate::Z], 0);
+    pub const OWN: Self = Self::ordered([Coordinate::X, Coordinate::Y, Coordinate::Z], 0);
 
     /// Returns the permutation with these axes as x, y and z of the scene, or `None` if the same axis occurs twice.
     ///
@@ -153,34 +144,17 @@ impl Axes {
         (swapped + reversed) % 2 == 1
     }
 
-    /// Returns the axes whose vertical is nearest to a direction of the table. Turns about z yield all other axes with
-    /// this vertical.
-    pub(super) fn upright(up: [f64; 3], is_mirrored: bool) -> Self {
-        let [x, y, z] = up.each(f64::abs);
-        let vertical = if z >= x && z >= y {
-            Coordinate::Z
-        } else if y >= x {
-            Coordinate::Y
-        } else {
-            Coordinate::X
-        };
-        let is_reversed = vertical.of(up) < 0.0;
-        let first = vertical.next();
-        let second = TableAxis {
-            coordinate: first.next(),
-            is_reversed: is_reversed != is_mirrored,
-        };
-        let third = TableAxis {
-            coordinate: vertical,
-            is_reversed,
-        };
-        Self([first.into(), second, third])
-    }
-
-    /// Returns the matrix of the permutation. Its rows are x, y and z of the scene in the axes of the table.
-    pub(super) fn matrix(self) -> [[f64; 3]; 3] {
-        let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        transposed(units.each(|unit| self.turned(unit)))
+    /// Returns one permutation for each vertical axis, and then their mirror images. Turns about z yield all others.
+    pub(super) fn upright() -> impl Iterator<Item = Self> {
+        use Coordinate::{X, Y, Z};
+        let orders = [[X, Y, Z], [Z, X, Y], [Y, Z, X]];
+        // Two reversed axes are a turn, and one is a mirror image.
+        [[0b000, 0b110], [0b010, 0b100]]
+            .into_iter()
+            .flat_map(move |signs| {
+                let all = orders.into_iter();
+                all.flat_map(move |order| signs.map(|signs| Self::ordered(order, signs)))
+            })
     }
 
     /// Returns these axes, each reversed.

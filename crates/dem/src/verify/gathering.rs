@@ -6,7 +6,6 @@ use contact_tables::{Contact, Force, Place, Rows};
 
 use super::frame::Frame;
 use super::ledger::Ledger;
-use super::loaded::LoadedContacts;
 use super::measured::{magnitude, opposite, whole};
 use super::places::{Found, Places};
 use super::refusal::Refusal;
@@ -60,8 +59,8 @@ impl<'p> Gathering<'p> {
     }
 
     fn frame(&self, kept: &Rows) -> Result<Frame, Refusal> {
-        let loaded = LoadedContacts::new(&self.ledger, &self.places, self.radius)?;
-        let fit = registration::find(kept, &loaded, self.radius, self.within)?;
+        let sizes = [self.radius, self.within];
+        let fit = registration::find(kept, &self.ledger, &self.places, sizes)?;
         let (found, sample) = (fit.found, fit.sample);
         if 2 * found < sample {
             return Err(Refusal::Elsewhere { found, sample });

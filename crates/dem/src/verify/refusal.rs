@@ -38,7 +38,7 @@ pub enum Refusal {
     Scene(Error),
     /// Exact forces outside the normal range of `f64`.
     OutOfRange,
-    /// The positions do not match the pile in any frame.
+    /// The positions do not match the pile in any frame that is searched: one whose vertical is an axis of the table.
     Elsewhere {
         /// The number of positions of a sample that match in the best frame.
         found: usize,
@@ -141,7 +141,7 @@ impl fmt::Display for Refusal {
             Self::Elsewhere { found, sample } => write!(
                 f,
                 "no frame matches the positions of the table to the scene: the best one matches {found} of {sample}; is the \
-                 table of this scene, in m?"
+                 table of this scene, in m? If gravity is along none of its axes, turn positions and vectors until it is along −z"
             ),
             Self::Within(share) => write!(
                 f,

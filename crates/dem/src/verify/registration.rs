@@ -1,28 +1,29 @@
 //! Registration: finds the frame in which the positions of a table match a pile.
 //!
-//! Contacts with a force form a set of points, both in the table and in the pile. Up to three anchors are points of the
-//! table that are far apart. Three points of the pile with similar distances from each other, and from the centroid of
-//! the pile, yield two candidate frames: a rotation and a mirror image. Missing contacts displace the centroid, so the
-//! accepted distance grows until a frame is found.
+//! Contacts with a force form a set of points, both in the table and in the pile. Each of the twelve choices of a vertical
+//! axis, with its mirror image, leaves a turn about the vertical and a shift. Two anchors are points of the table that are
+//! far apart. Two points of the pile with the same difference in height, the same horizontal distance, and similar
+//! distances from the centroid yield a candidate. Missing contacts displace the centroid, so the accepted distance grows
+//! until a frame is found.
 //!
 //! A least-squares fit to the matched positions refines each candidate. The best frame matches the most positions of a
 //! sample. Among equals, it is the frame in which the measured forces are distributed most similarly to the exact ones,
-//! then the one with the smallest change. Finally, a simpler frame replaces it if it matches as well: an upright one,
-//! one with a multiple of 30° as its angle, and one without a shift.
+//! then the one with the smallest change. Finally, a simpler frame replaces it if it matches as well: one with a multiple
+//! of 30° as its angle, and one without a shift.
 
 use core::f64::consts::PI;
 
 use contact_tables::{Force, Place, Rows};
 
-use super::axes::Coordinate;
+use super::axes::Axes;
 use super::frame::Frame;
-use super::loaded::{LoadedContacts, is_loaded};
+use super::ledger::Ledger;
 use super::measured::{distance, magnitude, norm};
-use super::moments::Moments;
 use super::placed::Placed;
-use super::places::Found;
-use crate::vector::{cross, dot, minus, plus, unit};
-use crate::{Each, Error};
+use super::places::{Found, Places};
+use super::refusal::Refusal;
+use crate::Each;
+use crate::vector::{minus, plus, unit};
 use cannonpile::Interrupt;
 
 /// The numbers of positions that reject a candidate, that fit one, that judge one, and that fit the best one.
@@ -34,9 +35,9 @@ const MANY: usize = 5000;
 /// The number of times that a frame is fitted. Each time, more positions may be matched to their own contacts.
 const FITS: usize = 6;
 
-/// The largest number of points of the pile that one anchor may be, and of sets of such points.
+/// The largest number of points of the pile that one anchor may be, and of candidates.
 const MAX_IMAGES: usize = 1000;
-const MAX_SETS: usize = 4000;
+const MAX_CANDIDATES: usize = 4000;
 
 /// How often the accepted distance from the centroid is doubled.
 const ROUNDS: usize = 5;
@@ -50,6 +51,9 @@ const NOTABLE: f64 = 0.01;
 
 /// The rounding error of mean distances, in R, and of the distribution of forces.
 const ROUNDED: f64 = 1e-9;
+
+/// The smallest length of points across the vertical that determines a turn, as a share of their squares.
+const THIN: f64 = 1e-13;
 
 /// The largest difference between the distributions of forces in a frame that needs no alternatives. Forces on other
 /// contacts than their own differ by about 1.
@@ -84,13 +88,16 @@ impl Fit {
 }
 
 /// A table, and the pile that it is matched to.
-struct Search<'s> {
-    rows: &'s Rows,
-    pile: &'s LoadedContacts<'s, 's>,
+struct Search<'s, 'p> {
+    ledger: &'s Ledger<'p>,
+    places: &'s Places,
+    /// The magnitudes of the exact forces.
+    forces: Vec<f64>,
     radius: f64,
     within: f64,
     /// The largest distance of a position from its exact one in a candidate frame.
     near: f64,
+    rows: &'s Rows,
     greatest: f64,
     /// The number of rows that may be contacts between spheres.
     count: usize,
@@ -98,35 +105,14 @@ struct Search<'s> {
     by_centres: bool,
 }
 
-/// Points of the table that are far apart, and the points of the pile around their image.
-struct Anchors {
-    points: Vec<[f64; 3]>,
-    /// The distances of the anchors from the centroid of the table.
-    distances: Vec<f64>,
-    /// The centroid of the pile, and the largest distance of a point from it.
-    middle: [f64; 3],
-    reach: f64,
-    with_floor: bool,
-    /// True if the table has at least as many contacts as the pile.
-    is_complete: bool,
-}
-
-impl Anchors {
-    /// Returns whether a frame is a mirror image, and the images of the anchors.
-    fn images(&self, frame: &Frame) -> (bool, Vec<[f64; 3]>) {
-        let images = self.points.iter().map(|point| frame.place(*point));
-        (frame.is_mirrored(), images.collect())
-    }
-}
-
 /// Finds the frame in which these positions match the pile.
 pub(super) fn find(
     rows: &Rows,
-    pile: &LoadedContacts<'_, '_>,
-    radius: f64,
-    within: f64,
-) -> Result<Fit, Error> {
-    let search = Search::new(rows, pile, radius, within);
+    ledger: &Ledger<'_>,
+    places: &Places,
+    [radius, within]: [f64; 2],
+) -> Result<Fit, Refusal> {
+    let search = Search::new(rows, ledger, places, [radius, within])?;
     let [few, some, sample, many] = [FEW, SOME, SAMPLE, MANY].map(|most| search.spread(most));
     let own = search.judge(&sample, Frame::OWN, within);
     if sample.is_empty() {
@@ -138,54 +124,71 @@ pub(super) fn find(
     }
     let mut best = search.judge(&sample, Frame::OWN, search.near);
     for with_floor in [false, true] {
-        let anchors = search.anchors(with_floor)?;
+        let pile = search.pile(with_floor)?;
+        let table = search.loaded().flat_map(|row| search.points(row.place));
+        let table: Vec<[f64; 3]> = table.collect();
+        let is_complete = table.len() >= pile.len();
+        let reach = reach(&pile);
         let mut slack = search.near;
-        let mut tried: Vec<(bool, Vec<[f64; 3]>)> = Vec::new();
+        let mut tried: Vec<Frame> = Vec::new();
         for _ in 0..ROUNDS {
-            for frame in search.candidates(&anchors, slack)? {
-                Interrupt::check()?;
-                let (is_mirrored, images) = anchors.images(&frame);
-                let is_known = tried.iter().any(|(is_reflection, known)| {
-                    let mut off = images.iter().zip(known).map(|(a, b)| distance(*a, *b));
-                    *is_reflection == is_mirrored && off.all(|off| off < search.near / 2.0)
-                });
-                if is_known || 2 * search.judge(&few, frame, search.near).found < few.len() {
-                    continue;
-                }
-                let frame = search.fitted(&some, frame);
-                tried.push(anchors.images(&frame));
-                let fit = search.judge(&sample, frame, search.near);
-                if fit.is_better_than(&best) {
-                    best = fit;
+            for axes in Axes::upright() {
+                for frame in search.candidates(&table, &pile, axes, slack) {
+                    Interrupt::check()?;
+                    let is_known = |known: &Frame| {
+                        let mut off = few.iter().map(|row| {
+                            let point = row.place.point();
+                            distance(frame.place(point), known.place(point))
+                        });
+                        known.axes == axes && off.all(|off| off < search.near / 2.0)
+                    };
+                    if tried.iter().any(is_known) || !search.may_fit(&few, frame) {
+                        continue;
+                    }
+                    let frame = search.fitted(&some, frame);
+                    tried.push(frame);
+                    let fit = search.judge(&sample, frame, search.near);
+                    if fit.is_better_than(&best) {
+                        best = fit;
+                    }
                 }
             }
             slack *= 2.0;
-            if best.is_convincing(anchors.is_complete) || slack > anchors.reach {
+            if best.is_convincing(is_complete) || slack > reach {
                 break;
             }
         }
-        if best.is_convincing(anchors.is_complete) {
+        if best.is_convincing(is_complete) {
             break;
         }
     }
     Ok(search.simplest(&many, best.frame))
 }
 
-impl<'s> Search<'s> {
-    fn new(rows: &'s Rows, pile: &'s LoadedContacts<'s, 's>, radius: f64, within: f64) -> Self {
+impl<'s, 'p> Search<'s, 'p> {
+    fn new(
+        rows: &'s Rows,
+        ledger: &'s Ledger<'p>,
+        places: &'s Places,
+        [radius, within]: [f64; 2],
+    ) -> Result<Self, Refusal> {
         let magnitudes = rows.iter().map(|row| magnitude(row.force));
+        let contacts = ledger.numbered().contacts().map_err(Refusal::of_forces)?;
+        let forces = contacts.map(|contact| Ok(contact.map_err(Refusal::of_forces)?.force.abs()));
         let mut search = Self {
-            rows,
-            pile,
+            ledger,
+            places,
+            forces: forces.collect::<Result<_, Refusal>>()?,
             radius,
             within,
             near: (radius / 2.0).max(within),
+            rows,
             greatest: magnitudes.fold(0.0, f64::max),
             count: 0,
             by_centres: Placed::all(rows).all(|row| matches!(row.place, Place::Centres(_))),
         };
         search.count = search.loaded().count();
-        search
+        Ok(search)
     }
 
     /// Returns the rows with a force that may be contacts between spheres.
@@ -216,21 +219,52 @@ impl<'s> Search<'s> {
         points.into_iter().flatten()
     }
 
+    /// Returns the points of the contacts of the pile with a force. With the floor, these include the contacts of each
+    /// bottom sphere with its mirror image in the floor.
+    fn pile(&self, with_floor: bool) -> Result<Vec<[f64; 3]>, Refusal> {
+        let greatest = self.forces.iter().copied().fold(0.0, f64::max);
+        let mut points = Vec::new();
+        for (touch, force) in self.ledger.numbered().touches()?.zip(&self.forces) {
+            let (_, ids) = touch?;
+            if is_loaded(*force, greatest) {
+                points.extend(self.points(Place::Centres(self.places.centres_of(ids)?)));
+            }
+        }
+        for id in self.places.on_floor().filter(|_| with_floor) {
+            let centre = self.places.centre(id)?;
+            let image = minus(centre, [0.0, 0.0, 2.0 * self.radius]);
+            points.extend(self.points(Place::Centres([centre, image])));
+        }
+        Ok(points)
+    }
+
+    /// Returns whether a frame matches at least half of some positions.
+    fn may_fit(&self, rows: &[Placed], frame: Frame) -> bool {
+        let mut missed = 0;
+        rows.iter().all(|row| {
+            let place = row.place.map(|point| frame.place(point));
+            let (contact, _) = self.places.nearest(&place, self.near);
+            missed += usize::from(contact.is_none());
+            2 * missed <= rows.len()
+        })
+    }
+
     fn judge(&self, sample: &[Placed], frame: Frame, within: f64) -> Fit {
-        let places = self.pile.places();
         let (mut found, mut off, mut forces) = (0, 0.0, Vec::new());
         for row in sample {
             let place = row.place.map(|point| frame.place(point));
-            let (contact, distance) = places.nearest(&place, within);
+            let (contact, distance) = self.places.nearest(&place, within);
             let Some(contact) = contact else { continue };
             found += 1;
             off += distance;
             if let Found::Spheres(ids) = contact
-                && let Ok([first, second]) = places.centres_of(ids)
+                && let Ok([first, second]) = self.places.centres_of(ids)
             {
                 let measured = row.force.map(|vector| frame.turned(vector));
                 let normal = unit(minus(first, second));
-                let force = self.pile.force(ids);
+                // Spheres without a contact have no force.
+                let force = self.ledger.slot(ids).and_then(|slot| self.forces.get(slot));
+                let force = force.copied().unwrap_or(0.0);
                 forces.push((measured, normal.each(|n| n * force)));
             }
         }
@@ -243,162 +277,131 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// Fits the rotation and the shift of a frame to the matched positions of some rows.
+    /// Fits the turn and the shift of a frame to the matched positions of some rows.
     fn fitted(&self, rows: &[Placed], mut frame: Frame) -> Frame {
         for _ in 0..FITS {
-            if let Some(moments) = self.moments(rows, &frame) {
-                frame = moments.fitted(&frame);
+            let pairs = self.pairs(rows, &frame);
+            let (from, to) = (
+                mean(pairs.iter().map(|(p, _)| *p)),
+                mean(pairs.iter().map(|(_, q)| *q)),
+            );
+            let (mut sin, mut cos, mut size) = (0.0, 0.0, 0.0);
+            for (p, q) in &pairs {
+                let ([x, y, z], [u, v, _]) = (frame.axes.turned(minus(*p, from)), minus(*q, to));
+                sin += x * v - y * u;
+                cos += x * u + y * v;
+                size += x * x + y * y + z * z;
             }
+            // Points on the axis determine no turn.
+            if f64::hypot(sin, cos) > THIN * size {
+                frame.angle = sin.atan2(cos);
+            }
+            frame = shifted(frame, &pairs);
         }
         frame
     }
 
-    fn moments(&self, rows: &[Placed], frame: &Frame) -> Option<Moments> {
+    /// Returns the points of some rows with the exact ones that are near them.
+    fn pairs(&self, rows: &[Placed], frame: &Frame) -> Vec<([f64; 3], [f64; 3])> {
         let mut pairs = Vec::new();
         for row in rows {
             let place = row.place.map(|point| frame.place(point));
-            let (contact, _) = self.pile.places().nearest(&place, self.near);
+            let (contact, _) = self.places.nearest(&place, self.near);
             if let Some(Found::Spheres(ids)) = contact
-                && let Ok(centres) = self.pile.places().centres_of(ids)
+                && let Ok(centres) = self.places.centres_of(ids)
             {
                 let exact = self.points(Place::Centres(centres));
                 pairs.extend(self.points(row.place).zip(exact));
             }
         }
-        Moments::new(&pairs, frame, self.radius)
+        pairs
     }
 
-    /// Chooses the anchors.
-    fn anchors(&self, with_floor: bool) -> Result<Anchors, Error> {
-        let (mut number, mut sum, mut reach) = (0, [0.0; 3], 0.0_f64);
-        self.pile.each(with_floor, |place| {
-            for point in self.points(place) {
-                number += 1;
-                sum = plus(sum, point);
-            }
-        })?;
-        let middle = sum.each(|x| x / count(number));
-        self.pile.each(with_floor, |place| {
-            for point in self.points(place) {
-                reach = reach.max(distance(point, middle));
-            }
-        })?;
-        let table = || self.loaded().flat_map(|row| self.points(row.place));
-        let (mut listed, mut sum) = (0, [0.0; 3]);
-        for point in table() {
-            listed += 1;
-            sum = plus(sum, point);
-        }
-        let from = sum.each(|x| x / count(listed));
+    /// Returns the candidate frames of one vertical axis, those with the smallest change first. The centroid of the table
+    /// may be displaced by `slack`.
+    fn candidates(
+        &self,
+        table: &[[f64; 3]],
+        pile: &[[f64; 3]],
+        axes: Axes,
+        slack: f64,
+    ) -> Vec<Frame> {
+        let frame = Frame::along(axes);
+        let (from, to) = (mean(table.iter().copied()), mean(pile.iter().copied()));
+        let parts = |point: [f64; 3]| frame.turned(minus(point, from));
         // Points farther away than any contact are not in the pile.
-        let missing = 1.0 - count(listed) / count(number);
-        let limit = reach + self.near.max(missing * reach);
-        let farthest = |far: &dyn Fn([f64; 3]) -> f64| {
-            let points = table().filter(|point| distance(*point, from) <= limit);
-            let all = points.map(|point| (far(point), point));
-            all.max_by(|(one, _), (other, _)| one.total_cmp(other))
+        let missing = 1.0 - count(table.len()) / count(pile.len());
+        let limit = reach(pile) + self.near.max(missing * reach(pile));
+        let near = table
+            .iter()
+            .map(|point| parts(*point))
+            .filter(|point| norm(*point) <= limit);
+        let farthest = |from: [f64; 3]| {
+            near.clone()
+                .max_by(|one, other| across(*one, from).total_cmp(&across(*other, from)))
         };
-        let mut points = Vec::new();
-        if let Some((_, first)) = farthest(&|point| distance(point, from)) {
-            points.push(first);
-            let apart = self.radius / 4.0;
-            let second = farthest(&|point| distance(point, first));
-            if let Some((_, second)) = second.filter(|(far, _)| *far > apart) {
-                points.push(second);
-                let along = unit(minus(second, first));
-                let third = farthest(&|point| norm(cross(minus(point, first), along)));
-                points.extend(
-                    third
-                        .filter(|(far, _)| *far > apart)
-                        .map(|(_, third)| third),
-                );
-            }
-        }
-        Ok(Anchors {
-            distances: points.iter().map(|point| distance(*point, from)).collect(),
-            points,
-            middle,
-            reach,
-            with_floor,
-            is_complete: listed >= number,
-        })
-    }
-
-    /// Returns the candidate frames, those with the smallest change first. The centroid of the table may be displaced
-    /// by `slack`.
-    fn candidates(&self, anchors: &Anchors, slack: f64) -> Result<Vec<Frame>, Error> {
-        let mut images: Vec<Vec<(f64, [f64; 3])>> = vec![Vec::new(); anchors.points.len()];
-        self.pile.each(anchors.with_floor, |place| {
-            for point in self.points(place) {
-                let far = distance(point, anchors.middle);
-                for (images, distance) in images.iter_mut().zip(&anchors.distances) {
-                    let off = (far - distance).abs();
-                    if off <= slack {
-                        images.push((off, point));
-                    }
-                }
-            }
-        })?;
-        for images in &mut images {
-            images.sort_by(|(one, a), (other, b)| {
-                let order = one.total_cmp(other);
+        let Some(first) = farthest([0.0; 3]) else {
+            return Vec::new();
+        };
+        let second = farthest(first).filter(|second| across(*second, first) > self.radius / 4.0);
+        let images = |anchor: [f64; 3]| {
+            let off = |point: [f64; 3]| {
+                let [_, _, up] = minus(point, anchor);
+                up.abs()
+                    .max((across(point, [0.0; 3]) - across(anchor, [0.0; 3])).abs())
+            };
+            let images = pile.iter().map(|point| minus(*point, to));
+            let mut images: Vec<_> = images.filter(|point| off(*point) <= slack).collect();
+            images.sort_by(|a, b| {
+                let order = off(*a).total_cmp(&off(*b));
                 a.iter()
                     .zip(b)
                     .fold(order, |order, (x, y)| order.then(x.total_cmp(y)))
             });
             images.dedup();
             images.truncate(MAX_IMAGES);
-        }
-        let mut sets: Vec<Vec<[f64; 3]>> = vec![Vec::new()];
-        for (n, (images, anchor)) in images.iter().zip(&anchors.points).enumerate() {
-            let known = &anchors.points[..n];
-            let longer = sets.iter().flat_map(|set| {
-                let fits = |image: &[f64; 3]| {
-                    let mut pairs = set.iter().zip(known);
-                    pairs.all(|(a, b)| {
-                        (distance(*a, *image) - distance(*b, *anchor)).abs() <= self.near
-                    })
-                };
-                let images = images.iter().map(|(_, image)| *image);
-                images
-                    .filter(fits)
-                    .map(|image| [&set[..], &[image]].concat())
-            });
-            sets = longer.take(MAX_SETS).collect();
-        }
-        let motions = sets.iter().flat_map(|set| {
-            // Fewer than three points have no mirror images.
-            let mirrored = (set.len() == 3).then_some(true);
-            let all = [false].into_iter().chain(mirrored);
-            all.filter_map(|is_mirrored| motion(&anchors.points, set, is_mirrored))
-        });
-        let mut frames: Vec<_> = motions
-            .map(|frame| (self.change(&frame, anchors.reach), frame))
-            .collect();
-        frames.sort_by(|((kind, angle, shift), _), ((other, more, far), _)| {
-            let order = kind.cmp(other).then(angle.total_cmp(more));
-            order.then(shift.total_cmp(far))
-        });
-        Ok(frames.into_iter().map(|(_, frame)| frame).collect())
-    }
-
-    /// Returns the change of a frame: its kind, its turn about the nearest axes, and its shift. Rotations come before
-    /// mirror images. Among them z is the vertical first, then another axis, then no axis.
-    fn change(&self, frame: &Frame, reach: f64) -> ((bool, u8), f64, f64) {
-        let axes = frame.axes();
-        let matrix = axes.matrix();
-        let [x, y, tilt] = [0, 1, 2].each(|n| distance(frame.rotation[n], matrix[n]));
-        let [_, _, vertical] = axes.get();
-        let kind = if tilt * reach > self.near {
-            2
-        } else {
-            u8::from(vertical != Coordinate::Z.into())
+            images
         };
-        (
-            (frame.is_mirrored(), kind),
-            norm([x, y, tilt]),
-            norm(frame.shift),
-        )
+        let mut frames = Vec::new();
+        let ends = second.map(|second| (second, images(second)));
+        for image in images(first) {
+            let angles: Vec<f64> = match &ends {
+                // A single point is not turned.
+                None => vec![0.0],
+                Some((second, ends)) => {
+                    let fits = |end: &&[f64; 3]| {
+                        let [_, _, apart] = minus(minus(**end, image), minus(*second, first));
+                        let far = across(**end, image) - across(*second, first);
+                        apart.abs().max(far.abs()) <= self.near
+                    };
+                    let angle = |from: [f64; 3], to: [f64; 3]| {
+                        let [x, y, _] = minus(to, from);
+                        y.atan2(x)
+                    };
+                    let turn =
+                        |end: &[f64; 3]| (angle(image, *end) - angle(first, *second)) / (2.0 * PI);
+                    let turns = ends.iter().filter(fits).map(turn);
+                    turns.map(|turn| (turn - turn.round()) * 2.0 * PI).collect()
+                }
+            };
+            frames.extend(angles.into_iter().map(|angle| {
+                let turned = Frame { angle, ..frame };
+                // The first anchor goes to its image.
+                let first = Frame {
+                    angle,
+                    ..Frame::OWN
+                }
+                .turned(first);
+                let shift = minus(minus(plus(image, to), first), turned.turned(from));
+                Frame { shift, ..turned }
+            }));
+        }
+        frames.truncate(MAX_CANDIDATES);
+        frames.sort_by(|one, other| {
+            let order = one.angle.abs().total_cmp(&other.angle.abs());
+            order.then(norm(one.shift).total_cmp(&norm(other.shift)))
+        });
+        frames
     }
 
     /// Fits a frame, and returns the simplest one that matches as many positions, and about as well.
@@ -407,32 +410,18 @@ impl<'s> Search<'s> {
         let (found, off) = (best.found, 2.0 * best.off + ROUNDED);
         let replace = |best: &mut Fit, frame| {
             let fit = self.judge(rows, frame, self.within);
-            let is_as_good = fit.found >= found && fit.off <= off;
-            if is_as_good {
+            if fit.found >= found && fit.off <= off {
                 *best = fit;
             }
-            is_as_good
         };
-        let (axes, mut angle) = (best.frame.axes(), best.frame.angle());
-        let upright = |angle: f64, moments: &Moments| {
-            let frame = Frame::upright(axes, angle, [0.0; 3]);
-            let shift = moments.shift(&frame);
-            Frame { shift, ..frame }
-        };
-        if let Some(mut moments) = self.moments(rows, &best.frame) {
-            for _ in 0..3 {
-                let frame = upright(angle, &moments);
-                let Some(fitted) = self.moments(rows, &frame) else {
-                    break;
-                };
-                angle += fitted.turn();
-                moments = fitted;
-            }
-            let step = PI / 6.0;
-            let rounded = (angle / step).round() * step;
-            if replace(&mut best, upright(angle, &moments)) && (angle - rounded).abs() < EXACT {
-                replace(&mut best, upright(rounded, &moments));
-            }
+        let step = PI / 6.0;
+        let angle = (best.frame.angle / step).round() * step;
+        if (best.frame.angle - angle).abs() < EXACT {
+            let frame = Frame {
+                angle,
+                ..best.frame
+            };
+            replace(&mut best, shifted(frame, &self.pairs(rows, &frame)));
         }
         let small = EXACT * self.radius;
         let shift = best
@@ -444,54 +433,54 @@ impl<'s> Search<'s> {
             ..best.frame
         };
         replace(&mut best, frame);
+        // Turns by right angles permute the axes. They are said as turns if there is nothing else.
+        let frame = best.frame;
+        let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let permutes = |axes: &Axes| {
+            let mut units = units.iter();
+            units.all(|unit| distance(axes.turned(*unit), frame.turned(*unit)) == 0.0)
+        };
+        if frame.axes != Axes::OWN
+            && let Some(axes) = Axes::all().find(permutes)
+        {
+            best.frame = Frame {
+                axes,
+                angle: 0.0,
+                ..frame
+            };
+        }
         best
     }
 }
 
-/// Returns the frame that moves some points onto others. For fewer than three points, the rotation is as small as
-/// possible.
-fn motion(from: &[[f64; 3]], to: &[[f64; 3]], is_mirrored: bool) -> Option<Frame> {
-    let apart = |points: &[[f64; 3]], n: usize| Some(minus(*points.get(n)?, *points.first()?));
-    let both = |n| apart(from, n).zip(apart(to, n));
-    // The image of a single point is not turned.
-    let (p, q) = both(1).unwrap_or(([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]));
-    // Without a third point, the plane of both directions is kept.
-    let (r, s) = both(2).unwrap_or([perpendicular(p, q); 2].into());
-    let [old, mut new] = [[p, r], [q, s]].each(|[first, second]| {
-        let x = unit(first);
-        let along = dot(second, x);
-        let y = unit(minus(second, x.each(|component| component * along)));
-        [x, y, cross(x, y)]
-    });
-    if is_mirrored {
-        new[2] = new[2].each(|component| -component);
+/// Returns the frame with the shift that moves the centroid of its points to that of the exact ones.
+fn shifted(frame: Frame, pairs: &[([f64; 3], [f64; 3])]) -> Frame {
+    if pairs.is_empty() {
+        return frame;
     }
-    let entry = |row: usize, column: usize| (0..3).map(|n| new[n][row] * old[n][column]).sum();
-    let rotation = [0, 1, 2].each(|row| [0, 1, 2].each(|column| entry(row, column)));
-    let turned = Frame {
-        rotation,
-        shift: [0.0; 3],
-    };
-    let shift = minus(mean(to), turned.turned(mean(from)));
-    let is_finite = rotation.iter().flatten().all(|x: &f64| x.is_finite());
-    is_finite.then_some(Frame { rotation, shift })
+    let from = mean(pairs.iter().map(|(p, _)| *p));
+    let to = mean(pairs.iter().map(|(_, q)| *q));
+    let shift = minus(to, frame.turned(from));
+    Frame { shift, ..frame }
 }
 
-/// Returns a vector perpendicular to two others.
-fn perpendicular(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    let both = cross(unit(a), unit(b));
-    if norm(both) > ROUNDED {
-        return both;
-    }
-    let [x, y, z] = a.each(f64::abs);
-    let axis = if x <= y && x <= z {
-        [1.0, 0.0, 0.0]
-    } else if y <= z {
-        [0.0, 1.0, 0.0]
-    } else {
-        [0.0, 0.0, 1.0]
-    };
-    cross(a, axis)
+/// Returns whether a force is large enough to mark the position of a contact. If the greatest force is 0, every contact
+/// counts.
+fn is_loaded(force: f64, greatest: f64) -> bool {
+    force >= greatest * 1e-9
+}
+
+/// Returns the horizontal distance of two points.
+fn across(one: [f64; 3], other: [f64; 3]) -> f64 {
+    let [x, y, _] = minus(one, other);
+    x.hypot(y)
+}
+
+/// Returns the largest distance of a point from the centroid.
+fn reach(points: &[[f64; 3]]) -> f64 {
+    let middle = mean(points.iter().copied());
+    let far = points.iter().map(|point| distance(*point, middle));
+    far.fold(0.0, f64::max)
 }
 
 /// Returns the total difference between the measured forces, as shares of their sum, and the exact ones. At a contact
@@ -522,7 +511,7 @@ fn count(number: usize) -> f64 {
     number.max(1) as f64
 }
 
-fn mean(points: &[[f64; 3]]) -> [f64; 3] {
-    let sum = points.iter().fold([0.0; 3], |sum, point| plus(sum, *point));
-    sum.each(|x| x / count(points.len()))
+fn mean(points: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
+    let (number, sum) = points.fold((0, [0.0; 3]), |(n, sum), point| (n + 1, plus(sum, point)));
+    sum.each(|x| x / count(number))
 }

@@ -10,7 +10,9 @@ use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile};
 use cannonpile_dem::verify;
-use cannonpile_dem::verify::{Comparison, Frame, Measured, Preset, Reader, Refusal};
+use cannonpile_dem::verify::{
+    Axes, Comparison, Coordinate, Frame, Measured, Preset, Reader, Refusal, TableAxis,
+};
 use num_traits::{Signed, ToPrimitive};
 
 use super::{Checked, Failure, demand, one_line, same};
@@ -107,7 +109,11 @@ fn table(u: &mut Unstructured<'_>, packing: &Packing<'_>) -> Result<Table, Failu
         (_, 7) => (Reader::of(preset), u.arbitrary::<Vec<u8>>()?, false),
         (_, 6) => {
             let by_place = Reader::new().by_place(Reader::WITHIN)?;
-            (by_place, placed(packing, &own(), false)?.into_bytes(), true)
+            (
+                by_place,
+                placed(packing, &(own(), Axes::OWN), false)?.into_bytes(),
+                true,
+            )
         }
         (Preset::ExaDemVtp | Preset::Lethe, _) => {
             let picture = *u.choose(&PICTURES)?;
@@ -217,38 +223,27 @@ pub fn by_place(u: &mut Unstructured<'_>) -> Checked {
     })
 }
 
-/// A rotation by a quaternion of small integers, its mirror image, and a shift.
-fn any_frame(u: &mut Unstructured<'_>, radius: f64) -> Result<Frame, Failure> {
+/// A turn about the vertical and a shift, and then any permutation of the axes with signs.
+fn any_frame(u: &mut Unstructured<'_>, radius: f64) -> Result<(Frame, Axes), Failure> {
     let mut whole = |most: i32| Ok::<_, Failure>(f64::from(u.int_in_range(-most..=most)?));
-    let [w, x, y, z] = [whole(9)?, whole(9)?, whole(9)?, whole(9)?];
     let shift = [whole(5000)?, whole(5000)?, whole(5000)?].map(|x| x / 100.0 * radius);
-    let is_mirrored: bool = u.arbitrary()?;
-    let square = w * w + x * x + y * y + z * z;
-    if square == 0.0 {
-        return Ok(Frame { shift, ..own() });
-    }
-    let mut rotation = [
-        [
-            w * w + x * x - y * y - z * z,
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            w * w - x * x + y * y - z * z,
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            w * w - x * x - y * y + z * z,
-        ],
-    ];
-    let sign = if is_mirrored { -1.0 } else { 1.0 };
-    for component in rotation.as_flattened_mut() {
-        *component *= sign / square;
-    }
-    Ok(Frame { rotation, shift })
+    let angle = whole(180)?.to_radians();
+    let mut left = vec![Coordinate::X, Coordinate::Y, Coordinate::Z];
+    let mut axis = || {
+        let place = u.int_in_range(0..=left.len() - 1)?;
+        let (coordinate, is_reversed) = (left.remove(place), u.arbitrary()?);
+        Ok::<_, Failure>(TableAxis {
+            coordinate,
+            is_reversed,
+        })
+    };
+    let axes = Axes::new([axis()?, axis()?, axis()?]).unwrap_or(Axes::OWN);
+    let frame = Frame {
+        angle,
+        shift,
+        ..own()
+    };
+    Ok((frame, axes))
 }
 
 /// A pile of any stacking, of discs, or of spheres on an isosceles base. Its weights and loads have similar magnitudes.
@@ -265,15 +260,17 @@ pub(super) fn any_pile(u: &mut Unstructured<'_>) -> Result<Pile, Failure> {
 
 /// The frame of the scene.
 fn own() -> Frame {
-    Frame {
-        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        shift: [0.0; 3],
-    }
+    let (axes, angle, shift) = (Axes::OWN, 0.0, [0.0; 3]);
+    Frame { axes, angle, shift }
 }
 
 /// A table of both centres of each contact, with its force on the first sphere, in a given frame. A table of contact
 /// points has no vectors, because two points do not determine them.
-fn placed(packing: &Packing<'_>, frame: &Frame, by_point: bool) -> Result<String, Failure> {
+fn placed(
+    packing: &Packing<'_>,
+    (frame, axes): &(Frame, Axes),
+    by_point: bool,
+) -> Result<String, Failure> {
     let mut table = String::from(if by_point {
         "x,y,z,force\n"
     } else {
@@ -288,11 +285,11 @@ fn placed(packing: &Packing<'_>, frame: &Frame, by_point: bool) -> Result<String
         let float = |x: &Surd| x.nearest().unwrap_or(0.0);
         let [upper, lower] = [contact.site, below].map(|site| packing.position(site));
         let [upper, lower] = [upper?, lower?].map(|place| place.each_ref().map(float));
-        let [a, b] = [upper, lower].map(|centre| frame.place(centre));
+        let [a, b] = [upper, lower].map(|centre| axes.turned(frame.place(centre)));
         let numbers = if by_point {
             [0, 1, 2].map(|n: usize| a[n].midpoint(b[n])).to_vec()
         } else {
-            let vector = frame.turned(contact.vector.each_ref().map(float));
+            let vector = axes.turned(frame.turned(contact.vector.each_ref().map(float)));
             [a, b, vector].concat()
         };
         for number in numbers {
