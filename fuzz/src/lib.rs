@@ -73,13 +73,7 @@ pub fn parsers(bytes: &[u8]) -> Corpus {
             claims::scene_file::any_file,
             claims::scene_file::a_number,
             claims::json::any_value,
-            |u| {
-                each(
-                    u,
-                    &[claims::json::damaged, claims::scene_file::damaged_json],
-                )
-            },
-            claims::scene_file::json,
+            claims::json::damaged,
         ],
     )
 }

@@ -94,8 +94,6 @@ impl FromStr for State {
     }
 }
 
-cannonpile::data::as_text!(State);
-
 /// The user's description of a pile and its spheres. A scene is unchecked until it is converted to a [`Pile`] or a
 /// [`Packing`].
 ///
@@ -115,27 +113,22 @@ cannonpile::data::as_text!(State);
 /// assert_eq!(scene.pile()?.layers(), 5);
 /// # Ok::<(), cannonpile_dem::Error>(())
 /// ```
-#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// The number of layers. The default is the length of a stacking given by its signs, the maximum on a base, or else
     /// 10.
-    #[serde(with = "cannonpile::data::number")]
     pub layers: Option<i128>,
     /// Discs or spheres (default: spheres).
     pub dimension: Dimension,
     /// sin φ (default: ½); not allowed for discs, or with a stacking, a top or a base.
-    #[serde(with = "cannonpile::data::number")]
     pub sin_phi: Option<BigRational>,
     /// The stacking (default: all +): from the base up if the pile grows from its base, otherwise from the top.
     pub stacking: Option<Pattern>,
     /// The layer that the pile grows from (default: one sphere on top).
     pub anchor: Option<Anchor>,
     /// The loads on spheres, in the units of [`Load`].
-    #[serde(with = "loads")]
     pub loads: Vec<(At, Load)>,
     /// The tilt of gravity (x, y), in the units of [`Pile::with_tilt`] (default: upright).
-    #[serde(with = "tilt")]
     pub tilt: [BigRational; 2],
     /// Whether the spheres are weightless, so that only the loads act.
     pub weightless: bool,
@@ -143,26 +136,20 @@ pub struct Scene {
     /// geometry is used.
     pub spacing: Option<Spacing>,
     /// The radius R (default: 1).
-    #[serde(with = "cannonpile::data::number")]
     pub radius: BigRational,
     /// The mass m of a sphere (default: 1).
-    #[serde(with = "cannonpile::data::number")]
     pub mass: BigRational,
     /// The gravity g (default: 1).
-    #[serde(with = "cannonpile::data::number")]
     pub gravity: BigRational,
     /// The state of the forces (default: isostatic).
     pub state: State,
     /// κ′/κ for the elastic state, the stiffness of horizontal contacts over that of sloping contacts (default: 1).
-    #[serde(with = "cannonpile::data::number")]
     pub stiffness_ratio: BigRational,
     /// The floor (default: glued).
     pub floor: Floor,
     /// The coefficient of friction between spheres on a rough floor (default: twice the needed one).
-    #[serde(with = "cannonpile::data::number")]
     pub friction: Option<BigRational>,
     /// The coefficient of friction of a rough floor (default: twice the needed one).
-    #[serde(with = "cannonpile::data::number")]
     pub floor_friction: Option<BigRational>,
 }
 
@@ -507,79 +494,5 @@ impl Scene {
         let given = [&self.friction, &self.floor_friction].each(Option::as_ref);
         let [contacts, floor] = hold(&packing.on_rough_floor()?, given)?;
         Ok(Some(contacts && floor))
-    }
-}
-
-/// Conversion of loads to records `{"at": …, "weight": …, "x": …, "y": …}`.
-mod loads {
-    use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    use super::{At, BigRational, Load};
-    use cannonpile::data::number;
-
-    #[derive(Serialize, Deserialize)]
-    #[serde(rename = "Load", deny_unknown_fields)]
-    struct Loaded {
-        at: At,
-        /// The force downwards.
-        #[serde(with = "number")]
-        weight: BigRational,
-        #[serde(default, with = "number")]
-        x: BigRational,
-        #[serde(default, with = "number")]
-        y: BigRational,
-    }
-
-    pub(super) fn serialize<S: Serializer>(
-        loads: &[(At, Load)],
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        let loads = loads.iter().cloned();
-        serializer.collect_seq(loads.map(|(at, Load { down, x, y })| Loaded {
-            at,
-            weight: down,
-            x,
-            y,
-        }))
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<Vec<(At, Load)>, D::Error> {
-        let loads: Vec<Loaded> = Deserialize::deserialize(deserializer)?;
-        let load = |Loaded { at, weight, x, y }| (at, Load { down: weight, x, y });
-        Ok(loads.into_iter().map(load).collect())
-    }
-}
-
-/// Conversion of a tilt to a record `{"x": …, "y": …}`.
-mod tilt {
-    use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    use super::BigRational;
-    use cannonpile::data::number;
-
-    #[derive(Serialize, Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct Tilt {
-        #[serde(with = "number")]
-        x: BigRational,
-        #[serde(with = "number")]
-        y: BigRational,
-    }
-
-    pub(super) fn serialize<S: Serializer>(
-        tilt: &[BigRational; 2],
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        let [x, y] = tilt.clone();
-        Tilt { x, y }.serialize(serializer)
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<[BigRational; 2], D::Error> {
-        let Tilt { x, y } = Deserialize::deserialize(deserializer)?;
-        Ok([x, y])
     }
 }

@@ -20,8 +20,6 @@ properties! {
     scenes_are_written_and_read_back: claims::scene_file::written, 512;
     scene_files_are_read_or_refused: claims::scene_file::any_file, 1024;
     numbers_in_scene_files_are_exact: claims::scene_file::a_number, 512;
-    scenes_come_back_from_json: claims::scene_file::json, 512;
-    damaged_scenes_are_refused_or_valid: claims::scene_file::damaged_json, 512;
     any_file_of_measured_forces_is_read_or_refused: claims::measured::any_file, 1024;
     any_table_of_another_code_is_compared_or_refused: claims::measured::any_table, 512;
     measured_forces_are_read_as_written: claims::measured::a_file, 512;

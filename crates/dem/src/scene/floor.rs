@@ -70,5 +70,3 @@ impl FromStr for Floor {
         found.ok_or_else(|| Error::syntax(text, "a floor: glued or rough"))
     }
 }
-
-cannonpile::data::as_text!(Floor);

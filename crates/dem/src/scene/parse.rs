@@ -82,17 +82,13 @@ pub fn layers(text: &str) -> Result<i128, Error> {
 /// assert_eq!(parse::at("5,7", Dimension::Two)?, At { layer: Some(5), i: 7, j: 0 });
 /// # Ok::<(), cannonpile_dem::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct At {
     /// The layer; `None` for the base.
-    #[serde(with = "cannonpile::data::number", default)]
     pub layer: Option<i128>,
     /// The position within the row.
-    #[serde(with = "cannonpile::data::number")]
     pub i: i128,
     /// The row.
-    #[serde(with = "cannonpile::data::number", default)]
     pub j: i128,
 }
 

@@ -5,7 +5,6 @@
 mod error;
 mod exports;
 mod interrupt;
-mod json;
 mod scene {
     mod cases;
     mod file;

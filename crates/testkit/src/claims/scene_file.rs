@@ -1,10 +1,10 @@
-//! A scene survives a round trip through TOML and JSON. A file is read exactly or rejected in one line.
+//! A scene survives a round trip through TOML. A file is read exactly or rejected in one line.
 
 use arbitrary::Unstructured;
 use cannonpile_dem::Error;
 use cannonpile_dem::scene::Scene;
 
-use super::{Checked, demand, json, one_line, same};
+use super::{Checked, demand, one_line, same};
 use crate::generators::{scene, text};
 
 /// A scene survives a round trip, and so does a scene from any file.
@@ -24,7 +24,11 @@ fn reads_back(scene: &Scene) -> Checked {
 pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
     let file = scene::file(u)?;
     match Scene::from_toml(&file) {
-        Ok(scene) => reads_back(&scene),
+        Ok(scene) => {
+            // Its pile is valid or is rejected.
+            scene.pile().err().as_ref().map_or(Ok(()), one_line)?;
+            reads_back(&scene)
+        }
         Err(refusal) => {
             one_line(&refusal)?;
             let line = match refusal {
@@ -57,18 +61,4 @@ pub fn a_number(u: &mut Unstructured<'_>) -> Checked {
             refusal.to_string()
         }),
     }
-}
-
-/// Every scene survives a round trip through JSON.
-pub fn json(u: &mut Unstructured<'_>) -> Checked {
-    json::reads_back(&scene::scene(u)?)
-}
-
-/// The JSON of a scene with some replaced letters is a scene or is rejected. Its pile is valid or is rejected.
-pub fn damaged_json(u: &mut Unstructured<'_>) -> Checked {
-    let whole = scene::scene(u)?;
-    let Some(scene) = json::reads_damaged(u, &whole)? else {
-        return Ok(());
-    };
-    scene.pile().err().as_ref().map_or(Ok(()), one_line)
 }
