@@ -21,7 +21,7 @@ pub(crate) fn remove_files_on_signal() -> io::Result<()> {
         SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2,
         SIGVTALRM, SIGXCPU,
     ];
-    // Without a handler the next command that writes to the same folder removes the leftover files.
+    // Without a handler hidden files stay.
     let Ok(mut signals) = Signals::new([0_i32; 0]) else {
         return Ok(());
     };

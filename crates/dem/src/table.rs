@@ -72,6 +72,6 @@ pub use tables::{MAX_ROWS, base, contacts, spheres, spheres_with_stress, touchin
 pub use tables::{indices, places, refuse_beyond};
 pub use tables::{rough_base, rough_contacts, rough_summary};
 pub use unfinished::remove_unfinished;
-pub(crate) use unfinished::{Pending, remove_leftovers};
+pub(crate) use unfinished::Pending;
 pub use units::Units;
 pub use write::FileFormat;

@@ -4,11 +4,10 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{NamedTempFile, TempPath};
+use tempfile::NamedTempFile;
 
 use super::error::WriteError;
-use super::unfinished::{FRESH, PREFIX, Pending, lock, remove_leftovers};
-use crate::error::bug;
+use super::unfinished::{PREFIX, Pending};
 
 /// Writes a file under a temporary name, and renames it when it is complete. A failure leaves an existing file
 /// unchanged.
@@ -17,8 +16,8 @@ use crate::error::bug;
 /// open (`/dev/stdout`, `/dev/fd/3`) are written where they are, and not replaced. A read-only file is an error. The new
 /// file inherits the permissions of the file that it replaces.
 ///
-/// An interrupted process can [remove](super::remove_unfinished) its temporary files. A killed process leaves a hidden
-/// file `.cannonpile-…` in the folder, which the next call for that folder removes.
+/// An interrupted process can [remove](super::remove_unfinished) its temporary files. A killed process (SIGKILL) leaves
+/// hidden files `.cannonpile-…` in the folder.
 ///
 /// # Errors
 /// The errors of `write`, and [`WriteError::Io`].
@@ -37,7 +36,6 @@ pub fn write_aside(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
-    remove_leftovers(path.parent().unwrap_or(path));
     Aside::write(path, write)?.keep()?;
     Ok(())
 }
@@ -89,12 +87,10 @@ impl Aside {
             // Temporary files are private, but the result has the permissions of any new file; the umask still applies.
             aside.permissions(fs::Permissions::from_mode(0o666));
         }
-        let (fresh, pending) = Pending::create(
-            || aside.prefix(FRESH).tempfile_in(folder),
-            |fresh| fresh.path().to_path_buf(),
+        let (mut aside, pending) = Pending::create(
+            || aside.prefix(PREFIX).tempfile_in(folder),
+            |aside| aside.path().to_path_buf(),
         )?;
-        lock(fresh.as_file());
-        let (mut aside, pending) = named_as_locked(fresh, pending, folder)?;
         let bytes = write_to(aside.as_file_mut(), write)?;
         if let Some(permissions) = permissions {
             aside.as_file().set_permissions(permissions)?;
@@ -143,22 +139,6 @@ fn descriptor(path: &Path) -> Option<u32> {
     let own = ["/proc/self/fd", "/dev/fd"].map(|own| fs::canonicalize(own).ok());
     let number = path.file_name()?.to_str()?.parse();
     number.ok().filter(|_| own.contains(&Some(folder)))
-}
-
-/// Renames a locked file to a name for locked files.
-fn named_as_locked(
-    fresh: NamedTempFile,
-    pending: Pending,
-    folder: &Path,
-) -> io::Result<(NamedTempFile, Pending)> {
-    let name = fresh.path().file_name().and_then(|name| name.to_str());
-    let random = name.and_then(|name| name.strip_prefix(FRESH));
-    let random = random.ok_or_else(|| io::Error::other(bug("it has the name it was made with")))?;
-    let path = folder.join(format!("{PREFIX}{random}"));
-    let next = Pending::new(&path)?;
-    let file = pending.complete(|| fresh.persist_noclobber(&path).map_err(|error| error.error))?;
-    let file = NamedTempFile::from_parts(file, TempPath::try_from_path(path)?);
-    Ok((file, next))
 }
 
 fn write_to(

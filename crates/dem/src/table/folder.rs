@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::{Aside, Pending, WriteError, remove_leftovers};
+use super::{Aside, Pending, WriteError};
 
 /// Writes files into a folder, which is created if necessary, and returns their sizes in bytes. Either all files are
 /// written, or none.
@@ -35,7 +35,6 @@ pub fn write_all<T>(
 ) -> Result<Vec<(PathBuf, u64)>, WriteError> {
     let mut new = New::default();
     new.folder(folder).map_err(|error| of(folder, error))?;
-    remove_leftovers(folder);
     let mut written = Vec::new();
     for (path, what) in files {
         let aside = Aside::write(&path, |out| write(what, out)).map_err(|error| match error {

@@ -1,20 +1,12 @@
-//! The temporary files of this process. An interrupted process can remove its files. Files of a killed process are
-//! removed by the next process that writes into the same folder.
+//! The temporary files of this process, which an interrupted process can remove.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
-/// The prefix of locked temporary files, followed by six letters or digits.
+/// The prefix of temporary files, followed by six letters or digits.
 pub(super) const PREFIX: &str = ".cannonpile-";
-
-/// The prefix of temporary files that are not locked yet.
-pub(super) const FRESH: &str = ".cannonpile-new-";
-
-/// The time after which a file without a lock is considered abandoned.
-const NEW: Duration = Duration::from_secs(60);
 
 /// The incomplete files and folders of this process.
 struct Unfinished {
@@ -115,103 +107,5 @@ impl Pending {
 impl Drop for Pending {
     fn drop(&mut self) {
         unfinished().paths.retain(|path| *path != self.0);
-    }
-}
-
-/// Locks a file of this process. The lock ends with the process, however the process ends.
-pub(super) fn lock(file: &fs::File) -> bool {
-    #[cfg(unix)]
-    {
-        use rustix::fs::{FlockOperation, flock};
-        flock(file, FlockOperation::NonBlockingLockExclusive).is_ok()
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        false
-    }
-}
-
-/// Removes the files of killed processes from a folder: files with our prefixes and without a lock. Files that were
-/// never locked are removed after a minute. On platforms without locks no file is removed.
-pub(crate) fn remove_leftovers(folder: &Path) {
-    let folder = if folder == Path::new("") {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let Ok(entries) = fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let age = [(PREFIX, Duration::ZERO), (FRESH, NEW)]
-            .into_iter()
-            .find(|(prefix, _)| name.to_str().is_some_and(|name| is_ours(name, prefix)));
-        if let Some((_, age)) = age {
-            // Files that cannot be removed remain.
-            let _ = remove_leftover(&entry, age);
-        }
-    }
-}
-
-fn is_ours(name: &str, prefix: &str) -> bool {
-    let random = name.strip_prefix(prefix);
-    random.is_some_and(|random| {
-        random.len() == 6 && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
-    })
-}
-
-fn remove_leftover(entry: &fs::DirEntry, least: Duration) -> io::Result<()> {
-    // The metadata of the entry itself; links are not followed.
-    let metadata = entry.metadata()?;
-    let age = metadata.modified()?.elapsed().unwrap_or(Duration::ZERO);
-    if metadata.is_file() && age >= least && lock(&fs::File::open(entry.path())?) {
-        fs::remove_file(entry.path())?;
-    }
-    Ok(())
-}
-
-#[cfg(all(test, unix))]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn removes_only_files_of_killed_processes() {
-        let folder = tempfile::tempdir().unwrap();
-        let hour = Duration::from_secs(3600);
-        let make = |name: &str, age| {
-            let file = fs::File::create(folder.path().join(name)).unwrap();
-            let modified = std::time::SystemTime::now() - age;
-            file.set_modified(modified).unwrap();
-            file
-        };
-        make(".cannonpile-left01", hour);
-        make(".cannonpile-left02", Duration::ZERO);
-        make(".cannonpile-new-left03", hour);
-        make(".cannonpile-new-fresh1", Duration::ZERO);
-        make(".cannonpile-notours", hour);
-        make(".cannonpile-0000.x", hour);
-        make("left01", hour);
-        let locked = make(".cannonpile-locked", hour);
-        assert!(lock(&locked));
-        remove_leftovers(folder.path());
-        let names = folder.path().read_dir().unwrap();
-        let mut names: Vec<_> = names.map(|entry| entry.unwrap().file_name()).collect();
-        names.sort();
-        assert_eq!(
-            names,
-            [
-                ".cannonpile-0000.x",
-                ".cannonpile-locked",
-                ".cannonpile-new-fresh1",
-                ".cannonpile-notours",
-                "left01"
-            ]
-        );
-        // Dropping the file releases its lock, like the end of the process.
-        drop(locked);
-        remove_leftovers(folder.path());
-        assert_eq!(folder.path().read_dir().unwrap().count(), 4);
     }
 }
