@@ -56,18 +56,18 @@ pub(crate) fn narrower(selection: Selection) -> &'static str {
 }
 
 /// Returns a row that no row of the table exceeds, for the columns of forces and positions.
-fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Result<Vec<Cell>, Error> {
+fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Vec<Cell> {
     // One sphere has few rows, so each row is checked directly.
     if let Selection::One(_) = selection {
-        return Ok(Vec::new());
+        return Vec::new();
     }
-    let force = units.greatest_force(selection)?;
+    let force = units.greatest_force();
     let bound = |column: &Column| match (column.unit, units) {
         ("", _) => Cell::Missing,
         ("m", Units::Si(packing)) => greatest_place(packing).into(),
         _ => force.clone().into(),
     };
-    Ok(columns.iter().map(bound).collect())
+    columns.iter().map(bound).collect()
 }
 
 /// Returns an upper bound of the coordinates of all centres: 2R times the number of steps of 2R on a path from the

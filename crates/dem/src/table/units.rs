@@ -1,12 +1,11 @@
 //! The units of a table: multiples of mg and f₀, or newtons and metres.
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
 
 use super::rows::Column;
 use crate::Error;
-use cannonpile::lattice::{Dimension, Site};
+use cannonpile::lattice::Dimension;
 use cannonpile::scalar::{CorrectlyRounded, Ring, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Forces, Method, NearestLayers, Packing, Pile, Places};
@@ -149,27 +148,26 @@ impl<'p> Units<'p> {
         ]
     }
 
-    /// Returns an upper bound of the stress of a selection times volume. A sphere has at most twelve contacts, and each
+    /// Returns an upper bound of the stress times volume. A sphere has at most twelve contacts, and each
     /// adds at most its force to a multiple. A disc has at most six, and each adds at most twice its force. In SI units each
     /// contact adds at most R times its force.
-    pub(super) fn greatest_stress(&self, part: Selection) -> Result<Surd, Error> {
+    pub(super) fn greatest_stress(&self) -> Surd {
         let contacts = BigRational::from_i128(12);
-        let force = self.greatest_force(part)?.scaled(&contacts);
-        Ok(match self {
+        let force = self.greatest_force().scaled(&contacts);
+        match self {
             Self::Pile(_) => force,
             Self::Si(packing) => force.scaled(packing.radius()),
-        })
+        }
     }
 
-    /// Returns an upper bound of the forces of a selection. In mg or f₀, no force exceeds three times the sum of
-    /// |w| + 2|x| + 4|y| over all weights and loads (w, x, y) down to the layer, plus 2√2 times the sum of all forces of
-    /// horizontal contacts. This sum bounds the root of the sum of the squared forces of the layer.
-    pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
+    /// Returns an upper bound of all forces. In mg or f₀, no force exceeds three times the sum of |w| + 2|x| + 4|y| over
+    /// all weights and loads (w, x, y), plus 2√2 times the sum of all forces of horizontal contacts. This sum bounds the root of the sum of the squared forces of the layer.
+    pub(super) fn greatest_force(&self) -> Surd {
         let horizontal = self.pile().horizontal_forces();
         let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();
-        let sources = weight_down_to(self.pile(), part)? + horizontal * BigRational::from_i128(2);
+        let sources = sources(self.pile()) + horizontal * BigRational::from_i128(2);
         let bound = sources * BigRational::from_i128(3);
-        Ok(match self {
+        match self {
             Self::Pile(_) => bound.into(),
             // f₀ is mg times at most 1/cosθ, and shear has the factor tanθ.
             Self::Si(packing) => {
@@ -178,7 +176,7 @@ impl<'p> Units<'p> {
                 // 1/cosθ and tanθ are at most 1/cos²θ, which is rational.
                 (unit / cos2).into()
             }
-        })
+        }
     }
 
     #[doc(hidden)]
@@ -275,53 +273,22 @@ impl Units<'_> {
     }
 }
 
-/// Returns the sum of |w| + 2|x| + 4|y| over the weights and loads (w, x, y) of the layers of a selection and above.
-fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
-    let horizontal = |[x, y]: [&BigRational; 2]| {
-        let two = BigRational::from_i128(2);
-        (x.abs() + y.abs() * &two) * two
-    };
-    let last = match part {
-        Selection::Layer(k) => k,
-        _ => pile.layers(),
-    };
-    let loads = pile.loads().filter(|(site, _)| site.k <= last);
+/// Returns the sum of |w| + 2|x| + 4|y| over all weights and loads (w, x, y).
+fn sources(pile: &Pile) -> BigRational {
+    let two = || BigRational::from_i128(2);
+    let horizontal = |[x, y]: [&BigRational; 2]| (x.abs() + y.abs() * two()) * two();
+    let loads = pile.loads();
     let aside: BigRational = loads.map(|(_, load)| horizontal([&load.x, &load.y])).sum();
     // The loads have no tilt, so this bound is not sharp.
     let tilt = BigRational::from_i128(1) + horizontal(pile.tilt().each_ref());
-    Ok(vertical_down_to(pile, part)? * tilt + aside)
-}
-
-/// Returns an upper bound of the weights and vertical loads of the layers of a selection and above, in mg.
-fn vertical_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
-    let Selection::Layer(k) = part else {
-        return Ok(pile.weight());
-    };
-    let spheres = match pile
-        .rows(Selection::Layer(k + 1))
-        .ok()
-        .and_then(|mut rows| rows.next())
-    {
-        Some(row) => pile.shape().before(Site {
-            i: row.i.start,
-            j: row.j,
-            k: row.k,
-        })?,
-        None => return Ok(pile.weight()),
-    };
-    let loads = pile.loads().map(|(site, load)| (site, &load.down));
-    let special = loads.chain(pile.weights());
-    let special = special
-        .filter(|(site, _)| site.k <= k)
-        .map(|(_, weight)| weight);
-    Ok(BigRational::from(BigInt::from(spheres)) + special.sum::<BigRational>())
+    pile.weight() * tilt + aside
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use cannonpile::Load;
-    use cannonpile::lattice::Region;
+    use cannonpile::lattice::{Region, Site};
 
     fn ratio(n: i64, d: i64) -> BigRational {
         BigRational::new(n.into(), d.into())
@@ -359,7 +326,7 @@ mod tests {
             let [in_pile, in_si] = [Units::of_pile(&pile), Units::of_packing(packing.clone())];
             let layers = (0..pile.layers()).map(Selection::Layer);
             for part in layers.chain([Selection::All, Selection::Base]) {
-                let [of_pile, of_si] = [&in_pile, &in_si].map(|u| u.greatest_force(part).unwrap());
+                let [of_pile, of_si] = [&in_pile, &in_si].map(Units::greatest_force);
                 for contact in pile.forces::<BigRational>().contacts(part).unwrap() {
                     let contact = contact.unwrap();
                     assert!(
@@ -375,7 +342,7 @@ mod tests {
                 for stress in pile.forces::<BigRational>().stresses(part).unwrap() {
                     let stress = stress.unwrap();
                     for units in [&in_pile, &in_si] {
-                        let bound = units.greatest_stress(part).unwrap();
+                        let bound = units.greatest_stress();
                         for part in units.stress(stress.clone()) {
                             assert!(bound >= part && bound >= -part, "{pile:?}");
                         }

@@ -47,7 +47,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     if pile.dimension() == Dimension::Three {
         columns.push(Column::summed("shear_y", units.shear_y()));
     }
-    let (count, bounds) = (rows.site_count(), bounds(&columns, units, selection)?);
+    let (count, bounds) = (rows.site_count(), bounds(&columns, units, selection));
     let made = units.clone();
     let rows = move |numbers| {
         Ok(match rounding(numbers, selection) {

@@ -93,7 +93,7 @@ fn table<'p>(
         columns.extend(["fx", "fy", "fz"].each(|name| Column::measured(name, "N")));
         columns.extend(["x", "y", "z"].each(|name| Column::measured(name, "m")));
     }
-    let bounds = bounds(&columns, units, selection)?;
+    let bounds = bounds(&columns, units, selection);
     let made = units.clone();
     let spheres = rows.flatten();
     let rows = move |numbers| {

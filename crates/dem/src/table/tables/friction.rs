@@ -53,7 +53,7 @@ pub fn rough_contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Tab
         columns.extend(vectors.map(|name| Column::measured(name, "N")));
         columns.extend(["x", "y", "z"].each(|name| Column::measured(name, "m")));
     }
-    let bounds = bounds(&columns, units, selection)?;
+    let bounds = bounds(&columns, units, selection);
     let rows = move |_| -> Result<RowIter<'p>, Error> {
         Ok(match rough {
             Rough::Pile(forces) => {
@@ -112,7 +112,7 @@ pub fn rough_base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'
     if pile.dimension() == Dimension::Three {
         columns.push(Column::measured("friction_y", units.friction_y()));
     }
-    let bounds = bounds(&columns, units, selection)?;
+    let bounds = bounds(&columns, units, selection);
     let rows = move |_| -> Result<RowIter<'p>, Error> {
         Ok(match rough {
             Rough::Pile(forces) => {

@@ -100,7 +100,7 @@ fn table<'p>(
     let mut greatest_stress = Cell::Missing;
     if let Some(units) = &stress {
         columns.extend(in_dimension(pile, units.stress_columns()));
-        greatest_stress = units.greatest_stress(selection)?.into();
+        greatest_stress = units.greatest_stress().into();
     }
     let bound = |column: &Column| match column.unit {
         "m" => greatest_place(packing).into(),
