@@ -71,7 +71,7 @@ pub use tables::{MAX_ROWS, base, contacts, spheres, spheres_with_stress, touchin
 #[doc(hidden)]
 pub use tables::{indices, places, refuse_beyond};
 pub use tables::{rough_base, rough_contacts, rough_summary};
-pub use unfinished::remove_unfinished;
 pub(crate) use unfinished::Pending;
+pub use unfinished::remove_unfinished;
 pub use units::Units;
 pub use write::FileFormat;

@@ -15,7 +15,6 @@ use cannonpile_dem::verify::{
 use clap::{Args, ValueEnum};
 use contact_tables::Error;
 
-use self::refinement::LevelFile;
 use super::note_instability;
 use crate::args::{Format, Output, SceneOptions, in_state};
 use crate::input::{Input, name_of};
@@ -75,7 +74,7 @@ pub(crate) struct Verify {
         long,
         value_name = "K1=FILE1,K2=FILE2,...",
         value_delimiter = ',',
-        value_parser = refinement::level_file,
+        value_parser = level_file,
         conflicts_with_all = ["measured", "unbalanced"],
         help_heading = "Refinement study"
     )]
@@ -422,6 +421,20 @@ fn format_of_extension(file: &Path) -> FileFormat {
     } else {
         FileFormat::Csv
     }
+}
+
+/// A file with the forces of one simulation, and its stiffness or time step.
+type LevelFile = (f64, PathBuf);
+
+/// Parses `K=FILE`.
+fn level_file(text: &str) -> Result<LevelFile, &'static str> {
+    let (parameter, path) = text
+        .split_once('=')
+        .filter(|(_, path)| !path.is_empty())
+        .ok_or("has no = with a file after it: write PARAMETER=FILE, as in 1e6=stiff.csv")?;
+    let no_number = |_| "give the stiffness or the time step before the =, as in 1e6=stiff.csv";
+    let parameter = parameter.trim().parse().map_err(no_number)?;
+    Ok((parameter, path.into()))
 }
 
 /// Parses a relative error that is finite and not negative.

@@ -1,7 +1,6 @@
 //! `verify --refinement`: the observed order of accuracy.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use cannonpile::Packing;
 use cannonpile_dem::Compliance;
@@ -12,24 +11,9 @@ use cannonpile_dem::verify::{
 };
 use serde_json::{Map, Value, json};
 
-use super::{Parameter, Verify, compare};
+use super::{LevelFile, Parameter, Verify, compare};
 use crate::output::Failure;
 use crate::progress::Progress;
-
-/// A file with the forces of one simulation, and its stiffness or time step.
-pub(super) type LevelFile = (f64, PathBuf);
-
-/// Parses `K=FILE`.
-pub(super) fn level_file(text: &str) -> Result<LevelFile, &'static str> {
-    let (parameter, path) = text
-        .split_once('=')
-        .filter(|(_, path)| !path.is_empty())
-        .ok_or("has no = with a file after it: write PARAMETER=FILE, as in 1e6=stiff.csv")?;
-    let parameter = parameter.trim().parse();
-    let parameter = parameter
-        .map_err(|_| "give the stiffness or the time step before the =, as in 1e6=stiff.csv")?;
-    Ok((parameter, path.into()))
-}
 
 impl Verify {
     /// Compares the files of a refinement study, and returns whether their errors show an order.
