@@ -131,15 +131,6 @@ pub enum Error {
         /// `load` or `tilt`.
         quantity: &'static str,
     },
-    /// A pile without weight above the floor, on which a tilt of gravity has no effect.
-    NoWeight,
-    /// A pile whose forces on a rough floor are not unique, or not covered.
-    RoughFloor {
-        /// The property that the pile must have.
-        needed: &'static str,
-        /// The property that it has instead.
-        given: Box<str>,
-    },
     /// A method that does not apply. Closed forms need a straight stacking, and sweeps need spheres instead of discs.
     NoSuchMethod {
         /// The given method.

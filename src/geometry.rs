@@ -309,6 +309,15 @@ pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
 }
 
 /// Returns 4cos²φ, the squared length of the unit along y in the symbolic basis over sin²θ.
-pub(crate) fn square_across(sin_phi: &BigRational) -> BigRational {
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::square_across;
+/// use cannonpile::ratio;
+///
+/// assert_eq!(square_across(&ratio!(1/2)), ratio!(3));
+/// ```
+#[must_use]
+pub fn square_across(sin_phi: &BigRational) -> BigRational {
     BigRational::from_i128(4) * (BigRational::one() - sin_phi * sin_phi)
 }

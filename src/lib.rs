@@ -57,9 +57,8 @@
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for correctly rounded floats in slices |
 //! | forces row by row, for piles larger than memory | [`fill_row`](NearestLayers::fill_row) and similar methods; [`packing.places()`](Packing::places) for centres and contact points |
 //! | sums of forces | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
-//! | the stability of a pile; the tilts of gravity that it bears; the extreme forces on its base | [`Pile::standing`]; [`Pile::stability`]; [`Pile::base_extremes`] |
-//! | the stable stackings; the paper's theorems | [`census`]; [`theorem`] |
-//! | two layers with friction | [`Pile::on_rough_floor`] |
+//! | the stability of a pile; the extreme forces on its base | [`Pile::stands`], [`Pile::standing`]; [`Pile::base_extremes`] |
+//! | the paper's theorems | [`theorem`] |
 //! | a force as a function of a load or tilt | [`Forces::with_load`], [`Forces::with_tilt`] |
 //! | to cancel a long computation | `Interrupt` |
 //! | the work of a query, estimated and counted | [`Pile::plan`], [`Counters`] |
@@ -70,6 +69,7 @@
 //!
 //! | I want | crate |
 //! |---|---|
+//! | the tilts of gravity that a pile bears, unequal spheres, the stable stackings, two layers with friction | `cannonpile-stability` |
 //! | horizontal contacts at a = R: bounds, elastic states, verdicts, certificates | `cannonpile-horizontal` |
 //! | means and ensembles over random stackings | `cannonpile-disorder` |
 //! | scenes, benchmark cases, files for LAMMPS, YADE and ParaView, a comparison with measured forces | `cannonpile-dem` |
@@ -103,8 +103,7 @@
 //! | | [`Pile`] | a validated pile: any stacking, any region, loads |
 //! | queries | `engine` | the [`Plan`], and the methods to compute forces; not part of the public API |
 //! | | [`Forces`], [`Packing`] | the forces, in pile units and in SI units |
-//! | | [`Standing`], [`stability`], [`census`] | stability |
-//! | | [`ForceChange`], [`friction`] | unequal spheres, to first order; two layers on a rough table |
+//! | | [`Verdict`] | whether a pile stands; the extreme forces on its base |
 //! | | [`theorem`] | the paper's theorems about [`formula`], for every pile |
 //! | tools | `data` | the serialised form of the types (feature `serde`) |
 //! | | `arbitrary` | random piles and their parts from plain bytes (feature `arbitrary`) |
@@ -141,7 +140,6 @@ extern crate alloc;
 #[cfg(feature = "arbitrary")]
 #[cfg_attr(docsrs, doc(cfg(feature = "arbitrary")))]
 pub mod arbitrary;
-pub mod census;
 #[cfg(feature = "serde")]
 #[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
 pub mod data;
@@ -152,7 +150,6 @@ pub mod engine;
 mod error;
 mod forces;
 pub mod formula;
-pub mod friction;
 pub mod geometry;
 pub mod lattice;
 mod packing;
@@ -160,16 +157,14 @@ mod packing;
 pub mod paper {}
 mod pile;
 pub mod scalar;
-mod sensitivity;
 pub mod shape;
 mod sorted;
-pub mod stability;
 pub mod stacking;
-mod standing;
 #[cfg(feature = "proptest")]
 #[cfg_attr(docsrs, doc(cfg(feature = "proptest")))]
 pub mod testing;
 pub mod theorem;
+mod verdict;
 
 #[cfg(feature = "std")]
 #[cfg_attr(docsrs, doc(cfg(feature = "std")))]
@@ -183,9 +178,7 @@ pub use forces::{
 pub use geometry::Load;
 pub use packing::{PackedContact, Packing, Places, SiBasis};
 pub use pile::Pile;
-pub use sensitivity::{ForceChange, Spread};
-pub use stability::Stability;
-pub use standing::{BaseExtremes, Standing, Verdict};
+pub use verdict::{BaseExtremes, Standing, Verdict};
 
 pub use {num_bigint, num_rational, num_traits};
 

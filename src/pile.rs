@@ -17,7 +17,7 @@ use crate::Error;
 use crate::each::Each;
 use crate::error::not_negative;
 use crate::formula;
-use crate::geometry::{Clearance, Load, Vector, directions, disc_directions, square_across};
+use crate::geometry::{Clearance, Load, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};
 use crate::scalar::{Algebra, ByValue, Ring, reduced, sum_of};
 use crate::shape::{Numbering, Rows, Selection, Shape, Sites};
@@ -719,11 +719,6 @@ impl Pile {
     #[cfg(feature = "serde")]
     pub(crate) fn loading(&self) -> &Loading {
         &self.loading
-    }
-
-    /// Returns 4cos²φ, the squared length of the unit along y in the symbolic basis.
-    pub(crate) fn across(&self) -> BigRational {
-        square_across(&self.sin_phi)
     }
 
     /// Returns the data of the pile for an engine.

@@ -99,11 +99,11 @@ impl Entry {
 
 /// Returns the squared margin of a pile, or `None` for a single layer or a pile that is too large.
 fn margin(pile: &cannonpile::Pile) -> Result<Option<BigRational>, Error> {
-    match pile.margin() {
-        Err(cannonpile::Error::NoWeight) => Ok(None),
-        margin => Ok(unless_too_large(margin)?
-            .flatten()
-            .map(|margin| margin.squared)),
+    use cannonpile_stability::Error as Refused;
+
+    match cannonpile_stability::margin(pile) {
+        Err(Refused::NoWeight | Refused::Core(cannonpile::Error::TooLarge { .. })) => Ok(None),
+        margin => Ok(margin?.map(|margin| margin.squared)),
     }
 }
 
@@ -147,7 +147,7 @@ fn without_horizontal_contacts(
     base: Option<Region>,
     failing: bool,
 ) -> Result<Entries, Error> {
-    use cannonpile::census;
+    use cannonpile_stability::census;
     let entry = |entry: Result<census::Entry, cannonpile::Error>| {
         let entry = entry?;
         Ok(Entry {

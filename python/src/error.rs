@@ -10,6 +10,7 @@ use cannonpile_dem::Key;
 #[derive(Clone, Debug)]
 pub(crate) enum Error {
     Core(cannonpile::Error),
+    Stability(cannonpile_stability::Error),
     Horizontal(cannonpile_horizontal::Error),
     Disorder(cannonpile_disorder::Error),
     Dem(cannonpile_dem::Error),
@@ -20,6 +21,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Core(error) => error.fmt(f),
+            Self::Stability(error) => error.fmt(f),
             Self::Horizontal(error) => error.fmt(f),
             Self::Disorder(error) => error.fmt(f),
             Self::Dem(error) => error.fmt(f),
@@ -34,10 +36,20 @@ impl From<cannonpile::Error> for Error {
     }
 }
 
+impl From<cannonpile_stability::Error> for Error {
+    fn from(error: cannonpile_stability::Error) -> Self {
+        match error {
+            cannonpile_stability::Error::Core(error) => error.into(),
+            error => Self::Stability(error),
+        }
+    }
+}
+
 impl From<cannonpile_horizontal::Error> for Error {
     fn from(error: cannonpile_horizontal::Error) -> Self {
         match error {
             cannonpile_horizontal::Error::Core(error) => error.into(),
+            cannonpile_horizontal::Error::Stability(error) => error.into(),
             error => Self::Horizontal(error),
         }
     }
@@ -56,6 +68,7 @@ impl From<cannonpile_dem::Error> for Error {
     fn from(error: cannonpile_dem::Error) -> Self {
         match error {
             cannonpile_dem::Error::Core(error) => error.into(),
+            cannonpile_dem::Error::Stability(error) => error.into(),
             cannonpile_dem::Error::Horizontal(error) => error.into(),
             error => Self::Dem(error),
         }
@@ -66,6 +79,7 @@ impl From<cannonpile_figure::Error> for Error {
     fn from(error: cannonpile_figure::Error) -> Self {
         match error {
             cannonpile_figure::Error::Core(error) => error.into(),
+            cannonpile_figure::Error::Stability(error) => error.into(),
             cannonpile_figure::Error::Horizontal(error) => error.into(),
             cannonpile_figure::Error::Disorder(error) => error.into(),
             cannonpile_figure::Error::Dem(error) => error.into(),
@@ -80,6 +94,7 @@ impl Error {
     pub(crate) fn argument(&self) -> Option<&'static str> {
         match self {
             Self::Core(error) => of_core(error),
+            Self::Stability(_) => None,
             Self::Horizontal(error) => of_horizontal(error),
             Self::Disorder(error) => of_disorder(error),
             Self::Dem(error) => of_dem(error),

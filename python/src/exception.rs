@@ -35,7 +35,8 @@ raise!(
     cannonpile_dem::Error,
     cannonpile_disorder::Error,
     cannonpile_figure::Error,
-    cannonpile_horizontal::Error
+    cannonpile_horizontal::Error,
+    cannonpile_stability::Error
 );
 
 impl From<Refusal> for Raised {

@@ -140,13 +140,6 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "the {quantity} of a pile of discs has no component along y: set it to 0"
             ),
-            Error::NoWeight => f.write_str(
-                "no sphere above the floor has a weight, so a tilt of gravity has no effect: give the pile weight",
-            ),
-            Error::RoughFloor { needed, given } => write!(
-                f,
-                "a rough floor needs {needed}, but this pile has {given}: change that, or use a floor with glue"
-            ),
             Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")
             }

@@ -69,15 +69,10 @@ mod forces {
     mod symmetry;
 }
 
-#[cfg(feature = "std")]
-mod friction;
-#[cfg(feature = "std")]
-mod uniqueness;
-
 mod packing {
+    #[cfg(feature = "std")]
+    mod derivatives;
     mod places;
     mod rounded;
-    #[cfg(feature = "std")]
-    mod sensitivity;
     mod vectors;
 }

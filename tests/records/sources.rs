@@ -268,7 +268,7 @@ fn roots_are_short() {
 fn files_belong_to_top_modules() {
     for (path, top_module) in [
         ("lib.rs", "lib"),
-        ("census.rs", "census"),
+        ("verdict.rs", "verdict"),
         ("scalar/fixed.rs", "scalar"),
     ] {
         assert_eq!(Source::new(path, "").top_module(), top_module);

@@ -69,7 +69,7 @@ fn fault_probability(text: &str) -> Result<BigRational, Error> {
 /// Attributes the error of a pile without weight above the floor: a single layer, or weightless spheres.
 fn of_weight(pile: &Pile, error: impl Into<Error>) -> InputError {
     match error.into() {
-        error @ Error::Core(cannonpile::Error::NoWeight) if pile.layers() == 1 => {
+        error @ Error::Stability(cannonpile_stability::Error::NoWeight) if pile.layers() == 1 => {
             InputError::of(Key::Layers, error)
         }
         error => error.into(),

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use cannonpile_dem::Key;
+use cannonpile_stability::Error as Stability;
 
 use crate::Error;
 
@@ -69,6 +70,8 @@ impl Error {
     pub(crate) fn culprit(&self) -> Option<Culprit> {
         match self {
             Self::Core(error) => of_core(error),
+            Self::Stability(Stability::NoWeight) => Some(Key::Weightless.into()),
+            Self::Stability(_) => Some(Key::Floor.into()),
             Self::Horizontal(error) => of_horizontal(error),
             Self::Disorder(error) => of_disorder(error),
             Self::Dem(error) => of_dem(error),
@@ -115,8 +118,6 @@ fn of_core(error: &cannonpile::Error) -> Option<Culprit> {
         }
         Error::OutOfPlane { quantity, .. } if *quantity == Key::Tilt.name() => Key::Tilt.into(),
         Error::NegativeLoad { .. } | Error::OutOfPlane { .. } => Key::Load.into(),
-        Error::NoWeight => Key::Weightless.into(),
-        Error::RoughFloor { .. } => Key::Floor.into(),
         Error::Overlap { .. } | Error::TooFlat { .. } | Error::NotTouching { .. } => {
             Key::Spacing.into()
         }
@@ -249,7 +250,7 @@ mod tests {
             Culprit::Key(Key::Load),
             out_of_plane(Scene { loads, ..discs() }),
         );
-        let weightless = pile.clone().weightless().stability().unwrap_err();
+        let weightless = cannonpile_stability::tilts(&pile.clone().weightless()).unwrap_err();
         blames(Culprit::Key(Key::Weightless), weightless);
         let misspelled = "++x".parse::<Pattern>();
         assert!(misspelled.is_err());

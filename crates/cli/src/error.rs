@@ -38,10 +38,11 @@ macro_rules! errors {
 
 errors! {
     Core: cannonpile wraps;
-    Horizontal: cannonpile_horizontal wraps Core;
+    Stability: cannonpile_stability wraps Core;
+    Horizontal: cannonpile_horizontal wraps Core Stability;
     Disorder: cannonpile_disorder wraps Core;
-    Dem: cannonpile_dem wraps Core Horizontal;
-    Figure: cannonpile_figure wraps Core Horizontal Disorder Dem;
+    Dem: cannonpile_dem wraps Core Stability Horizontal;
+    Figure: cannonpile_figure wraps Core Stability Horizontal Disorder Dem;
     Proof: cannonpile_proof wraps Core;
 }
 

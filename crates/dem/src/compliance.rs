@@ -7,15 +7,9 @@
 //!
 //! F(κ) = F₀ + F₁/κ + O(1/κ²)
 //!
-//! with the exact forces F₀ of the rigid pile. Two sweeps yield F₁. Let ê be the unit vector of a contact from the
-//! lower sphere to the upper one.
-//!
-//! * *Upwards, displacements.* Overlaps F₀/κ move the centres by u/κ: ê·(u_upper − u_lower) = −F₀ for each contact, and
-//!   u = 0 on the floor. A sphere has as many contacts below it as there are dimensions. So these equations yield its u
-//!   from those of the spheres below.
-//! * *Downwards, forces.* Contacts turn by τ/κ, where 2Rτ = w − ê(ê·w) with w = u_upper − u_lower. The force on the
-//!   upper sphere is F₀ê + (F₁ê + F₀τ)/κ + …. To first order, the sums of F₁ê + F₀τ over the contacts below and above a
-//!   sphere are equal. For τ = 0 the transfer of F₁ along a line of contacts is that of F₀ for weightless spheres.
+//! with the exact forces F₀ of the rigid pile. [`FirstOrder`] gives F₁: the overlap F₀/κ makes each contact shorter, and the
+//! contacts turn by τ/κ. Let ê be the unit vector of a contact from the lower sphere to the upper one. The force on the upper
+//! sphere is F₀ê + (F₁ê + F₀τ)/κ + ….
 //!
 //! So the relative error of a contact force is F₁/(F₀κ), and that of its vector is |F₁ê + F₀τ|/(F₀κ).
 //!
@@ -36,16 +30,16 @@
 //! Further touching neighbours also exert forces, so packings with such neighbours are rejected. Contacts without a
 //! force are rejected too, because a spring without tension opens or closes them by a rule of its own.
 
-mod sweeps;
-
 use core::fmt;
 
 use super::numbered::nearest;
 use super::weights::checked;
 use crate::{Each, Error};
 use cannonpile::Packing;
+use cannonpile::engine::copies;
 use cannonpile::lattice::{Direction, Site};
-use sweeps::Sweeps;
+use cannonpile::shape::Selection;
+use cannonpile_stability::{FirstOrder, ForceChange};
 
 /// The errors of contact forces on linear springs, to leading order in 1/κ.
 ///
@@ -154,15 +148,45 @@ impl Compliance {
             contacts: 0.0,
             unit: checked(nearest(&unit, UNIT)?, UNIT)?,
         };
-        Sweeps::new(packing)?.down(&mut |mut contact| {
-            // From f₀ to mg.
-            contact.coefficient *= unit_force;
-            contact.vector_coefficient *= unit_force;
-            compliance.contacts += 1.0;
-            compliance.forces.add(contact.coefficient);
-            compliance.vectors.add(contact.vector_coefficient);
-            look(&contact);
-        })?;
+        let layers = packing.forces().layers(Selection::All)?.nearest()?;
+        let resting = layers.slice_len()?;
+        let mut forces = [Vec::new(), Vec::new(), Vec::new()];
+        for line in &mut forces {
+            *line = copies(0.0, resting, "the contact forces of all spheres")?;
+        }
+        layers.fill(forces.each_mut().each(Vec::as_mut_slice))?;
+        let network = FirstOrder::new(packing, forces)?;
+        // The unit of elongation is f₀/(2Rκ), so that of changes is f₀²/(2Rκ). A coefficient is in mg instead of f₀.
+        let unit = unit_force / 2.0;
+        network.changes(
+            |force, _| -force,
+            |contact| {
+                let ForceChange {
+                    site,
+                    direction,
+                    force,
+                    change,
+                    ..
+                } = contact;
+                if force <= 0.0 {
+                    return Err(NoCompliance::Slack { site, direction });
+                }
+                let relative: f64 = change / force;
+                let vector = relative.hypot(f64::sqrt(network.square(&contact.turn)));
+                let contact = SoftContact {
+                    ids: contact.spheres.map(|number| number as u64 + 1),
+                    site,
+                    direction,
+                    coefficient: relative * unit,
+                    vector_coefficient: vector * unit,
+                };
+                compliance.contacts += 1.0;
+                compliance.forces.add(contact.coefficient);
+                compliance.vectors.add(contact.vector_coefficient);
+                look(&contact);
+                Ok(())
+            },
+        )?;
         let sums = [compliance.forces, compliance.vectors].each(|of| of.sum_of_squares);
         if sums.iter().all(|sum| sum.is_finite()) {
             Ok(compliance)

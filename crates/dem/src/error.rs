@@ -26,6 +26,8 @@ use crate::Key;
 pub enum Error {
     /// The crate `cannonpile` rejected a pile, a site, a geometry or a number.
     Core(cannonpile::Error),
+    /// The pile has no weight, or its forces on a rough floor are unknown.
+    Stability(cannonpile_stability::Error),
     /// The forces of horizontal contacts are unknown.
     ///
     /// An error of `cannonpile` that `cannonpile_horizontal` returned is [`Core`](Self::Core).
@@ -97,6 +99,7 @@ impl fmt::Display for Whole<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Error::Core(error) => error.fmt(f),
+            Error::Stability(error) => error.fmt(f),
             Error::Horizontal(error) => error.fmt(f),
             Error::SinPhiOfDiscs => {
                 f.write_str("a pile of discs has no sin phi: leave it out, or use dimension 3")
@@ -173,10 +176,20 @@ impl From<cannonpile::Error> for Error {
     }
 }
 
+impl From<cannonpile_stability::Error> for Error {
+    fn from(error: cannonpile_stability::Error) -> Self {
+        match error {
+            cannonpile_stability::Error::Core(error) => Self::Core(error),
+            error => Self::Stability(error),
+        }
+    }
+}
+
 impl From<cannonpile_horizontal::Error> for Error {
     fn from(error: cannonpile_horizontal::Error) -> Self {
         match error {
             cannonpile_horizontal::Error::Core(error) => Self::Core(error),
+            cannonpile_horizontal::Error::Stability(error) => Self::Stability(error),
             error => Self::Horizontal(error),
         }
     }

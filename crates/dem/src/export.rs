@@ -14,6 +14,7 @@ use crate::Error;
 use crate::table::{Progress, WriteError, write_all};
 use cannonpile::Packing;
 use cannonpile::shape::{Numbering, Selection};
+use cannonpile_stability::RoughPacking;
 
 /// A pile with its export options.
 ///
@@ -153,7 +154,7 @@ impl<'p> PileExport<'p> {
     /// support it.
     ///
     /// # Errors
-    /// [`Error::RoughFloor`](cannonpile::Error::RoughFloor).
+    /// [`RoughFloor`](cannonpile_stability::Error::RoughFloor).
     ///
     /// # Examples
     /// ```
@@ -170,7 +171,7 @@ impl<'p> PileExport<'p> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn on_rough_floor(self, friction: Friction) -> Result<Self, Error> {
-        self.packing().on_rough_floor()?;
+        RoughPacking::new(self.packing())?;
         let friction = Some(friction);
         Ok(Self { friction, ..self })
     }

@@ -9,6 +9,7 @@ use cannonpile::lattice::{ContactKind, Direction, Row, Site};
 use cannonpile::scalar::{Surd, SurdSum};
 use cannonpile::shape::{Numbering, Rows, Selection};
 use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
+use cannonpile_stability::RoughPacking;
 
 /// A packing with numbered spheres.
 ///
@@ -292,7 +293,7 @@ impl<'p> NumberedPile<'p> {
     pub(super) fn rough_contacts(
         &self,
     ) -> Result<impl Iterator<Item = Result<(NumberedContact, [f64; 3]), Error>> + '_, Error> {
-        let contacts = self.packing.on_rough_floor()?.contacts(Selection::All)?;
+        let contacts = RoughPacking::new(&self.packing)?.contacts(Selection::All)?;
         Ok(self.touches()?.zip(contacts).map(|(touch, contact)| {
             let ((direction, ids), contact) = (touch?, contact?);
             let normal = NumberedContact {
@@ -311,7 +312,7 @@ impl<'p> NumberedPile<'p> {
     pub(super) fn of_rough_floor(
         &self,
     ) -> Result<impl Iterator<Item = Result<(u64, [f64; 3]), Error>> + use<'p>, Error> {
-        let forces = self.packing.on_rough_floor()?.base(Selection::Base)?;
+        let forces = RoughPacking::new(&self.packing)?.base(Selection::Base)?;
         let ids = self.numbering.first_on_floor()..;
         Ok(ids.zip(forces).map(|(id, force)| {
             let force = force?;

@@ -13,9 +13,9 @@ use crate::table::WriteError;
 use crate::{Each, Error};
 use cannonpile::Packing;
 use cannonpile::engine::positive;
-use cannonpile::friction::RoughPacking;
 use cannonpile::lattice::Dimension;
 use cannonpile::scalar::ByValue;
+use cannonpile_stability::RoughPacking;
 
 /// The coefficients of friction of a simulated pile on a rough floor.
 ///
@@ -50,13 +50,13 @@ impl Friction {
     /// Returns twice the coefficients that the pile needs.
     ///
     /// # Errors
-    /// [`Error::RoughFloor`](cannonpile::Error::RoughFloor), and the errors of
+    /// [`RoughFloor`](cannonpile_stability::Error::RoughFloor), and the errors of
     /// [`Pile::base_extremes`](cannonpile::Pile::base_extremes).
     ///
     /// # Examples
     /// See [`Friction`].
     pub fn sufficient(packing: &Packing<'_>) -> Result<Self, Error> {
-        let rough = packing.on_rough_floor()?;
+        let rough = RoughPacking::new(packing)?;
         let twice = |needed: Option<f64>| {
             let rounded = needed.map(|needed| 2.0 * needed);
             let rounded = rounded.ok_or_else(|| Error::overflow("friction", "f64"))?;

@@ -20,6 +20,7 @@ use cannonpile::shape::Shape;
 use cannonpile::stacking::Pattern;
 use cannonpile::{Load, Packing, Pile};
 use cannonpile_horizontal::ElasticState;
+use cannonpile_stability::{RoughFloor, RoughPacking};
 
 use parse::At;
 
@@ -196,7 +197,7 @@ impl Scene {
     /// # Errors
     /// The errors of the constructors and loads of [`Pile`], and of
     /// [`Clearance::check`](cannonpile::geometry::Clearance::check); [`Error::SinPhiOfDiscs`] and [`Error::Excluded`]
-    /// for options that exclude each other; those of [`Pile::on_rough_floor`] for a rough floor.
+    /// for options that exclude each other; those of [`RoughFloor::new`] for a rough floor.
     ///
     /// # Examples
     /// ```
@@ -250,9 +251,9 @@ impl Scene {
                 beside: Key::Floor,
             });
         }
-        pile.on_rough_floor()?;
+        RoughFloor::new(pile)?;
         if let Some(spacing) = &self.spacing {
-            Packing::new(pile, spacing)?.on_rough_floor()?;
+            RoughPacking::new(&Packing::new(pile, spacing)?)?;
         }
         Ok(())
     }
@@ -473,7 +474,7 @@ impl Scene {
     /// The comparison is exact. A coefficient that is not given is large enough.
     ///
     /// # Errors
-    /// As for [`Packing::on_rough_floor`] and [`RoughPacking::floor_holds_at`](cannonpile::friction::RoughPacking::floor_holds_at).
+    /// As for [`RoughPacking::new`] and [`RoughPacking::floor_holds_at`].
     ///
     /// # Examples
     /// ```
@@ -492,7 +493,7 @@ impl Scene {
             return Ok(None);
         }
         let given = [&self.friction, &self.floor_friction].each(Option::as_ref);
-        let [contacts, floor] = hold(&packing.on_rough_floor()?, given)?;
+        let [contacts, floor] = hold(&RoughPacking::new(&packing)?, given)?;
         Ok(Some(contacts && floor))
     }
 }

@@ -33,6 +33,8 @@ pub enum Error {
     },
     /// An error of the crate `cannonpile`.
     Core(cannonpile::Error),
+    /// An error of the crate `cannonpile_stability`, about tilts or a rough floor.
+    Stability(cannonpile_stability::Error),
     /// An error of the crate `cannonpile_horizontal`, about bounds or elastic states.
     Horizontal(cannonpile_horizontal::Error),
     /// An error of the crate `cannonpile_disorder`, about random stackings.
@@ -53,6 +55,7 @@ impl fmt::Display for Error {
                 "{glyphs} {kind} are too many for a figure, at most {limit}: {remedy}"
             ))),
             Self::Core(error) => error.fmt(f),
+            Self::Stability(error) => error.fmt(f),
             Self::Horizontal(error) => error.fmt(f),
             Self::Disorder(error) => error.fmt(f),
             Self::Dem(error) => error.fmt(f),
@@ -68,10 +71,20 @@ impl From<cannonpile::Error> for Error {
     }
 }
 
+impl From<cannonpile_stability::Error> for Error {
+    fn from(error: cannonpile_stability::Error) -> Self {
+        match error {
+            cannonpile_stability::Error::Core(error) => Self::Core(error),
+            error => Self::Stability(error),
+        }
+    }
+}
+
 impl From<cannonpile_horizontal::Error> for Error {
     fn from(error: cannonpile_horizontal::Error) -> Self {
         match error {
             cannonpile_horizontal::Error::Core(error) => Self::Core(error),
+            cannonpile_horizontal::Error::Stability(error) => Self::Stability(error),
             error => Self::Horizontal(error),
         }
     }
@@ -90,6 +103,7 @@ impl From<cannonpile_dem::Error> for Error {
     fn from(error: cannonpile_dem::Error) -> Self {
         match error {
             cannonpile_dem::Error::Core(error) => Self::Core(error),
+            cannonpile_dem::Error::Stability(error) => Self::Stability(error),
             cannonpile_dem::Error::Horizontal(error) => error.into(),
             error => Self::Dem(error),
         }

@@ -9,6 +9,7 @@ use super::subject::Subject;
 use super::ticks::short;
 use crate::Error;
 use cannonpile::engine::bug;
+use cannonpile_stability::RoughPacking;
 
 /// The length of the arrow for N + T, in R.
 const LONGEST: f64 = 1.25;
@@ -25,7 +26,7 @@ const LEFT: f64 = 500.0;
 /// Arrows are `<polygon class="arrow" data-name="N" data-force="…">`, with the force over N.
 ///
 /// # Errors
-/// [`RoughFloor`](cannonpile::Error::RoughFloor) unless the pile has two layers with gaps, a > R, and vertical loads.
+/// [`RoughFloor`](cannonpile_stability::Error::RoughFloor) unless the pile has two layers with gaps, a > R, and vertical loads.
 ///
 /// # Examples
 /// ```
@@ -39,7 +40,7 @@ const LEFT: f64 = 500.0;
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
 pub fn friction(subject: &Subject<'_>) -> Result<Figure, Error> {
-    let rough = subject.packing().on_rough_floor()?;
+    let rough = RoughPacking::new(subject.packing())?;
     let float = |needed: Option<f64>| needed.ok_or_else(|| bug("a coefficient fits in f64"));
     let half = float(rough.contact_friction().nearest())?;
     let floor = float(rough.floor_friction()?.nearest())?;

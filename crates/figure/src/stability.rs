@@ -1,7 +1,8 @@
 //! The tilts of gravity that a pile bears, as a polygon.
 
+use cannonpile::geometry::square_across;
 use cannonpile::lattice::{Dimension, Site};
-use cannonpile::stability::{Margin, Tilt};
+use cannonpile_stability::{Margin, Tilt, tilts};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -20,7 +21,7 @@ use crate::Error;
 /// degrees, at the spacing of the subject. A dashed circle shows the margin.
 ///
 /// # Errors
-/// The errors of [`Pile::stability`](cannonpile::Pile::stability).
+/// The errors of [`tilts`].
 ///
 /// # Examples
 /// ```
@@ -36,13 +37,9 @@ use crate::Error;
 /// ```
 pub fn stability(subject: &Subject<'_>) -> Result<Figure, Error> {
     let pile = subject.pile();
-    let stability = pile.stability()?;
+    let tilts = tilts(pile)?;
     let plane = Plane::of(subject)?;
-    let corners: Vec<Point> = stability
-        .corners
-        .iter()
-        .map(|tilt| plane.point(tilt))
-        .collect();
+    let corners: Vec<Point> = tilts.corners.iter().map(|tilt| plane.point(tilt)).collect();
     let farthest = corners.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
     let reach = if farthest > 0.0 { 1.3 * farthest } else { 1.0 };
     let panel = Panel::around([[-reach, -reach], [reach, reach]], 0.0, [0.0; 2], AXES);
@@ -56,7 +53,7 @@ pub fn stability(subject: &Subject<'_>) -> Result<Figure, Error> {
         let area = polygon(&on_page).class("tilts").fill(BLUE);
         area.set("fill-opacity", 0.18).stroke(BLUE, 2.0)
     });
-    for (tilt, at) in stability.corners.iter().zip(&on_page) {
+    for (tilt, at) in tilts.corners.iter().zip(&on_page) {
         let corner = circle(*at, 3.0).class("corner").fill(BLUE);
         let exact = tilt.each_ref().map(ToString::to_string).join(",");
         glyphs.push(corner.set("data-exact", exact));
@@ -64,7 +61,7 @@ pub fn stability(subject: &Subject<'_>) -> Result<Figure, Error> {
         glyphs.extend(beside(&panel, *at, angle, BLUE));
     }
     let mut summary = caption(subject)?;
-    if let Some(margin) = &stability.margin {
+    if let Some(margin) = &tilts.margin {
         glyphs.extend(of_margin(subject, &plane, &panel, margin)?);
         summary = format!("{summary}; {}", in_words(subject, margin)?);
     }
@@ -102,9 +99,7 @@ struct Plane {
 impl Plane {
     fn of(subject: &Subject<'_>) -> Result<Self, Error> {
         let pile = subject.pile();
-        let s = pile.sin_phi();
-        let four = BigRational::from_integer(4.into());
-        let square = &four - &four * s * s;
+        let square = square_across(pile.sin_phi());
         Ok(Self {
             tan: subject.tan()?,
             across: float(&square).sqrt(),

@@ -6,7 +6,7 @@
 //! | L | 1 | 2 | 3 | 4 | 5 | 6 and more |
 //! |---|---|---|---|---|---|---|
 //! | with horizontal contacts | 1 | 1 | 2 | 4 | 8 | 12 |
-//! | [without](cannonpile::census) | 1 | 1 | 2 | 4 | 8 | 11 |
+//! | [without](cannonpile_stability::census) | 1 | 1 | 2 | 4 | 8 | 11 |
 //!
 //! The additional stacking is (1,1,1,1,*) in Zhdanov's notation: five layers of HCP, continued by equal steps. The
 //! proof that the number stops growing has four parts. The forces f and X ≥ 0 are those of
@@ -33,8 +33,8 @@
 //! then tested.
 
 use cannonpile::Pile;
-use cannonpile::census::{Judged, carried_up, search};
 use cannonpile::lattice::Region;
+use cannonpile_stability::census::{StabilityTest, carried_up, search};
 
 use crate::Error;
 use crate::certificate::{Certificate, Claim};
@@ -82,12 +82,12 @@ impl Entry {
     }
 }
 
-impl Judged for Entry {
+impl StabilityTest for Entry {
     type Error = Error;
 
     const ENTRIES: [i128; 2] = [12, 56];
 
-    fn judge(pile: Pile) -> Result<Self, Error> {
+    fn test(pile: Pile) -> Result<Self, Error> {
         let (certificate, decided_by) = decided(&pile)?;
         Ok(Self {
             pile,
@@ -110,7 +110,7 @@ impl Judged for Entry {
 /// # Errors
 /// * [`Layers`](cannonpile::Error::Layers) unless 1 ≤ `layers` ≤ 10³⁶.
 /// * [`TooManyRows`](cannonpile::Error::TooManyRows) if `failing` would give more than
-///   [`MAX_ENTRIES`](cannonpile::census::MAX_ENTRIES) entries.
+///   [`MAX_ENTRIES`](cannonpile_stability::census::MAX_ENTRIES) entries.
 ///
 /// The items contain no errors: a lemma or a small linear program decides every entry, and each of these programs has
 /// been solved.
@@ -133,11 +133,11 @@ pub fn under_one_sphere(
     Ok(search(layers, failing)?)
 }
 
-/// Returns every stacking on a base, extended upwards as in [`census::on_base`](cannonpile::census::on_base), with
+/// Returns every stacking on a base, extended upwards as in [`census::on_base`](cannonpile_stability::census::on_base), with
 /// the proof that it is stable or unstable at a = R.
 ///
 /// # Errors
-/// Returns [`TooManyRows`](cannonpile::Error::TooManyRows) if `cannonpile::census::on_base` does so. Items contain the
+/// Returns [`TooManyRows`](cannonpile::Error::TooManyRows) if `cannonpile_stability::census::on_base` does so. Items contain the
 /// errors of [`equilibrium`](crate::equilibrium).
 ///
 /// # Examples

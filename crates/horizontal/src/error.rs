@@ -26,6 +26,8 @@ use core::fmt;
 pub enum Error {
     /// An error of the crate `cannonpile`, about the pile, a site or the amount of work.
     Core(cannonpile::Error),
+    /// An error of the crate `cannonpile_stability`, about the tilts that a pile bears.
+    Stability(cannonpile_stability::Error),
     /// Bounds were requested for a pile of weightless spheres.
     Weightless,
     /// The pile is unstable: no compressive forces balance it, even with horizontal contacts.
@@ -38,10 +40,20 @@ impl From<cannonpile::Error> for Error {
     }
 }
 
+impl From<cannonpile_stability::Error> for Error {
+    fn from(error: cannonpile_stability::Error) -> Self {
+        match error {
+            cannonpile_stability::Error::Core(error) => Self::Core(error),
+            error => Self::Stability(error),
+        }
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Core(error) => error.fmt(f),
+            Self::Stability(error) => error.fmt(f),
             Self::Weightless => f.write_str(
                 "bounds need the weight of the spheres, but this pile is weightless; give the spheres their weight",
             ),

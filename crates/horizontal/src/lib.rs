@@ -93,10 +93,10 @@ mod program;
 mod run;
 mod simplex;
 mod springs;
-mod stability;
 mod stand;
 mod straight;
 mod symmetry;
+mod tilt;
 mod upper;
 
 use core::num::NonZeroI64;
@@ -108,8 +108,8 @@ pub use bounds::{NormalBound, NormalBounds, bounds};
 pub use elastic::{ElasticState, elastic};
 pub use error::Error;
 pub use exact_simplex::exact_pivots;
-pub use stability::{margin, stability};
 pub use stand::equilibrium;
+pub use tilt::{margin, tilts};
 
 const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 

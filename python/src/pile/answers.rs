@@ -1,10 +1,11 @@
 //! Single exact forces.
 
+use cannonpile::Load;
 use cannonpile::geometry::LayerGap;
 use cannonpile::lattice::{ContactKind, Direction, HorizontalContact, Site};
 use cannonpile::shape::Selection;
-use cannonpile::{Load, Spread};
 use cannonpile_dem::table::refuse_beyond;
+use cannonpile_stability::Spread;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -87,18 +88,18 @@ pub(crate) fn stability(pile: &Pile, py: Python<'_>) -> PyResult<Stability> {
         .check(&pile.scene.spacing().map_err(raised)?);
     if pile.exact.is_regular() && touching.as_deref() == Ok(&[LayerGap { layers: 0 }]) {
         let exact = pile.exact.clone();
-        let stability = work_of_long_steps(py, move || cannonpile_horizontal::stability(&exact))?;
-        let squared = stability.margin.map(|margin| margin.squared);
-        return Ok((squared, None, stability.corners));
+        let tilts = work_of_long_steps(py, move || cannonpile_horizontal::tilts(&exact))?;
+        let squared = tilts.margin.map(|margin| margin.squared);
+        return Ok((squared, None, tilts.corners));
     }
-    let stability = work(py, || pile.exact.stability())?;
-    let Some(margin) = stability.margin else {
-        return Ok((None, None, stability.corners));
+    let tilts = work(py, || cannonpile_stability::tilts(&pile.exact))?;
+    let Some(margin) = tilts.margin else {
+        return Ok((None, None, tilts.corners));
     };
     let (site, direction) = margin.opens;
     let force = pile.exact.forces().contact(site, direction);
     let contact = contact(site, direction, force.map_err(raised)?);
-    Ok((Some(margin.squared), Some(contact), stability.corners))
+    Ok((Some(margin.squared), Some(contact), tilts.corners))
 }
 
 fn raised(error: impl Into<Raised>) -> PyErr {
@@ -158,7 +159,7 @@ pub(crate) fn sensitivity(
 ) -> PyResult<Vec<BigRational>> {
     let site = input::site(&k, &i, &j)?;
     work(py, || {
-        let changes = pile.packing()?.sensitivity(site)?;
+        let changes = cannonpile_stability::sensitivity(&pile.packing()?, site)?;
         Ok::<_, Error>(changes.into_iter().map(|contact| contact.change).collect())
     })
 }
@@ -170,7 +171,9 @@ pub(crate) fn spread(
     pile: &Pile,
     py: Python<'_>,
 ) -> PyResult<Option<(Weakest, BigRational, BigRational)>> {
-    let spread: Option<Spread> = work(py, || Ok::<_, Error>(pile.packing()?.spread()?))?;
+    let spread: Option<Spread> = work(py, || {
+        Ok::<_, Error>(cannonpile_stability::spread(&pile.packing()?)?)
+    })?;
     Ok(spread.and_then(|spread| {
         // The variance is not zero.
         let bearable = spread.bearable_squared()?;

@@ -9,6 +9,7 @@ use cannonpile_dem::scene::{Floor, Scene, parse};
 use cannonpile_dem::table::refuse_beyond;
 use cannonpile_dem::verify::{Preset, Reader};
 use cannonpile_dem::{PileExport, PileFormat};
+use cannonpile_stability::RoughPacking;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use numpy::PyReadonlyArray1;
@@ -38,7 +39,7 @@ impl RoughFloor {
             scene.check_sizes()?;
             let pile = checked_pile(&scene)?;
             // Friction depends on the spacing, also on the default one.
-            scene.packing(&pile)?.on_rough_floor()?;
+            RoughPacking::new(&scene.packing(&pile)?)?;
             Ok::<_, Raised>(pile)
         })?;
         Ok(Self { scene, exact })
@@ -119,7 +120,7 @@ impl RoughFloor {
     #[getter]
     fn needed(&self, py: Python<'_>) -> PyResult<[Coefficient; 2]> {
         work(py, || {
-            let rough = self.packing()?.on_rough_floor()?;
+            let rough = RoughPacking::new(&self.packing()?)?;
             let coefficient = |needed: &SurdSum| {
                 let float = rounded(needed, "a coefficient of friction")?;
                 Ok::<_, Error>((float, needed.to_string()))
@@ -173,11 +174,8 @@ pub(crate) fn rough_contacts(floor: &RoughFloor, py: Python<'_>) -> PyResult<Vec
         let pile = &floor.exact;
         refuse_beyond(&pile.contact_count(), "use a smaller top or base")?;
         let numbering = pile.numbering()?;
-        let multiples = pile.on_rough_floor()?.contacts(Selection::All)?;
-        let in_si = floor
-            .packing()?
-            .on_rough_floor()?
-            .contacts(Selection::All)?;
+        let multiples = cannonpile_stability::RoughFloor::new(pile)?.contacts(Selection::All)?;
+        let in_si = RoughPacking::new(&floor.packing()?)?.contacts(Selection::All)?;
         let contacts = multiples.zip(in_si).map(|(multiple, contact)| {
             let (multiple, contact) = (multiple?, contact?);
             let (site, direction) = (contact.site, contact.direction);
@@ -206,7 +204,7 @@ pub(crate) fn rough_base(floor: &RoughFloor, py: Python<'_>) -> PyResult<Vec<[f6
             &floor.exact.base_sphere_count(),
             "use a smaller top or base",
         )?;
-        let forces = floor.packing()?.on_rough_floor()?.base(Selection::Base)?;
+        let forces = RoughPacking::new(&floor.packing()?)?.base(Selection::Base)?;
         let forces = forces.map(|force| {
             let force = force?;
             rounded_force([force.normal, force.shear_x, force.shear_y])

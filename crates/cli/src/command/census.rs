@@ -1,8 +1,6 @@
 //! `census`: the stable stackings.
 
 use cannonpile::Pile;
-use cannonpile::census;
-use cannonpile::census::Entry;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Region;
 use cannonpile::stacking::Stacking;
@@ -10,6 +8,7 @@ use cannonpile_dem::Key;
 use cannonpile_dem::scene::parse;
 use cannonpile_dem::table::Table;
 use cannonpile_horizontal::census as horizontal;
+use cannonpile_stability::census::{self, Entry};
 use clap::Args;
 
 use super::has_horizontal_contacts;

@@ -63,8 +63,10 @@ impl Sensitivity {
         let packing = scene.packing(&pile)?;
         let progress = Progress::begin("computing the changes of the forces");
         let table = match site {
-            Some(site) => tables::sensitivity(&pile, packing.sensitivity(site)?),
-            None => match packing.spread()? {
+            Some(site) => {
+                tables::sensitivity(&pile, cannonpile_stability::sensitivity(&packing, site)?)
+            }
+            None => match cannonpile_stability::spread(&packing)? {
                 Some(spread) => tables::spread(&pile, spread),
                 None if pile.first_failure()?.is_some() => {
                     drop(progress);

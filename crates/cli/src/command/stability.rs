@@ -2,10 +2,10 @@
 
 use cannonpile::geometry::LayerGap;
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::stability::Tilt;
 use cannonpile::{Pile, Verdict};
 use cannonpile_dem::angle;
 use cannonpile_dem::scene::Scene;
+use cannonpile_stability::Tilt;
 use clap::Args;
 use num_rational::BigRational;
 
@@ -122,10 +122,10 @@ impl Stability {
 
     fn of_sloping_contacts(&self, pile: &Pile, contacts: Contacts) -> Result<Answer, Error> {
         let (margin, corners) = if self.polygon {
-            let stability = pile.stability()?;
-            (stability.margin, stability.corners)
+            let tilts = cannonpile_stability::tilts(pile)?;
+            (tilts.margin, tilts.corners)
         } else {
-            (pile.margin()?, Vec::new())
+            (cannonpile_stability::margin(pile)?, Vec::new())
         };
         Ok(Answer {
             opens: margin.as_ref().map(|margin| margin.opens),
@@ -140,8 +140,8 @@ impl Stability {
         pile: &Pile,
     ) -> Result<(Option<BigRational>, Vec<Tilt>), Error> {
         let (margin, corners) = if self.polygon {
-            let stability = cannonpile_horizontal::stability(pile)?;
-            (stability.margin, stability.corners)
+            let tilts = cannonpile_horizontal::tilts(pile)?;
+            (tilts.margin, tilts.corners)
         } else {
             (cannonpile_horizontal::margin(pile)?, Vec::new())
         };

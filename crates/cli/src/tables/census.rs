@@ -1,9 +1,9 @@
 //! The tables of the census: stackings and their stability.
 
-use cannonpile::census::Entry;
 use cannonpile::{ContactForce, Error, Pile, Standing, Verdict};
 use cannonpile_dem::table::{Cell, Column, Row, Table, steps};
 use cannonpile_horizontal::census as horizontal;
+use cannonpile_stability::census::Entry;
 
 /// The largest number of layers of a stacking with a sign change for which a census computes base normal forces.
 const MAX_CHECKED_LAYERS: i128 = 100_000;
@@ -79,9 +79,12 @@ fn margin(pile: &Pile, standing: Option<&Standing>) -> Result<Cell, Error> {
     if standing.is_none_or(|standing| standing.first_failure.is_some()) {
         return Ok(Cell::Missing);
     }
-    match pile.margin() {
-        Err(Error::NoWeight | Error::TooLarge { .. }) => Ok(Cell::Missing),
-        margin => Ok(margin?.map_or(Cell::Missing, |margin| margin.squared.into())),
+    use cannonpile_stability::Error::Core;
+
+    match cannonpile_stability::margin(pile) {
+        Ok(margin) => Ok(margin.map_or(Cell::Missing, |margin| margin.squared.into())),
+        Err(Core(error)) if !matches!(error, Error::TooLarge { .. }) => Err(error),
+        Err(_) => Ok(Cell::Missing),
     }
 }
 
@@ -128,7 +131,7 @@ mod tests {
 
     #[test]
     fn census_of_three_layers() {
-        let found = cannonpile::census::under_one_sphere(3, false).unwrap();
+        let found = cannonpile_stability::census::under_one_sphere(3, false).unwrap();
         assert_eq!(
             csv(census(found)),
             "stacking,layers,stands,min_contact,base_spheres,normal_min,normal_max,k,i,j,direction,\

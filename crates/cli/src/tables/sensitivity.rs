@@ -1,9 +1,10 @@
 //! The tables of the changes of contact forces among unequal spheres.
 
+use cannonpile::Pile;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::Surd;
-use cannonpile::{ForceChange, Pile, Spread};
 use cannonpile_dem::table::{Cell, Column, Row, Table, Units, indices, places};
+use cannonpile_stability::{ForceChange, Spread};
 use num_rational::BigRational;
 
 /// Returns a row for each contact: `k, i, j, direction, force, change`. Discs have no `j`.
@@ -58,13 +59,16 @@ mod tests {
         let pile = Pile::triangular(2).unwrap();
         let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
         // A larger apex is higher, but still in the middle.
-        let changes = packing.sensitivity(Site::APEX).unwrap();
+        let changes = cannonpile_stability::sensitivity(&packing, Site::APEX).unwrap();
         let table = csv(sensitivity(&pile, changes));
         let head = "k,i,j,direction,force,change\n";
         let row = |direction: &str| format!("0,0,0,{direction},1,-6/13\n");
         let rows = ["alpha", "beta", "gamma"].map(row).concat();
         assert_eq!(table, format!("{head}{rows}"));
-        let table = csv(spread(&pile, packing.spread().unwrap().unwrap()));
+        let table = csv(spread(
+            &pile,
+            cannonpile_stability::spread(&packing).unwrap().unwrap(),
+        ));
         assert!(
             table.starts_with(
                 "k,i,j,direction,force,force_deviation,radius_deviation\n0,0,0,alpha,1,"

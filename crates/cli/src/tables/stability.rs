@@ -1,9 +1,9 @@
 //! The tables of the stability under a tilt of gravity.
 
 use cannonpile::lattice::{Dimension, Direction, Site};
-use cannonpile::stability::Tilt;
 use cannonpile::{Pile, Verdict};
 use cannonpile_dem::table::{Cell, Column, Table, indices, places};
+use cannonpile_stability::Tilt;
 use num_rational::BigRational;
 
 /// Returns one row: the squared margin, its angle in degrees, and the contact that opens there.
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn the_margin_of_a_straight_pile() {
         let pile = Pile::triangular(4).unwrap();
-        let least = pile.margin().unwrap().unwrap();
+        let least = cannonpile_stability::margin(&pile).unwrap().unwrap();
         let head = "margin_squared_over_tan2_theta,angle,k,i,j,direction,stands\n1/4,19.5,";
         for (opens, contact) in [
             (Some(least.opens), "0,0,0,alpha,yes\n"),
@@ -88,8 +88,8 @@ mod tests {
     #[test]
     fn corners_of_spheres_and_discs() {
         let corners = |pile: &Pile| {
-            let stability = pile.stability().unwrap();
-            csv(polygon(pile, stability.corners))
+            let tilts = cannonpile_stability::tilts(&pile).unwrap();
+            csv(polygon(pile, tilts.corners))
         };
         let spheres = corners(&Pile::triangular(4).unwrap());
         assert!(

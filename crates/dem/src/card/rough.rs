@@ -10,9 +10,9 @@ use super::title::CardTitle;
 use crate::numbered::{NumberedPile, all_rounded};
 use crate::template::fill_lines;
 use crate::{Each, Error, Friction};
-use cannonpile::friction::RoughPacking;
 use cannonpile::scalar::SurdSum;
 use cannonpile::shape::Selection;
+use cannonpile_stability::RoughPacking;
 
 /// The accepted relative error of the simulations.
 const ACCEPT: &str = "1e-5";
@@ -25,7 +25,7 @@ pub(super) fn record(
     scene: Option<&str>,
     most: u32,
 ) -> Result<(Json, Names), Error> {
-    let rough = numbered.packing().on_rough_floor()?;
+    let rough = RoughPacking::new(numbered.packing())?;
     let [contacts_hold, floor_holds] = friction.holds(&rough)?;
     let stands = contacts_hold && floor_holds;
     let option = scene_option(title);

@@ -301,9 +301,11 @@ impl<'p> Summary<'p> {
 
 /// Returns the squared margin of a pile, or `None` for a pile without weight above the floor.
 fn margin(pile: &Pile) -> Result<Option<BigRational>, cannonpile::Error> {
-    match pile.margin() {
-        Err(cannonpile::Error::NoWeight) => Ok(None),
-        margin => Ok(margin?.map(|margin| margin.squared)),
+    match cannonpile_stability::margin(pile) {
+        Ok(margin) => Ok(margin.map(|margin| margin.squared)),
+        Err(cannonpile_stability::Error::Core(error)) => Err(error),
+        // The pile has no weight.
+        Err(_) => Ok(None),
     }
 }
 

@@ -90,7 +90,7 @@ impl Comparison {
     /// floor. A vector without [`tangential`](Measured::tangential) is the whole force on the first sphere.
     ///
     /// # Errors
-    /// As for [`new`](Self::new) and [`Packing::on_rough_floor`].
+    /// As for [`new`](Self::new) and [`RoughPacking::new`](cannonpile_stability::RoughPacking::new).
     ///
     /// # Examples
     /// ```

@@ -19,6 +19,7 @@ use crate::error::bug;
 use crate::{Each, Error, NumberedContact, NumberedPile};
 use cannonpile::Packing;
 use cannonpile::engine::refuse_beyond_memory;
+use cannonpile_stability::RoughPacking;
 
 /// The largest number of pairs without a contact, and of contacts with walls, for each sphere. At most twelve spheres
 /// touch a sphere. The limit leaves room for neighbours that do not touch.
@@ -92,7 +93,7 @@ impl<'p> Ledger<'p> {
 
     /// Returns the ledger of a pile on a rough floor.
     pub(super) fn on_rough_floor(packing: &Packing<'p>) -> Result<Self, Refusal> {
-        packing.on_rough_floor()?;
+        RoughPacking::new(packing).map_err(crate::Error::from)?;
         let ledger = Self::new(packing)?;
         let rough = Some(Directions::of(&ledger.numbered)?);
         Ok(Self { rough, ..ledger })

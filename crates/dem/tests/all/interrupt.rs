@@ -7,12 +7,13 @@ use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{Interrupt, Packing, Pile, census};
+use cannonpile::{Interrupt, Packing, Pile};
 use cannonpile_dem::Error;
 use cannonpile_dem::verify::Refusal;
 use cannonpile_dem::verify::{Comparison, Measured};
 use cannonpile_dem::{NumberedPile, PileArrays};
 use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+use cannonpile_stability::census;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 

@@ -243,7 +243,7 @@ fn every_kind_of_proof_occurs_on_bases() {
         let base = base.unwrap();
         let all: Vec<Entry> = census::on_base(base).unwrap().map(Result::unwrap).collect();
         all.iter().for_each(is_proved_and_matches_elastic_state);
-        let alone = cannonpile::census::on_base(base)
+        let alone = cannonpile_stability::census::on_base(base)
             .unwrap()
             .map(Result::unwrap);
         let piles: Vec<Pile> = alone.map(|entry| entry.pile).collect();

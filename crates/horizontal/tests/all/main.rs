@@ -9,8 +9,8 @@ mod error;
 mod json;
 mod near_ties;
 mod rounded;
-mod stability;
 mod states;
+mod tilts;
 
 /// Returns all stackings with the given number of steps that begin with +.
 fn stackings(steps: usize) -> impl Iterator<Item = String> {

@@ -7,10 +7,9 @@ use crate::table::cell::Cell;
 use crate::table::rows::{Column, RowIter, Table, boxed};
 use crate::table::units::Units;
 use crate::{Each, Error};
-use cannonpile::Packing;
-use cannonpile::friction::{RoughFloor, RoughPacking};
 use cannonpile::lattice::Dimension;
 use cannonpile::shape::Selection;
+use cannonpile_stability::{RoughFloor, RoughPacking};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -22,7 +21,7 @@ use num_traits::Zero;
 /// In pile units the normal force is in mg, and the tangential force in mg·tan(θ/2).
 ///
 /// # Errors
-/// As for [`contacts`](super::contacts), and [`Error::RoughFloor`](cannonpile::Error::RoughFloor).
+/// As for [`contacts`](super::contacts), and [`RoughFloor`](cannonpile_stability::Error::RoughFloor).
 ///
 /// # Examples
 /// ```
@@ -85,7 +84,7 @@ pub fn rough_contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Tab
 /// In pile units the normal force is in mg, and the friction in mg·tan(θ/2) along x and 2cosφ·mg·tan(θ/2) along y.
 ///
 /// # Errors
-/// As for [`base`](super::base), and [`Error::RoughFloor`](cannonpile::Error::RoughFloor).
+/// As for [`base`](super::base), and [`RoughFloor`](cannonpile_stability::Error::RoughFloor).
 ///
 /// # Examples
 /// ```
@@ -136,7 +135,7 @@ pub fn rough_base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'
 /// the floor. In pile units they are multiples of tan(θ/2).
 ///
 /// # Errors
-/// [`Error::RoughFloor`](cannonpile::Error::RoughFloor), and the errors of [`Pile::base_extremes`](cannonpile::Pile::base_extremes).
+/// [`RoughFloor`](cannonpile_stability::Error::RoughFloor), and the errors of [`Pile::base_extremes`](cannonpile::Pile::base_extremes).
 ///
 /// # Examples
 /// ```
@@ -208,8 +207,8 @@ enum Rough<'p> {
 impl<'p> Rough<'p> {
     fn of(units: &Units<'p>) -> Result<Self, Error> {
         Ok(match units {
-            Units::Pile(_) => Self::Pile(units.pile().on_rough_floor()?),
-            Units::Si(packing) => Self::Si(Box::new(Packing::on_rough_floor(packing)?)),
+            Units::Pile(_) => Self::Pile(RoughFloor::new(units.pile())?),
+            Units::Si(packing) => Self::Si(Box::new(RoughPacking::new(packing)?)),
         })
     }
 }

@@ -4,6 +4,7 @@ use cannonpile::Verdict;
 use cannonpile::shape::Selection;
 use cannonpile_dem::Error;
 use cannonpile_dem::scene::{Case, Floor, Scene, SceneFile, State, cases};
+use cannonpile_stability::RoughPacking;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 
@@ -95,7 +96,7 @@ fn every_case_has_its_stated_stability() {
         if scene.floor == Floor::Rough {
             // This test compares the friction at each contact with floats. The verdict is exact.
             let packing = scene.packing(&pile).expect("room");
-            let rough = packing.on_rough_floor().expect("two layers");
+            let rough = RoughPacking::new(&packing).expect("two layers");
             let slides = |friction: &Option<BigRational>, needed: f64| {
                 let friction = friction.as_ref().and_then(ToPrimitive::to_f64);
                 needed > friction.expect("a coefficient")

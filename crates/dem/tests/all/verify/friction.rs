@@ -4,6 +4,7 @@ use cannonpile::shape::Selection;
 use cannonpile::{Load, Packing, Pile};
 use cannonpile_dem::scene::Floor;
 use cannonpile_dem::verify::{Comparison, Finding, FindingKind, Measured, Reader, Refusal};
+use cannonpile_stability::RoughPacking;
 use num_rational::BigRational;
 
 use super::{packing, ratio};
@@ -19,7 +20,7 @@ struct Rows {
 }
 
 fn perfect(packing: &Packing<'_>) -> Rows {
-    let (pile, rough) = (packing.pile(), packing.on_rough_floor().unwrap());
+    let (pile, rough) = (packing.pile(), RoughPacking::new(packing).unwrap());
     let id = |site| super::id(pile, site);
     let contacts = rough.contacts(Selection::All).unwrap().map(|contact| {
         let contact = contact.unwrap();

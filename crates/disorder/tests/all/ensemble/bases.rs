@@ -1,12 +1,12 @@
 //! Ensembles on a base: comparison with plain enumeration, where each stacking is built as a pile on the base.
 
-use cannonpile::census;
 use cannonpile::lattice::Region;
 use cannonpile_disorder::{
     Choice, ContactSet, Ensemble, Error, FirstSign, RandomPiles, RandomStackings, Samples, Shard,
     Tally, TallyRecord, Unmergeable,
 };
 use cannonpile_horizontal::certificate::Claim;
+use cannonpile_stability::census;
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Zero, pow};

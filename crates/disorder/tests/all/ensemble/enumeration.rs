@@ -1,12 +1,12 @@
 //! Comparison of tallies with plain enumeration: each stacking is built as a pile, and its forces are computed one by
 //! one.
 
-use cannonpile::census;
 use cannonpile::lattice::Region;
 use cannonpile_disorder::{
     Choice, ContactSet, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard,
 };
 use cannonpile_horizontal::certificate::Claim;
+use cannonpile_stability::census;
 use num_rational::BigRational;
 use num_traits::Zero;
 

@@ -1,11 +1,12 @@
 //! Stable stackings. Frictionless contacts carry compression only, so a pile that needs tension is unstable.
 //!
 //! This program lists the stable stackings of eight layers under one sphere, the first unstable height of HCP, and the
-//! effect of a wider top. Run it with `cargo run --example which_stand`.
+//! effect of a wider top. Run it with `cargo run -p cannonpile-stability --example which_stand`.
 
 use cannonpile::lattice::Region;
 use cannonpile::stacking::{Notation, Stacking};
-use cannonpile::{Error, Pile, Verdict, census};
+use cannonpile::{Error, Pile, Verdict};
+use cannonpile_stability::census;
 
 fn main() -> Result<(), Error> {
     let standing: Vec<_> = census::under_one_sphere(8, false)?.collect::<Result<_, _>>()?;

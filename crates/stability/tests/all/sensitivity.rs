@@ -1,15 +1,13 @@
-//! Unequal spheres and geometry of one's own, against piles that are built again.
+//! Unequal spheres, against piles that are built again.
 
 use std::collections::BTreeMap;
 
 use cannonpile::lattice::{Direction, Region, Site};
-use cannonpile::scalar::Algebra;
 use cannonpile::shape::Selection;
-use cannonpile::{ForceChange, Load, Packing, Pile, SiBasis, ratio};
+use cannonpile::{Packing, Pile, ratio};
+use cannonpile_stability::{ForceChange, sensitivity, spread};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
-
-use crate::dual::Dual;
 
 type V = [f64; 3];
 
@@ -107,8 +105,8 @@ fn changes_of_forces_are_those_of_piles_built_again() {
         for grown in grown {
             let delta = 1e-5;
             let [more, less] = [delta, -delta].map(|delta| rebuilt(&packing, grown, delta));
-            let exact = packing.sensitivity::<BigRational>(grown).unwrap();
-            let floats = packing.sensitivity::<f64>(grown).unwrap();
+            let exact = sensitivity::<BigRational>(&packing, grown).unwrap();
+            let floats = sensitivity::<f64>(&packing, grown).unwrap();
             for (
                 ForceChange {
                     site,
@@ -138,7 +136,7 @@ fn spreads_of_straight_piles() {
     for (layers, known) in [(4, 6.4), (6, 13.0), (8, 21.0)] {
         let pile = Pile::triangular(layers).unwrap();
         let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
-        let spread = packing.spread::<f64>().unwrap().unwrap();
+        let spread = spread::<f64>(&packing).unwrap().unwrap();
         let relative = spread.variance.sqrt() / spread.force;
         assert!((relative - known).abs() < 0.5, "{layers} {relative}");
         let bearable = spread.bearable_squared().unwrap().sqrt();
@@ -146,29 +144,29 @@ fn spreads_of_straight_piles() {
     }
     let pile = Pile::triangular(3).unwrap();
     let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
-    let exact = packing.spread::<BigRational>().unwrap().unwrap().variance;
+    let exact = spread::<BigRational>(&packing).unwrap().unwrap().variance;
     assert!(!exact.is_zero());
-    let rounded = packing.spread::<f64>().unwrap().unwrap().variance;
+    let rounded = spread::<f64>(&packing).unwrap().unwrap().variance;
     assert!((exact.to_f64().unwrap() - rounded).abs() < 1e-9);
 }
 
 /// A contact whose force no radius changes is not the one that opens first, and an unstable pile has no such contact.
 #[test]
 fn spreads_of_other_piles() {
-    let spread = |pile: Pile| {
+    let spread_of = |pile: Pile| {
         let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
-        packing.spread::<BigRational>().unwrap()
+        spread::<BigRational>(&packing).unwrap()
     };
     let load = |pile: Pile| {
         pile.with_load(Site { i: 0, j: 0, k: 1 }, ratio!(1))
             .unwrap()
     };
-    let below = spread(load(Pile::triangular(3).unwrap().weightless())).unwrap();
+    let below = spread_of(load(Pile::triangular(3).unwrap().weightless())).unwrap();
     assert_eq!((below.site.k, below.force), (1, ratio!(1)));
     let hcp = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
-    assert_eq!(spread(hcp), None);
-    assert_eq!(spread(Pile::triangular(1).unwrap()), None);
-    assert_eq!(spread(Pile::triangular(3).unwrap().weightless()), None);
+    assert_eq!(spread_of(hcp), None);
+    assert_eq!(spread_of(Pile::triangular(1).unwrap()), None);
+    assert_eq!(spread_of(Pile::triangular(3).unwrap().weightless()), None);
 }
 
 /// If all spheres grow alike, the pile keeps its shape only if the floor grows too. In a pile of discs every force has a
@@ -177,7 +175,7 @@ fn spreads_of_other_piles() {
 fn discs_change_by_their_own_rule() {
     let pile = Pile::discs(4).unwrap();
     let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
-    let changes = packing.sensitivity::<BigRational>(Site::APEX).unwrap();
+    let changes = sensitivity::<BigRational>(&packing, Site::APEX).unwrap();
     // A larger apex is lifted straight up, so its two contacts steepen alike.
     let apex: Vec<_> = changes
         .iter()
@@ -186,74 +184,4 @@ fn discs_change_by_their_own_rule() {
     assert_eq!(apex.len(), 2);
     assert_eq!(apex[0].change, apex[1].change);
     assert!(apex[0].change < ratio!(0));
-}
-
-/// Dual numbers in sinθ and cosθ differentiate forces in newtons by the spacing.
-#[test]
-fn forces_in_newtons_have_a_derivative_by_the_spacing() {
-    let pile = Pile::under(Region::SITE, "+-+".parse().unwrap()).unwrap();
-    let push = Load {
-        down: ratio!(1),
-        x: ratio!(1 / 3),
-        y: ratio!(-1 / 5),
-    };
-    let pile = pile.with_load(Site::APEX, push).unwrap();
-    let basis = |ratio: f64| {
-        // sin²θ = (a/R)²/3.
-        let (sin, slope) = (ratio / 3_f64.sqrt(), 1.0 / 3_f64.sqrt());
-        let cos = (1.0 - sin * sin).sqrt();
-        let constant = Dual::constant;
-        SiBasis {
-            sin: Dual { value: sin, slope },
-            cos: Dual {
-                value: cos,
-                slope: -sin * slope / cos,
-            },
-            twice_cos_phi: constant(3_f64.sqrt()),
-            weight: constant(2.5),
-            radius: constant(0.5),
-        }
-    };
-    let forces = pile.forces::<Dual<f64>>();
-    let (site, direction) = (Site::new(1, 0, 2), Direction::Beta);
-    let bottom = Site::new(1, 0, 3);
-    let all = |basis: &SiBasis<Dual<f64>>| {
-        let mut all = vec![basis.contact(&forces, site, direction).unwrap()];
-        all.extend(basis.contact_vector(&forces, site, direction).unwrap());
-        all.extend(basis.position(&forces, site).unwrap());
-        let floor = basis.on_floor(&forces, bottom).unwrap();
-        all.extend([floor.normal, floor.shear_x, floor.shear_y]);
-        all
-    };
-    let packing = |ratio: &BigRational| {
-        let spacing = cannonpile::geometry::Spacing::new(ratio.clone()).unwrap();
-        let packing = Packing::new(&pile, &spacing).unwrap();
-        let packing = packing
-            .with_mass(ratio!(5 / 2))
-            .unwrap()
-            .with_radius(ratio!(1 / 2))
-            .unwrap();
-        let mut all = vec![packing.contact(site, direction).unwrap()];
-        all.extend(packing.contact_vector(site, direction).unwrap());
-        all.extend(packing.position(site).unwrap());
-        let floor = packing.on_floor(bottom).unwrap();
-        all.extend([floor.normal, floor.shear_x, floor.shear_y]);
-        all.into_iter()
-            .map(|surd| surd.to_f64())
-            .collect::<Vec<f64>>()
-    };
-    let (at, step) = (ratio!(6 / 5), ratio!(1 / 100_000));
-    let (middle, low, high) = (
-        packing(&at),
-        packing(&(&at - &step)),
-        packing(&(&at + &step)),
-    );
-    for (n, dual) in all(&basis(f64::from_rational(&at))).into_iter().enumerate() {
-        assert!((dual.value - middle[n]).abs() < 1e-12, "{n}");
-        let slope = (high[n] - low[n]) / (2.0 * f64::from_rational(&step));
-        assert!(
-            (dual.slope - slope).abs() < 1e-6 * (1.0 + slope.abs()),
-            "{n} {slope} {dual:?}"
-        );
-    }
 }

@@ -146,7 +146,7 @@ impl Standing {
 
     /// Updates the result with a contact. The contact replaces the current one if its force is smaller, or equal and
     /// earlier in the order.
-    fn meet(&mut self, contact: ContactForce<BigRational>) {
+    fn update(&mut self, contact: ContactForce<BigRational>) {
         if contact.force.is_negative() {
             let k = contact.site.k;
             self.first_failure = Some(self.first_failure.map_or(k, |first| first.min(k)));
@@ -235,6 +235,27 @@ impl Pile {
         Ok(self.standing_until(true)?.first_failure)
     }
 
+    /// Returns a contact that would need a tensile force, or `None` if the pile is stable. It is the one with the smallest
+    /// force among the layers examined, which end soon after the first unstable one.
+    ///
+    /// # Errors
+    /// As for [`standing`](Self::standing).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let contact = Pile::under(Region::SITE, "+-+-+".parse()?)?.tensile_contact()?;
+    /// assert_eq!(contact.unwrap().force.to_string(), "-22/81");
+    /// assert_eq!(Pile::triangular(10)?.tensile_contact()?, None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn tensile_contact(&self) -> Result<Option<ContactForce<BigRational>>, Error> {
+        let least = self.standing_until(true)?.least;
+        Ok(least.filter(|contact| contact.force.is_negative()))
+    }
+
     /// Returns the layers below which the forces may be smallest: where the sign changes, and at the end of a run along
     /// which forces decrease.
     fn low_layers(&self) -> Vec<i128> {
@@ -252,16 +273,16 @@ impl Pile {
     }
 
     /// Returns the contact with the smallest force, of the whole pile or down to the first failure.
-    pub(crate) fn standing_until(&self, failure: bool) -> Result<Standing, Error> {
+    fn standing_until(&self, failure: bool) -> Result<Standing, Error> {
         let mut standing = Standing {
             least: None,
             first_failure: None,
         };
         for contact in self.at_surfaces() {
-            standing.meet(contact);
+            standing.update(contact);
         }
         for contact in self.at_special_spheres()? {
-            standing.meet(contact);
+            standing.update(contact);
         }
         let layers = self.low_layers();
         let mut looked_at = 0;
@@ -275,7 +296,7 @@ impl Pile {
             };
             let next = next.min(layers.len());
             for contact in self.below_layers(&layers[looked_at..next])? {
-                standing.meet(contact);
+                standing.update(contact);
             }
             looked_at = next;
         }

@@ -6,7 +6,8 @@ use cannonpile::geometry::{Vector, directions};
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Sign, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
-use cannonpile::{Error, Load, Packing, Pile, ratio};
+use cannonpile::{Load, Packing, Pile, ratio};
+use cannonpile_stability::{Error, RoughFloor, RoughPacking};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -139,7 +140,7 @@ fn check(pile: &Pile) {
         equations.balance(&forces, weight(*site));
     }
     let solution = equations.solve();
-    let rough = pile.on_rough_floor().unwrap();
+    let rough = RoughFloor::new(&pile).unwrap();
     let found: Vec<_> = rough
         .contacts::<BigRational>(Selection::All)
         .unwrap()
@@ -228,7 +229,7 @@ fn bases_loads_weights_and_isosceles_triangles() {
 #[test]
 fn discs() {
     let pile = Pile::discs(2).unwrap();
-    let rough = pile.on_rough_floor().unwrap();
+    let rough = RoughFloor::new(&pile).unwrap();
     let contact = rough.contact(Site::APEX, Direction::Alpha);
     assert_eq!(contact, Ok(ratio!(1 / 2)));
     let base: Vec<_> = rough
@@ -244,14 +245,14 @@ fn discs() {
     assert!(forces.eq(expected));
     assert_eq!(rough.floor_friction(), Ok(ratio!(1 / 3).into()));
     let weightless = pile.weightless();
-    let rough = weightless.on_rough_floor().unwrap();
+    let rough = RoughFloor::new(&weightless).unwrap();
     assert_eq!(rough.floor_friction(), Ok(ratio!(0).into()));
 }
 
 /// Three layers have a state of self-stress, so their forces depend on the history.
 #[test]
 fn other_piles_are_refused() {
-    let refused = |pile: Pile| match pile.on_rough_floor() {
+    let refused = |pile: Pile| match RoughFloor::new(&pile) {
         Err(Error::RoughFloor { given, .. }) => given.to_string(),
         other => panic!("{other:?}"),
     };
@@ -301,7 +302,7 @@ fn forces_in_si_units_are_in_equilibrium() {
             .and_then(|packing| packing.with_mass(ratio!(2)))
             .and_then(|packing| packing.with_gravity(ratio!(981 / 100)))
             .unwrap();
-        let rough = packing.on_rough_floor().unwrap();
+        let rough = RoughPacking::new(&packing).unwrap();
         let friction = rough.contact_friction().nearest::<f64>().unwrap();
         let mut sums: BTreeMap<Site, [f64; 6]> = BTreeMap::new();
         let mut add = |site: Site, point: [f64; 3], force: [f64; 3]| {
@@ -357,7 +358,7 @@ fn forces_in_si_units_are_in_equilibrium() {
 fn spheres_that_touch_in_a_layer_are_refused() {
     let pile = Pile::triangular(2).unwrap();
     let packing = Packing::new(&pile, &"1".parse().unwrap()).unwrap();
-    match packing.on_rough_floor() {
+    match RoughPacking::new(&packing) {
         Err(Error::RoughFloor { given, .. }) => assert_eq!(&*given, "the spacing a = R"),
         other => panic!("{other:?}"),
     }

@@ -1,78 +1,75 @@
 //! Friction: two layers on a rough floor, without glue.
-//!
-//! All other queries are about spheres without friction on a floor with glue. Here the lower of two layers lies on a plane, and
-//! its spheres may slide and roll. Each contact transmits a force with friction, and no moment. Neighbours in a layer do not
-//! touch: a > R. All loads are vertical. Then the forces are unique: they depend neither on the law of the springs nor on the
-//! history.
-//!
-//! # Forces
-//! A contact transmits N along its line, and T across it, in its vertical plane. With T = N·tan(θ/2):
-//!
-//! * The vertical part of both is N cosθ + T sinθ = N.
-//! * The horizontal part of both is N sinθ − T cosθ = T. On the lower sphere it points away from the upper one.
-//! * The line of action of both leads from the contact to the point where the lower sphere touches the floor. So the lower
-//!   sphere does not roll, and contacts superpose.
-//!
-//! The upper sphere needs Σ N = w for its weight and loads w, and Σ N h = 0 for the horizontal directions h of its contacts.
-//! These are the equations of the frictionless pile, (5) of the paper, with other units: mg/W for N instead of f₀ =
-//! mg/(W cosθ), and mg·tan(θ/2) for horizontal forces instead of mg·tanθ. The numbers are the same.
-//!
-//! | force | frictionless | on a rough floor |
-//! |---|---|---|
-//! | contact, along its line | f·mg/(W cosθ) | f·mg/W |
-//! | contact, across its line | 0 | f·mg/W·tan(θ/2) |
-//! | floor, vertical | n·mg | n·mg |
-//! | floor, horizontal | h·mg·tanθ | h·mg·tan(θ/2) |
-//!
-//! The contacts need a coefficient of friction of at least tan(θ/2) = (1 − cosθ)/sinθ, and the floor that of
-//! [`floor_friction`](RoughFloor::floor_friction). With less, no forces are in equilibrium.
-//!
-//! # Uniqueness
-//! The difference of two sets of forces balances no loads.
-//!
-//! 1. *Upper sphere.* Forces at three points balance each other only if F_l = Σ_m λ_lm (c_m − c_l), with the points c and
-//!    symmetric λ. All contacts of an upper sphere are at one height, so these forces are horizontal, and c_m − c_l is half
-//!    the vector between two neighbours of the lower layer. There is one λ for each two neighbours. It is 0 without a common
-//!    upper sphere.
-//! 2. *Lower sphere.* Its contacts have one height too, so moments about its point on the floor give Σ F = 0, and the
-//!    moment of F about the vertical axis is 0. Let λ₁, …, λ₆ belong to its six neighbours in order. The first equation gives
-//!    λ₁ − λ₄ = λ₃ − λ₆ = λ₅ − λ₂ = κ. The second is κ·(sin 2A + sin 2B + sin 2C) = 0, with the angles A, B and C of the
-//!    triangle of three neighbours. The sum is 4 sin A sin B sin C > 0, so κ = 0.
-//! 3. So λ is the same on opposite sides of every lower sphere: each force runs straight on. A finite layer has an end, where
-//!    it is 0. ∎
-//!
-//! For discs, F is horizontal too, with one λ for each upper disc, and Σ F = 0 makes neighbouring λ equal.
-//!
-//! The identities are the theorems `rough-contact`, `rough-floor` and `rough-unique` of the crate `cannonpile-proof`. Its
-//! file `Friction.v` has the whole proof in Coq, for spheres and discs.
-//!
-//! Three layers already have a state of self-stress. There the forces depend on the history, and no exact answer exists.
 
-use alloc::boxed::Box;
-use alloc::format;
-
+use cannonpile::each::Each;
+use cannonpile::engine::{equality, product};
+use cannonpile::geometry::LayerGap;
+use cannonpile::lattice::{Direction, Site};
+use cannonpile::scalar::{Algebra, ByValue, Surd, SurdSum};
+use cannonpile::shape::Selection;
+use cannonpile::{ContactForce, Error, FloorForce, Packing, Pile, formula};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::each::Each;
-use crate::geometry::LayerGap;
-use crate::lattice::{Direction, Site};
-use crate::scalar::{Algebra, ByValue, Surd, SurdSum, product};
-use crate::shape::Selection;
-use crate::{ContactForce, Error, FloorForce, Packing, Pile};
-
-/// Two layers on a rough floor. Made by [`Pile::on_rough_floor`].
+/// Two layers on a rough floor.
+///
+/// All other queries are about spheres without friction on a floor with glue. Here the lower of two layers lies on a plane,
+/// and its spheres may slide and roll. Each contact transmits a force with friction, and no moment. Neighbours in a layer do
+/// not touch: a > R. All loads are vertical. Then the forces are unique: they depend neither on the law of the springs nor on
+/// the history.
+///
+/// # Forces
+/// A contact transmits N along its line, and T across it, in its vertical plane. With T = N·tan(θ/2):
+///
+/// * The vertical part of both is N cosθ + T sinθ = N.
+/// * The horizontal part of both is N sinθ − T cosθ = T. On the lower sphere it points away from the upper one.
+/// * The line of action of both leads from the contact to the point where the lower sphere touches the floor. So the lower
+///   sphere does not roll, and contacts superpose.
+///
+/// The upper sphere needs Σ N = w for its weight and loads w, and Σ N h = 0 for the horizontal directions h of its contacts.
+/// These are the equations of the frictionless pile, (5) of the paper, with other units: mg/W for N instead of f₀ =
+/// mg/(W cosθ), and mg·tan(θ/2) for horizontal forces instead of mg·tanθ. The numbers are the same.
+///
+/// | force | frictionless | on a rough floor |
+/// |---|---|---|
+/// | contact, along its line | f·mg/(W cosθ) | f·mg/W |
+/// | contact, across its line | 0 | f·mg/W·tan(θ/2) |
+/// | floor, vertical | n·mg | n·mg |
+/// | floor, horizontal | h·mg·tanθ | h·mg·tan(θ/2) |
+///
+/// The contacts need a coefficient of friction of at least tan(θ/2) = (1 − cosθ)/sinθ, and the floor that of
+/// [`floor_friction`](Self::floor_friction). With less, no forces are in equilibrium.
+///
+/// # Uniqueness
+/// The difference of two sets of forces balances no loads.
+///
+/// 1. *Upper sphere.* Forces at three points balance each other only if F_l = Σ_m λ_lm (c_m − c_l), with the points c and
+///    symmetric λ. All contacts of an upper sphere are at one height, so these forces are horizontal, and c_m − c_l is half
+///    the vector between two neighbours of the lower layer. There is one λ for each two neighbours. It is 0 without a common
+///    upper sphere.
+/// 2. *Lower sphere.* Its contacts have one height too, so moments about its point on the floor give Σ F = 0, and the
+///    moment of F about the vertical axis is 0. Let λ₁, …, λ₆ belong to its six neighbours in order. The first equation gives
+///    λ₁ − λ₄ = λ₃ − λ₆ = λ₅ − λ₂ = κ. The second is κ·(sin 2A + sin 2B + sin 2C) = 0, with the angles A, B and C of the
+///    triangle of three neighbours. The sum is 4 sin A sin B sin C > 0, so κ = 0.
+/// 3. So λ is the same on opposite sides of every lower sphere: each force runs straight on. A finite layer has an end, where
+///    it is 0. ∎
+///
+/// For discs, F is horizontal too, with one λ for each upper disc, and Σ F = 0 makes neighbouring λ equal.
+///
+/// The identities are the theorems `rough-contact`, `rough-floor` and `rough-unique` of the crate `cannonpile-proof`. Its
+/// file `Friction.v` has the whole proof in Coq, for spheres and discs.
+///
+/// Three layers already have a state of self-stress. There the forces depend on the history, and no exact answer exists.
 #[derive(Clone, Copy, Debug)]
 pub struct RoughFloor<'p> {
     pile: &'p Pile,
 }
 
-impl Pile {
-    /// Returns the pile on a rough floor instead of a floor with glue, for any spacing at which neighbours of a layer do not
+impl<'p> RoughFloor<'p> {
+    /// Returns a pile on a rough floor instead of a floor with glue, for any spacing at which neighbours of a layer do not
     /// touch, a > R.
     ///
     /// # Errors
-    /// [`Error::RoughFloor`] unless there are two layers, gravity and all loads are vertical, and no horizontal contact has
+    /// [`RoughFloor`](crate::Error::RoughFloor) unless there are two layers, gravity and all loads are vertical, and no horizontal contact has
     /// a force.
     ///
     /// # Examples
@@ -81,22 +78,23 @@ impl Pile {
     /// use cannonpile::lattice::{Direction, Site};
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Pile, ratio};
+    /// use cannonpile_stability::RoughFloor;
     /// use num_rational::BigRational;
     ///
     /// let pile = Pile::triangular(2)?;
-    /// let four = pile.on_rough_floor()?;
+    /// let four = RoughFloor::new(&pile)?;
     /// // 1/3 mg along the contact, and 1/3 mg·tan(θ/2) across it.
     /// assert_eq!(four.contact::<BigRational>(Site::APEX, Direction::Alpha)?, ratio!(1/3));
     /// let floor = four.base::<BigRational>(Selection::Base)?.next().unwrap()?;
     /// assert_eq!(floor.normal, ratio!(4/3));
     /// // A floor of friction tan(θ/2)/4 is enough.
     /// assert_eq!(four.floor_friction()?.to_string(), "1/4");
-    /// assert!(Pile::triangular(3)?.on_rough_floor().is_err());
-    /// # Ok::<(), cannonpile::Error>(())
+    /// assert!(RoughFloor::new(&Pile::triangular(3)?).is_err());
+    /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
-    pub fn on_rough_floor(&self) -> Result<RoughFloor<'_>, Error> {
-        let refuse = |needed, given: Box<str>| Err(Error::RoughFloor { needed, given });
-        let layers = self.layers();
+    pub fn new(pile: &'p Pile) -> Result<Self, crate::Error> {
+        let refuse = |needed, given: Box<str>| Err(crate::Error::RoughFloor { needed, given });
+        let layers = pile.layers();
         if layers != 2 {
             let plural = if layers == 1 { "" } else { "s" };
             return refuse(
@@ -104,62 +102,28 @@ impl Pile {
                 format!("{layers} layer{plural}").into(),
             );
         }
-        if !self.tilt().iter().all(Zero::is_zero) {
+        if !pile.tilt().iter().all(Zero::is_zero) {
             return refuse("vertical gravity", "a tilt".into());
         }
-        if let Some((site, load)) = self.loads().find(|(_, load)| !load.is_vertical()) {
+        if let Some((site, load)) = pile.loads().find(|(_, load)| !load.is_vertical()) {
             return refuse(
                 "vertical loads",
                 format!("the load {load} at (i,j,k) = {site}").into(),
             );
         }
-        if self.horizontal_forces().len() > 0 {
+        if pile.horizontal_forces().len() > 0 {
             return refuse("no horizontal contacts", "forces of such contacts".into());
         }
-        Ok(RoughFloor { pile: self })
+        Ok(Self { pile })
     }
-}
 
-impl<'p> Packing<'p> {
-    /// Returns the packing on a rough floor, for forces in SI units.
-    ///
-    /// # Errors
-    /// [`Error::RoughFloor`] as for [`Pile::on_rough_floor`], and if neighbours of a layer touch, a = R.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::{Packing, Pile};
-    ///
-    /// let pile = Pile::triangular(2)?;
-    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
-    /// let friction = packing.on_rough_floor()?.contact_friction();
-    /// assert_eq!(friction.to_string(), "5/6*sqrt(3)-1/6*sqrt(39)");
-    /// assert!(Packing::new(&pile, &"1".parse()?)?.on_rough_floor().is_err());
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn on_rough_floor(&self) -> Result<RoughPacking<'p>, Error> {
-        let on_rough_floor = self.pile().on_rough_floor()?;
-        if self.touching().contains(&LayerGap { layers: 0 }) {
-            return Err(Error::RoughFloor {
-                needed: "gaps between neighbours of a layer, a > R",
-                given: "the spacing a = R".into(),
-            });
-        }
-        Ok(RoughPacking {
-            packing: self.clone(),
-            on_rough_floor,
-        })
-    }
-}
-
-impl<'p> RoughFloor<'p> {
     /// Returns the normal force N of a contact, in mg. The tangential force is the same number, in mg·tan(θ/2).
     ///
     /// # Errors
-    /// As for [`Forces::contact`](crate::Forces::contact).
+    /// As for [`Forces::contact`](cannonpile::Forces::contact).
     ///
     /// # Examples
-    /// See [`Pile::on_rough_floor`].
+    /// See [`new`](Self::new).
     pub fn contact<T: Algebra>(self, site: Site, direction: Direction) -> Result<T, Error> {
         let force = self.pile.forces::<T>().contact(site, direction)?;
         Ok(force * &self.share())
@@ -168,18 +132,19 @@ impl<'p> RoughFloor<'p> {
     /// Returns the contacts of a part of the pile. `force` is N in mg, and T in mg·tan(θ/2).
     ///
     /// # Errors
-    /// As for [`Forces::contacts`](crate::Forces::contacts).
+    /// As for [`Forces::contacts`](cannonpile::Forces::contacts).
     ///
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
     /// use cannonpile::lattice::Region;
     /// use cannonpile::shape::Selection;
+    /// use cannonpile_stability::RoughFloor;
     ///
     /// let pile = Pile::under(Region::hexagon(2, 2)?, "+".parse()?)?;
-    /// let forces = pile.on_rough_floor()?.contacts::<f64>(Selection::All)?;
+    /// let forces = RoughFloor::new(&pile)?.contacts::<f64>(Selection::All)?;
     /// assert!(forces.map(Result::unwrap).all(|contact| contact.force == 1.0 / 3.0));
-    /// # Ok::<(), cannonpile::Error>(())
+    /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
     pub fn contacts<T: Algebra>(
         self,
@@ -200,10 +165,10 @@ impl<'p> RoughFloor<'p> {
     /// and 2cosφ·mg·tan(θ/2) along y.
     ///
     /// # Errors
-    /// As for [`Forces::base`](crate::Forces::base).
+    /// As for [`Forces::base`](cannonpile::Forces::base).
     ///
     /// # Examples
-    /// See [`Pile::on_rough_floor`].
+    /// See [`new`](Self::new).
     pub fn base<T: Algebra>(
         self,
         part: Selection,
@@ -217,18 +182,19 @@ impl<'p> RoughFloor<'p> {
     /// As for [`Pile::base_extremes`].
     ///
     /// # Examples
-    /// See [`Pile::on_rough_floor`].
+    /// See [`new`](Self::new).
     pub fn floor_friction(self) -> Result<Surd, Error> {
         Ok(self.pile.base_extremes()?.max_shear_ratio)
     }
 
     /// Returns 1/W, which converts a number f to N in mg.
     fn share<T: Algebra>(self) -> T {
-        T::from_rational(&self.pile.system().increment_sum.recip())
+        let increments = formula::increments(self.pile.sin_phi());
+        T::from_rational(&formula::weight(&increments).recip())
     }
 }
 
-/// Two layers on a rough floor, in SI units. Made by [`Packing::on_rough_floor`].
+/// Two layers on a rough floor, in SI units.
 #[derive(Clone, Debug)]
 pub struct RoughPacking<'p> {
     packing: Packing<'p>,
@@ -255,10 +221,41 @@ pub struct RoughContact {
     pub point: [Surd; 3],
 }
 
-exact_surd::equality!(RoughContact; |x| (x.site, x.direction, &x.point, ByValue(&x.normal), &x.normal_vector,
+equality!(RoughContact; |x| (x.site, x.direction, &x.point, ByValue(&x.normal), &x.normal_vector,
     &x.tangential, &x.tangential_vector));
 
 impl<'p> RoughPacking<'p> {
+    /// Returns a packing on a rough floor, for forces in SI units.
+    ///
+    /// # Errors
+    /// [`RoughFloor`](crate::Error::RoughFloor) as for [`RoughFloor::new`], and if neighbours of a layer touch, a = R.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_stability::RoughPacking;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let friction = RoughPacking::new(&packing)?.contact_friction();
+    /// assert_eq!(friction.to_string(), "5/6*sqrt(3)-1/6*sqrt(39)");
+    /// assert!(RoughPacking::new(&Packing::new(&pile, &"1".parse()?)?).is_err());
+    /// # Ok::<(), cannonpile_stability::Error>(())
+    /// ```
+    pub fn new(packing: &Packing<'p>) -> Result<Self, crate::Error> {
+        let on_rough_floor = RoughFloor::new(packing.pile())?;
+        if packing.touching().contains(&LayerGap { layers: 0 }) {
+            return Err(crate::Error::RoughFloor {
+                needed: "gaps between neighbours of a layer, a > R",
+                given: "the spacing a = R".into(),
+            });
+        }
+        Ok(Self {
+            packing: packing.clone(),
+            on_rough_floor,
+        })
+    }
+
     /// Returns the contacts of a part of the pile: N and T = N·tan(θ/2), in N.
     ///
     /// # Errors
@@ -268,15 +265,16 @@ impl<'p> RoughPacking<'p> {
     /// ```
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Packing, Pile, ratio};
+    /// use cannonpile_stability::RoughPacking;
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
-    /// for contact in packing.on_rough_floor()?.contacts(Selection::All)? {
+    /// for contact in RoughPacking::new(&packing)?.contacts(Selection::All)? {
     ///     let contact = contact?;
     ///     assert_eq!(contact.normal, ratio!(1/3));
     ///     assert_eq!(contact.tangential.nearest::<f64>(), Some(0.13418089108033268));
     /// }
-    /// # Ok::<(), cannonpile::Error>(())
+    /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
     pub fn contacts(
         &self,
@@ -314,14 +312,15 @@ impl<'p> RoughPacking<'p> {
     /// ```
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_stability::RoughPacking;
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
-    /// let floor = packing.on_rough_floor()?.base(Selection::Base)?.last().unwrap()?;
+    /// let floor = RoughPacking::new(&packing)?.base(Selection::Base)?.last().unwrap()?;
     /// assert_eq!(floor.normal.to_string(), "4/3");
     /// // tan(θ/2)/3, along x.
     /// assert_eq!(floor.shear_x.to_string(), "5/18*sqrt(3)-1/18*sqrt(39)");
-    /// # Ok::<(), cannonpile::Error>(())
+    /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
     pub fn base(
         &self,
@@ -343,7 +342,7 @@ impl<'p> RoughPacking<'p> {
     /// Returns the least coefficient of friction of a contact with a force, tan(θ/2).
     ///
     /// # Examples
-    /// See [`Packing::on_rough_floor`].
+    /// See [`new`](Self::new).
     #[must_use]
     pub fn contact_friction(&self) -> SurdSum {
         // (1 − cosθ)/sinθ = (1 − cosθ)·sinθ/sin²θ
@@ -360,12 +359,13 @@ impl<'p> RoughPacking<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_stability::RoughPacking;
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
-    /// let friction = packing.on_rough_floor()?.floor_friction()?;
+    /// let friction = RoughPacking::new(&packing)?.floor_friction()?;
     /// assert_eq!(friction.nearest::<f64>(), Some(0.1006356683102495));
-    /// # Ok::<(), cannonpile::Error>(())
+    /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
     pub fn floor_friction(&self) -> Result<SurdSum, Error> {
         Ok(self.contact_friction() * &self.on_rough_floor.floor_friction()?)
@@ -380,12 +380,13 @@ impl<'p> RoughPacking<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::{Packing, Pile, ratio};
+    /// use cannonpile_stability::RoughPacking;
     ///
     /// let pile = Pile::discs(2)?;
     /// // tanθ = 3/4, so tan(θ/2) is 1/3.
-    /// let rough = Packing::new(&pile, &"6/5".parse()?)?.on_rough_floor()?;
+    /// let rough = RoughPacking::new(&Packing::new(&pile, &"6/5".parse()?)?)?;
     /// assert!(rough.contacts_hold_at(&ratio!(1/3))? && !rough.contacts_hold_at(&ratio!(333/1000))?);
-    /// # Ok::<(), cannonpile::Error>(())
+    /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
     pub fn contacts_hold_at(&self, friction: &BigRational) -> Result<bool, Error> {
         // The forces on an outermost lower sphere come from one side, so they do not cancel.
@@ -401,12 +402,13 @@ impl<'p> RoughPacking<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::{Packing, Pile, ratio};
+    /// use cannonpile_stability::RoughPacking;
     ///
     /// let pile = Pile::discs(2)?;
     /// // A disc bears 3/2 mg, and the friction is 1/2 mg·tan(θ/2).
-    /// let rough = Packing::new(&pile, &"6/5".parse()?)?.on_rough_floor()?;
+    /// let rough = RoughPacking::new(&Packing::new(&pile, &"6/5".parse()?)?)?;
     /// assert!(rough.floor_holds_at(&ratio!(1/9))? && !rough.floor_holds_at(&ratio!(11/100))?);
-    /// # Ok::<(), cannonpile::Error>(())
+    /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
     pub fn floor_holds_at(&self, friction: &BigRational) -> Result<bool, Error> {
         let needed = self.on_rough_floor.floor_friction()?.square();

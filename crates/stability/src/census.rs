@@ -32,31 +32,28 @@
 //! with more, and conversely. So [`on_base`] continues every stacking to its greatest height and examines it there,
 //! without pruning.
 
-use alloc::vec::Vec;
-use core::marker::PhantomData;
+use std::collections::BTreeMap;
+use std::iter;
+use std::marker::PhantomData;
 
+use cannonpile::engine::check_interrupt;
+use cannonpile::lattice::{Region, Sign};
+use cannonpile::stacking::{Run, Stacking};
+use cannonpile::{Error, Pile, Standing};
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
-
-use crate::engine::check_interrupt;
-use crate::lattice::{Region, Sign};
-use crate::sorted::Sorted;
-use crate::stacking::{Run, Stacking};
-use crate::{Error, Pile, Standing};
 
 /// A pile in a census, with its stability.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::census;
+/// use cannonpile_stability::census;
 ///
 /// let entry = census::under_one_sphere(4, false)?.next().unwrap()?;
 /// assert_eq!(entry.pile.layers(), 4);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Entry {
     /// The pile.
@@ -65,9 +62,9 @@ pub struct Entry {
     pub standing: Standing,
 }
 
-/// A pile with a verdict on its stability: an entry of a census. Implement this trait to [`search`] with another
-/// criterion of stability.
-pub trait Judged: Sized {
+/// A criterion of stability: an entry of a census is a pile with its verdict. Implement this trait to [`search`] with
+/// another criterion.
+pub trait StabilityTest: Sized {
     /// The error of the criterion.
     type Error: From<Error>;
 
@@ -79,18 +76,18 @@ pub trait Judged: Sized {
     ///
     /// # Errors
     /// The errors of the criterion.
-    fn judge(pile: Pile) -> Result<Self, Self::Error>;
+    fn test(pile: Pile) -> Result<Self, Self::Error>;
 
     /// Returns whether the pile is stable.
     fn stands(&self) -> bool;
 }
 
-impl Judged for Entry {
+impl StabilityTest for Entry {
     type Error = Error;
 
     const ENTRIES: [i128; 2] = [11, 50];
 
-    fn judge(pile: Pile) -> Result<Self, Error> {
+    fn test(pile: Pile) -> Result<Self, Error> {
         let standing = pile.standing()?;
         Ok(Self { pile, standing })
     }
@@ -105,7 +102,7 @@ impl Entry {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::census;
+    /// use cannonpile_stability::census;
     ///
     /// let entries: Result<Vec<_>, _> = census::under_one_sphere(6, true)?.collect();
     /// assert_eq!(entries?.iter().filter(|entry| !entry.stands()).count(), 5);
@@ -130,7 +127,7 @@ impl Entry {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::census;
+/// use cannonpile_stability::census;
 ///
 /// let standing: Result<Vec<_>, _> = census::under_one_sphere(6, false)?.collect();
 /// let stackings: Vec<_> = standing?.iter().map(|e| e.pile.shape().stacking().to_string()).collect();
@@ -161,12 +158,12 @@ pub fn under_one_sphere(
 ///
 /// # Examples
 /// ```
-/// use cannonpile::census::{self, Entry};
+/// use cannonpile_stability::census::{self, Entry};
 ///
 /// assert_eq!(census::search::<Entry>(3, false)?.count(), 2);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-pub fn search<E: Judged>(
+pub fn search<E: StabilityTest>(
     layers: i128,
     failing: bool,
 ) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
@@ -186,11 +183,11 @@ pub fn search<E: Judged>(
     Ok(Search {
         steps,
         failing,
-        pending: alloc::vec![Pending {
+        pending: vec![Pending {
             prefix: Prefix::default(),
             next: None,
         }],
-        judged: PhantomData,
+        criterion: PhantomData,
     })
 }
 
@@ -225,7 +222,7 @@ struct Search<E> {
     steps: i128,
     failing: bool,
     pending: Vec<Pending>,
-    judged: PhantomData<E>,
+    criterion: PhantomData<E>,
 }
 
 /// A prefix to visit if `next` is `None`. Otherwise the prefixes that continue it by one run, from the length
@@ -235,18 +232,18 @@ struct Pending {
     next: Option<i128>,
 }
 
-impl<E: Judged> Search<E> {
+impl<E: StabilityTest> Search<E> {
     /// Visits a prefix. If it is stable one step after its last sign change, returns its continuation to all layers
     /// and schedules the longer prefixes. Otherwise returns the unstable prefix, if `failing`.
     fn visit(&mut self, prefix: Prefix) -> Result<Option<E>, E::Error> {
         check_interrupt()?;
         if !prefix.0.is_empty() {
-            let first_step = E::judge(prefix.pile(1)?)?;
+            let first_step = E::test(prefix.pile(1)?)?;
             if !first_step.stands() {
                 return Ok(Some(first_step).filter(|_| self.failing));
             }
         }
-        let entry = E::judge(prefix.pile(self.left(&prefix))?)?;
+        let entry = E::test(prefix.pile(self.left(&prefix))?)?;
         self.pending.push(Pending {
             prefix,
             next: Some(1),
@@ -260,7 +257,7 @@ impl<E: Judged> Search<E> {
     }
 }
 
-impl<E: Judged> Iterator for Search<E> {
+impl<E: StabilityTest> Iterator for Search<E> {
     type Item = Result<E, E::Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -302,7 +299,7 @@ impl<E: Judged> Iterator for Search<E> {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::census;
+/// use cannonpile_stability::census;
 /// use cannonpile::lattice::Region;
 ///
 /// let mut entries = census::on_base(Region::triangle(4)?)?;
@@ -323,13 +320,13 @@ pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>
 ///
 /// # Examples
 /// ```
-/// use cannonpile::census::{self, Entry};
+/// use cannonpile_stability::census::{self, Entry};
 /// use cannonpile::lattice::Region;
 ///
 /// assert!(census::carried_up::<Entry>(Region::triangle(4)?)?.count() > 1);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-pub fn carried_up<E: Judged>(
+pub fn carried_up<E: StabilityTest>(
     base: Region,
 ) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
     let rows = stackings_of(base);
@@ -344,8 +341,8 @@ pub fn carried_up<E: Judged>(
     // `signs` contains the steps from the base to the current layer. `pending` contains the layers still to visit, each
     // with its height and the step that leads to it.
     let mut signs: Vec<Sign> = Vec::new();
-    let mut pending: Vec<(usize, Option<Sign>, Region)> = alloc::vec![(0, None, base)];
-    Ok(core::iter::from_fn(move || {
+    let mut pending: Vec<(usize, Option<Sign>, Region)> = vec![(0, None, base)];
+    Ok(iter::from_fn(move || {
         loop {
             let (height, last, top) = pending.pop()?;
             signs.truncate(height.saturating_sub(1));
@@ -363,7 +360,7 @@ pub fn carried_up<E: Judged>(
             if !higher {
                 let from_top = Stacking::from_signs(signs.iter().rev().copied());
                 let pile = from_top.and_then(|stacking| Pile::on(base, stacking));
-                return Some(pile.map_err(E::Error::from).and_then(E::judge));
+                return Some(pile.map_err(E::Error::from).and_then(E::test));
             }
         }
     }))
@@ -377,17 +374,16 @@ fn stackings_of(base: Region) -> BigUint {
     let enough = BigUint::from(10_u32).pow(40);
     let mut stackings = BigUint::zero();
     let mut one_of_two = base.is_its_own_mirror_image();
-    let ways_of = |remainders: &Sorted<usize, (Region, BigUint)>| {
-        let ways = remainders.iter().map(|(_, (_, ways))| ways);
+    let ways_of = |remainders: &BTreeMap<usize, (Region, BigUint)>| {
+        let ways = remainders.values().map(|(_, ways)| ways);
         ways.sum::<BigUint>()
     };
     // The remaining region and the number of ways to it, by the number of + steps.
-    let mut remainders = Sorted::new();
-    remainders.entry(0_usize, (base, BigUint::one()));
+    let mut remainders = BTreeMap::from([(0, (base, BigUint::one()))]);
     // Every way continues to at least one stacking of its own.
     while ways_of(&remainders) <= enough && !remainders.is_empty() {
-        let mut above: Sorted<usize, (Region, BigUint)> = Sorted::new();
-        for (plus, (region, ways)) in remainders.into_vec() {
+        let mut above: BTreeMap<usize, (Region, BigUint)> = BTreeMap::new();
+        for (plus, (region, ways)) in remainders {
             let mut higher = false;
             for (sign, plus) in [(Sign::Plus, plus + 1), (Sign::Minus, plus)] {
                 let Some(left) = region.eroded(sign) else {
@@ -398,7 +394,7 @@ fn stackings_of(base: Region) -> BigUint {
                 if one_of_two && sign == Sign::Minus {
                     continue;
                 }
-                above.entry(plus, (left, BigUint::ZERO)).1 += &ways;
+                above.entry(plus).or_insert((left, BigUint::ZERO)).1 += &ways;
             }
             if !higher {
                 stackings += ways;

@@ -4,7 +4,7 @@ use cannonpile::Pile;
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scalar::Ring;
 use cannonpile::shape::Anchor;
-use cannonpile::stability::{Affine, Margin, Stability, bearable};
+use cannonpile_stability::{Affine, Margin, Tilts, above_last_run, tilts_by_oracle};
 use num_rational::BigRational;
 
 use crate::certificate::{Certificate, Claim, work};
@@ -13,29 +13,29 @@ use crate::{Each, Error, equilibrium};
 /// Returns the tilts of gravity that a pile bears at a = R, where horizontal contacts may help, in the units of
 /// [`Pile::with_tilt`].
 ///
-/// The polygon is found as in [`Pile::stability`], with [`equilibrium`] in place of the forces of the sloping contacts. A
+/// The polygon is found as in [`cannonpile_stability::tilts`], with [`equilibrium`] in place of the forces of the sloping contacts. A
 /// certificate that the pile is unstable under some tilt has the virtual work Σ w φ > 0. This work is an affine function
 /// of the tilt, so the same field proves the pile unstable on one side of a line. The margin names the certificate of
 /// its line, for a tilt beyond it.
 ///
 /// # Errors
-/// As for [`equilibrium`]; [`NoWeight`](cannonpile::Error::NoWeight) for a pile that no tilt affects.
+/// As for [`equilibrium`]; [`NoWeight`](cannonpile_stability::Error::NoWeight) for a pile that no tilt affects.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::lattice::Region;
 /// use cannonpile::{Pile, ratio};
-/// use cannonpile_horizontal::stability;
+/// use cannonpile_horizontal::tilts;
 ///
 /// // Without horizontal contacts three layers of discs bear the tilt 1. With them they bear no more, as the top disc
 /// // rolls off.
-/// let stability = stability(&Pile::discs(3)?)?;
-/// assert_eq!(stability.margin.unwrap().squared, ratio!(1));
+/// let tilts = tilts(&Pile::discs(3)?)?;
+/// assert_eq!(tilts.margin.unwrap().squared, ratio!(1));
 /// # Ok::<(), cannonpile_horizontal::Error>(())
 /// ```
-pub fn stability(pile: &Pile) -> Result<Stability<Certificate>, Error> {
+pub fn tilts(pile: &Pile) -> Result<Tilts<Certificate>, Error> {
     let pile = pile.clone().without_horizontal_forces();
-    bearable(&pile, |tilt| {
+    tilts_by_oracle(&pile, |tilt| {
         let certificate = equilibrium(&pile.clone().with_tilt(tilt.clone())?)?;
         if certificate.claim == Claim::Stands {
             return Ok(None);
@@ -51,14 +51,14 @@ pub fn stability(pile: &Pile) -> Result<Stability<Certificate>, Error> {
     })
 }
 
-/// Returns the least tilt at which a pile becomes unstable at a = R, as [`stability`] does.
+/// Returns the least tilt at which a pile becomes unstable at a = R, as [`tilts`] does.
 ///
-/// A pile under one sphere is cut off below its last sign change, like in [`Pile::margin`], and the certificate is for the
+/// A pile under one sphere is cut off below its last sign change, like in [`cannonpile_stability::margin`], and the certificate is for the
 /// upper part. The top sphere has no horizontal contacts, so the margin is at most ½, and up to this tilt no further layer
 /// changes it.
 ///
 /// # Errors
-/// As for [`stability`].
+/// As for [`tilts`].
 ///
 /// # Examples
 /// ```
@@ -72,9 +72,9 @@ pub fn stability(pile: &Pile) -> Result<Stability<Certificate>, Error> {
 pub fn margin(pile: &Pile) -> Result<Option<Margin<Certificate>>, Error> {
     let one_sphere = pile.shape().anchor() == Anchor::Top(Region::SITE);
     let short = if one_sphere {
-        pile.above_last_run()?
+        above_last_run(pile)?
     } else {
         None
     };
-    Ok(stability(short.as_ref().unwrap_or(pile))?.margin)
+    Ok(tilts(short.as_ref().unwrap_or(pile))?.margin)
 }

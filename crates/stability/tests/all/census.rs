@@ -3,11 +3,9 @@
 use std::collections::BTreeSet;
 
 use cannonpile::Error;
-use cannonpile::census;
-use cannonpile::census::Entry;
 use cannonpile::lattice::Region;
 use cannonpile::stacking::Notation;
-
+use cannonpile_stability::census::{self, Entry};
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_on};
 use cannonpile_testkit::compare;
 use cannonpile_testkit::oracles::balance::{Balance, Sites};

@@ -3,7 +3,7 @@
 use cannonpile::lattice::Region;
 use cannonpile::{Load, Pile, ratio};
 use cannonpile_horizontal::certificate::{Certificate, Claim};
-use cannonpile_horizontal::{equilibrium, margin, stability};
+use cannonpile_horizontal::{equilibrium, margin, tilts};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -29,7 +29,7 @@ fn margins_of_long_piles() {
         let pile = under(top, stacking);
         let tilted = pile.clone().with_tilt([ratio!(1 / 500), ratio!(0)]);
         for pile in [pile, tilted.unwrap()] {
-            let whole = stability(&pile).unwrap().margin.unwrap().squared;
+            let whole = tilts(&pile).unwrap().margin.unwrap().squared;
             assert_eq!(margin(&pile).unwrap().unwrap().squared, whole, "{pile}");
         }
     }
@@ -37,7 +37,7 @@ fn margins_of_long_piles() {
 
 /// Just inside its polygon a pile stands, and just outside it falls. Both are proved by certificates.
 fn check(pile: &Pile) {
-    let found = stability(pile).unwrap();
+    let found = tilts(pile).unwrap();
     let scaled = |corner: &[BigRational; 2], by: &BigRational| corner.clone().map(|part| part * by);
     let next = found.corners.iter().cycle().skip(1);
     for (here, next) in found.corners.iter().zip(next) {
@@ -48,7 +48,7 @@ fn check(pile: &Pile) {
         }
     }
     // Horizontal contacts can only help.
-    let alone = pile.stability().unwrap();
+    let alone = cannonpile_stability::tilts(pile).unwrap();
     if let Some(alone) = alone.margin {
         assert!(found.margin.as_ref().unwrap().squared >= alone.squared);
     }
@@ -69,8 +69,15 @@ fn piles_stand_inside_their_polygon_and_fall_outside() {
 #[test]
 fn horizontal_contacts_give_no_margin_to_a_stacking_on_a_knifes_edge() {
     let pile = under(Region::SITE, "+++-+");
-    assert!(pile.stability().unwrap().margin.unwrap().squared.is_zero());
-    let margin = stability(&pile).unwrap().margin.unwrap().squared;
+    assert!(
+        cannonpile_stability::tilts(&pile)
+            .unwrap()
+            .margin
+            .unwrap()
+            .squared
+            .is_zero()
+    );
+    let margin = tilts(&pile).unwrap().margin.unwrap().squared;
     assert!(margin.is_zero(), "{margin}");
 }
 

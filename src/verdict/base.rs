@@ -5,7 +5,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::error::bug;
-use crate::geometry::Vector;
+use crate::geometry::{Vector, square_across};
 use crate::scalar::{ByValue, Surd};
 use crate::{Error, Pile};
 
@@ -70,9 +70,9 @@ impl Pile {
     /// ```
     pub fn base_extremes(&self) -> Result<BaseExtremes, Error> {
         let forces = self.forces::<BigRational>();
-        let across = self.across();
+        let across = square_across(self.sin_phi());
         let mut extremes = Extremes::default();
-        let unit = forces.ends_of_base(|force| extremes.meet(force, &across))?;
+        let unit = forces.ends_of_base(|force| extremes.update(force, &across))?;
         extremes.over(&unit)
     }
 }
@@ -87,7 +87,7 @@ struct Extremes {
 }
 
 impl Extremes {
-    fn meet(&mut self, force: &Vector<BigInt>, across: &BigRational) {
+    fn update(&mut self, force: &Vector<BigInt>, across: &BigRational) {
         let Vector { x, y, z: normal } = force;
         let (least, most) = self
             .normals
