@@ -7,9 +7,9 @@
 //! # Kinds of proof
 //! A test shows that an identity holds for the piles it tries. The formulas of this crate are polynomials in i, j, k, L
 //! and s = sin φ, and they are generic over any [`Algebra`](crate::scalar::Algebra). Here the formulas run on
-//! [`Polynomial`]s, so the same functions that engines call return polynomials. If the difference of the two sides of
-//! an identity is the zero polynomial, the identity holds for **every** i, j, k, L and s at once. There are three kinds
-//! of proof ([`ProofKind`]):
+//! [`Polynomial`](crate::scalar::Polynomial)s, so the same functions that engines call return polynomials. If the
+//! difference of the two sides of an identity is the zero polynomial, the identity holds for **every** i, j, k, L and s
+//! at once. There are three kinds of proof ([`ProofKind`]):
 //!
 //! * *identity*: on symbols, the two sides are the same polynomial.
 //! * *sum*: one side is a sum over a layer or the pile. Sums of a polynomial between polynomial bounds are polynomials
