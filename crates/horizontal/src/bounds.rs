@@ -198,10 +198,8 @@ impl Solver<'_> {
                 attained,
                 certificate: Some(certificate),
             })),
-            Err(refusal) => match *refusal {
-                Refusal::Pile(error) => Err(error.into()),
-                _ => Ok(None),
-            },
+            Err(Refusal::Pile(error)) => Err(error.into()),
+            Err(Refusal::Violated(..)) => Ok(None),
         }
     }
 

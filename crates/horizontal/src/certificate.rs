@@ -59,7 +59,6 @@ mod check;
 mod computed;
 mod file;
 mod forces;
-mod record;
 mod refusal;
 mod text;
 
@@ -68,13 +67,13 @@ pub use file::{
     MAX_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,
 };
 pub use forces::AllForces;
-pub use refusal::{Refusal, Relation};
+pub use refusal::{Condition, Refusal};
 
 use core::fmt;
 use std::collections::BTreeMap;
 
 use cannonpile::Pile;
-use cannonpile::data::number;
+use cannonpile::data::{listed, number};
 use cannonpile::lattice::{HorizontalContact, Site};
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -102,15 +101,19 @@ use serde::{Deserialize, Serialize};
 /// assert!(refusal.to_string().contains("is tensile"));
 /// # Ok::<(), cannonpile_horizontal::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Certificate {
     /// The pile.
+    #[serde(deserialize_with = "file::pile")]
     pub pile: Pile,
     /// The claim.
     pub claim: Claim,
     /// The forces X of horizontal contacts, in f₀. Contacts that are not listed carry no force.
+    #[serde(with = "listed")]
     pub horizontal: BTreeMap<HorizontalContact, BigRational>,
     /// The field φ by direction. It is zero on spheres that are not listed.
+    #[serde(with = "listed")]
     pub field: BTreeMap<Site, [BigRational; 3]>,
 }
 

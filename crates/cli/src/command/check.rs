@@ -65,10 +65,8 @@ impl Check {
         drop(progress);
         let verdict = match &checked {
             Ok(()) => "accepted".to_owned(),
-            Err(refusal) => match &**refusal {
-                Refusal::Pile(error) => return Err(self.refused(error)),
-                equation => format!("refused: {equation}"),
-            },
+            Err(Refusal::Pile(error)) => return Err(self.refused(error)),
+            Err(violated) => format!("refused: {violated}"),
         };
         let Certificate { pile, claim, .. } = certificate;
         let (spheres, layers) = (pile.sphere_count(), pile.layers());

@@ -13,7 +13,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::{AllForces, Certificate, Claim, Extreme, Refusal, Relation};
+use super::refusal::Relation;
+use super::{AllForces, Certificate, Claim, Condition, Extreme, Refusal};
 use crate::{Each, formula};
 
 /// The largest total size of the numbers of one direction, in words of 64 bits.
@@ -35,40 +36,48 @@ impl Certificate {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile_horizontal::certificate::{Certificate, Claim, Refusal};
+    /// use cannonpile_horizontal::certificate::Certificate;
     ///
-    /// let pile = Pile::triangular(4)?;
-    /// let claim = Claim::CannotStand;
-    /// let certificate = Certificate { pile, claim, horizontal: [].into(), field: [].into() };
-    /// assert!(matches!(*certificate.check().unwrap_err(), Refusal::Work { .. }));
+    /// let mut certificate = Certificate::of_forces(&Pile::triangular(4)?)?;
+    /// assert_eq!(certificate.check(), Ok(()));
+    /// certificate.pile = Pile::triangular(5)?;
+    /// let refusal = certificate.check().unwrap_err();
+    /// assert_eq!(refusal.to_string(), "the forces of the sphere (0,0,3) are missing");
     /// # Ok::<(), cannonpile_horizontal::Error>(())
     /// ```
-    pub fn check(&self) -> Result<(), Box<Refusal>> {
+    pub fn check(&self) -> Result<(), Refusal> {
         let pile = &self.pile;
         let has_only_forces = matches!(self.claim, Claim::Forces(_)) && self.horizontal.is_empty();
         if !(pile.is_regular() || has_only_forces) {
-            let sin_phi = pile.sin_phi().clone();
-            return Err(Box::new(Refusal::NoTouchingNeighbours { sin_phi }));
+            let sin_phi = pile.sin_phi();
+            let text = format!(
+                "the neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
+            );
+            return Err(Refusal::of(Condition::Pile, &text));
         }
         if let Some((contact, _)) = pile.horizontal_forces().next() {
-            return Err(Box::new(Refusal::ForcesInPile { contact }));
+            let text = format!(
+                "the pile itself has a force in the horizontal contact {contact}; move it to the certificate"
+            );
+            return Err(Refusal::of(Condition::Pile, &text));
         }
         self.fits()?;
         let floor = pile.layers() - 1;
         for (contact, force) in &self.horizontal {
             let mut from = contacts(pile, contact.site).into_iter();
             if !from.any(|(there, _)| there == *contact) {
-                let contact = *contact;
-                return Err(Box::new(Refusal::NoContact { contact }));
+                let text = format!("there is no horizontal contact {contact} above the floor");
+                return Err(Refusal::of(Condition::Place, &text));
             }
             if force.is_negative() {
-                let (contact, force) = (*contact, force.clone());
-                return Err(Box::new(Refusal::HorizontalTension { contact, force }));
+                let text =
+                    format!("the horizontal contact {contact} is tensile: its force is {force}");
+                return Err(Refusal::of(Condition::HorizontalTension, &text));
             }
         }
         let outside = |site: &&Site| !pile.shape().contains(**site) || site.k == floor;
         if let Some(site) = self.field.keys().find(outside) {
-            return Err(Box::new(Refusal::NoSphere { site: *site }));
+            return Err(no_sphere(*site, "above"));
         }
         match &self.claim {
             Claim::Stands => self.forces().map(drop),
@@ -78,7 +87,9 @@ impl Certificate {
                 if work.is_positive() {
                     Ok(())
                 } else {
-                    Err(Box::new(Refusal::Work { work }))
+                    let text =
+                        format!("the virtual work of the weights must be positive, not {work}");
+                    Err(Refusal::of(Condition::Work, &text))
                 }
             }
             Claim::Least(extreme) => self.extreme(extreme, Relation::AtMost),
@@ -131,63 +142,59 @@ impl Certificate {
         Ok(forces)
     }
 
-    /// Returns the first tensile contact and its force, from the top.
+    /// Returns the refusal for the first tensile contact, from the top.
     fn tension(&self, forces: &BTreeMap<Site, Triple>) -> Option<Refusal> {
         let directions = self.pile.dimension().directions();
         above_the_floor(&self.pile).find_map(|site| {
             let transmitted = forces.get(&site)?;
             let force = |direction: &&Direction| transmitted[direction.index()].is_negative();
             let direction = *directions.iter().find(force)?;
-            let force = transmitted[direction.index()].clone();
-            Some(Refusal::Tension {
-                site,
-                direction,
-                force,
-            })
+            let force = &transmitted[direction.index()];
+            let text = format!("the contact {site} {direction} is tensile: its force is {force}");
+            Some(Refusal::of(Condition::Tension, &text))
         })
     }
 
     /// Returns the same forces. A tensile force is refused.
-    fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
+    fn forces(&self) -> Result<BTreeMap<Site, Triple>, Refusal> {
         let forces = self.balance()?;
         match self.tension(&forces) {
-            Some(tension) => Err(Box::new(tension)),
+            Some(tension) => Err(tension),
             None => Ok(forces),
         }
     }
 
     /// Checks that all given forces are close to the exact ones, and that none is missing.
-    fn all_forces(&self, given: &AllForces) -> Result<(), Box<Refusal>> {
+    fn all_forces(&self, given: &AllForces) -> Result<(), Refusal> {
         let (pile, exact) = (&self.pile, self.balance()?);
         let compressive = self.tension(&exact).is_none();
         if given.compressive != compressive {
-            return Err(Box::new(Refusal::Sign { compressive }));
+            let text = ["a contact is tensile", "no contact is tensile"][usize::from(compressive)];
+            return Err(Refusal::of(Condition::Sign, text));
         }
-        let close = |site, what, (given, exact): (&BigRational, &BigRational), within| {
+        let within = &given.within;
+        let close = |site, what, given: &BigRational, exact: &BigRational| {
             if ByValue(&(given - exact).abs()) <= ByValue(within) {
                 return Ok(());
             }
-            let (given, exact) = (given.clone(), exact.clone());
-            let within = within.clone();
-            Err(Box::new(Refusal::Force {
-                site,
-                what,
-                given,
-                exact,
-                within,
-            }))
+            let text = format!(
+                "the force {what} of the sphere {site} is {exact}, not {given} within {within}"
+            );
+            Err(Refusal::of(Condition::Force, &text))
+        };
+        let missing = |site| {
+            let text = format!("the forces of the sphere {site} are missing");
+            Refusal::of(Condition::Complete, &text)
         };
         if let Some(site) = given.contacts.keys().find(|site| !exact.contains_key(site)) {
-            return Err(Box::new(Refusal::NoSphere { site: *site }));
+            return Err(no_sphere(*site, "above"));
         }
         for site in above_the_floor(pile) {
-            let missing = || Box::new(Refusal::NotGiven { site });
             let both = given.contacts.get(&site).zip(exact.get(&site));
-            let (given_here, exact) = both.ok_or_else(missing)?;
+            let (given, exact) = both.ok_or_else(|| missing(site))?;
             for direction in Direction::ALL {
                 let l = direction.index();
-                let numbers = (&given_here[l], &exact[l]);
-                close(site, direction.name(), numbers, &given.within)?;
+                close(site, direction.name(), &given[l], &exact[l])?;
             }
         }
         let mut floor = BTreeMap::new();
@@ -198,15 +205,15 @@ impl Certificate {
         let last = pile.layers() - 1;
         for site in pile.sites(Selection::Layer(last))? {
             let force = floor.get(&site);
-            let [normal, x, y] = force.ok_or_else(|| Box::new(Refusal::NotGiven { site }))?;
+            let [normal, x, y] = force.ok_or_else(|| missing(site))?;
             let exact = self.on_floor(&exact, site);
-            close(site, "normal", (normal, &exact.z), &given.within)?;
-            close(site, "shear_x", (x, &exact.x), &given.within)?;
-            close(site, "shear_y", (y, &exact.y), &given.within)?;
+            close(site, "normal", normal, &exact.z)?;
+            close(site, "shear_x", x, &exact.x)?;
+            close(site, "shear_y", y, &exact.y)?;
         }
         let is_on_floor = |site: &Site| site.k == last && pile.shape().contains(*site);
         match floor.into_keys().find(|site| !is_on_floor(site)) {
-            Some(site) => Err(Box::new(Refusal::NotOnFloor { site })),
+            Some(site) => Err(no_sphere(site, "on")),
             None => Ok(()),
         }
     }
@@ -304,32 +311,27 @@ impl Certificate {
         stiffness_ratio: &BigRational,
         of_drop: &dyn Fn(Site, Direction) -> (Relation, BigRational),
         of_compression: &dyn Fn(HorizontalContact) -> (Relation, BigRational),
-    ) -> Result<(), Box<Refusal>> {
+    ) -> Result<(), Refusal> {
         let pile = &self.pile;
         for site in spheres {
             for (direction, drop) in Direction::ALL.into_iter().zip(self.drops(site)) {
                 let (relation, needed) = of_drop(site, direction);
                 let is_there = pile.dimension().directions().contains(&direction);
                 if is_there && !relation.holds(&drop, &needed) {
-                    return Err(Box::new(Refusal::Drop {
-                        site,
-                        direction,
-                        drop,
-                        relation,
-                        needed,
-                    }));
+                    let text = format!(
+                        "the drop along the contact {site} {direction} is {drop}, but must be {relation} {needed}"
+                    );
+                    return Err(Refusal::of(Condition::Drop, &text));
                 }
             }
             for (contact, neighbour) in contacts(pile, site) {
                 let compression = stiffness_ratio * self.compression(contact, neighbour)?;
                 let (relation, needed) = of_compression(contact);
                 if !relation.holds(&compression, &needed) {
-                    return Err(Box::new(Refusal::Compression {
-                        contact,
-                        compression,
-                        relation,
-                        needed,
-                    }));
+                    let text = format!(
+                        "the compression of the horizontal contact {contact} is {compression}, but must be {relation} {needed}"
+                    );
+                    return Err(Refusal::of(Condition::Compression, &text));
                 }
             }
         }
@@ -360,7 +362,7 @@ impl Certificate {
 
     /// Checks that D satisfies the relation to 1 at the contacts of the bottom sphere, if given, and to 0 at all
     /// others, and that every c satisfies the relation to 0.
-    fn one_sided(&self, relation: Relation, bottom: Option<Site>) -> Result<(), Box<Refusal>> {
+    fn one_sided(&self, relation: Relation, bottom: Option<Site>) -> Result<(), Refusal> {
         let shape = self.pile.shape();
         let of_drop = |site, direction| {
             let bears = bottom.is_some() && shape.below(site, direction) == bottom;
@@ -372,35 +374,34 @@ impl Certificate {
         })
     }
 
-    fn extreme(&self, extreme: &Extreme, relation: Relation) -> Result<(), Box<Refusal>> {
+    fn extreme(&self, extreme: &Extreme, relation: Relation) -> Result<(), Refusal> {
         let (pile, site) = (&self.pile, extreme.site);
         if site.k != pile.layers() - 1 || !pile.shape().contains(site) {
-            return Err(Box::new(Refusal::NotOnFloor { site }));
+            return Err(no_sphere(site, "on"));
         }
         self.one_sided(relation, Some(site))?;
         let directions = BigRational::from_integer(pile.dimension().number().into());
         let normal = |sum: BigRational| pile.total_load(site).down + sum / &directions;
-        let (claimed, proved) = (
-            extreme.normal.clone(),
-            normal(work(&self.pile, &self.field)),
-        );
-        if ByValue(&proved) != ByValue(&claimed) {
-            return Err(Box::new(Refusal::Bound { claimed, proved }));
+        let (claimed, proved) = (&extreme.normal, normal(work(pile, &self.field)));
+        if ByValue(&proved) != ByValue(claimed) {
+            let text = format!("the field proves the bound {proved}, not {claimed}");
+            return Err(Refusal::of(Condition::Bound, &text));
         }
         if extreme.attained {
             let received = received(pile, &self.forces()?, site);
             let attained = normal(received.into_iter().sum());
-            if ByValue(&attained) != ByValue(&claimed) {
-                return Err(Box::new(Refusal::Attained { claimed, attained }));
+            if ByValue(&attained) != ByValue(claimed) {
+                let text = format!("the forces attain the normal force {attained}, not {claimed}");
+                return Err(Refusal::of(Condition::Attained, &text));
             }
         }
         Ok(())
     }
 
-    fn elastic(&self, stiffness_ratio: &BigRational) -> Result<(), Box<Refusal>> {
+    fn elastic(&self, stiffness_ratio: &BigRational) -> Result<(), Refusal> {
         if !stiffness_ratio.is_positive() {
-            let given = stiffness_ratio.clone();
-            return Err(Box::new(Refusal::Stiffness { given }));
+            let text = format!("the stiffness ratio must be positive, not {stiffness_ratio}");
+            return Err(Refusal::of(Condition::Stiffness, &text));
         }
         let forces = self.forces()?;
         // Complementary slackness: equality if the contact carries a force, an inequality if it is open.
@@ -417,6 +418,12 @@ impl Certificate {
             of_spring(self.horizontal.get(&contact))
         })
     }
+}
+
+/// Returns the refusal for a sphere that is not `above` the floor, or not `on` it.
+fn no_sphere(site: Site, place: &str) -> Refusal {
+    let text = format!("there is no sphere {site} {place} the floor");
+    Refusal::of(Condition::Place, &text)
 }
 
 /// Returns the virtual work Σ w φ of the weights.

@@ -3,6 +3,7 @@
 use core::fmt;
 use std::io::{self, BufReader, Read, Write};
 
+use cannonpile::Pile;
 use cannonpile::data::listed::Key;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
@@ -74,6 +75,17 @@ fn read<T: for<'de> Deserialize<'de>>(input: &mut dyn Read) -> io::Result<T> {
         left: MAX_BYTES,
     };
     Ok(serde_json::from_reader(BufReader::new(Text::new(input)))?)
+}
+
+/// Reads the pile of a certificate, which has no horizontal forces.
+pub(super) fn pile<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pile, D::Error> {
+    let pile = Pile::deserialize(deserializer)?;
+    if pile.horizontal_forces().len() > 0 {
+        return Err(D::Error::custom(
+            "the pile of a certificate has horizontal forces; move them to the certificate",
+        ));
+    }
+    Ok(pile)
 }
 
 /// One certificate or a list of certificates.

@@ -15,7 +15,9 @@ mod size;
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Axis, HorizontalContact, Region, Site};
-use cannonpile_horizontal::certificate::{Certificate, Claim, Extreme, read_certificate};
+use cannonpile_horizontal::certificate::{
+    Certificate, Claim, Condition, Extreme, Refusal, read_certificate,
+};
 use num_rational::BigRational;
 
 use cannonpile_testkit::answers::ratio;
@@ -30,6 +32,14 @@ fn along(axis: Axis, site: Site) -> HorizontalContact {
 
 fn whole(numbers: [i128; 3]) -> [BigRational; 3] {
     numbers.map(|n| BigRational::from_integer(n.into()))
+}
+
+/// Returns the condition that a certificate violates, with the text of the refusal.
+fn violated(certificate: &Certificate) -> (Condition, String) {
+    match certificate.check().unwrap_err() {
+        Refusal::Violated(condition, text) => (condition, text),
+        Refusal::Pile(error) => panic!("{error}"),
+    }
 }
 
 /// Returns a certificate without horizontal forces and without a field.

@@ -8,7 +8,9 @@ use std::process::Stdio;
 use cannonpile::lattice::{Axis, Dimension, HorizontalContact, Region, Sign, Site};
 use cannonpile::stacking::Stacking;
 use cannonpile::{Load, Pile};
-use cannonpile_horizontal::certificate::{Certificate, Claim, Refusal, write_certificate};
+use cannonpile_horizontal::certificate::{
+    Certificate, Claim, Condition, Refusal, write_certificate,
+};
 use num_rational::BigRational;
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -40,14 +42,17 @@ pub(super) fn agreed(certificate: &Certificate) -> bool {
     };
     assert_eq!(status, 1, "{refusal}: {}", context());
     // Both checkers proceed from the top, row by row, so they stop at the same number if only forces are wrong.
-    let number = match &*refusal {
-        Refusal::HorizontalTension { .. } if certificate.horizontal.len() > 1 => return false,
-        Refusal::Tension { force, .. } | Refusal::HorizontalTension { force, .. } => force,
-        Refusal::Work { work } => work,
-        Refusal::Bound { proved, .. } => proved,
-        Refusal::Attained { attained, .. } => attained,
+    let Refusal::Violated(condition, text) = &refusal else {
+        return false;
+    };
+    let numbers = match condition {
+        Condition::HorizontalTension if certificate.horizontal.len() > 1 => return false,
+        Condition::Tension | Condition::HorizontalTension | Condition::Work => text,
+        // The claimed number follows.
+        Condition::Bound | Condition::Attained => text.split_once(',').expect("two numbers").0,
         _ => return false,
     };
+    let number = numbers.rsplit(' ').next().expect("a number");
     assert!(
         said.contains(&format!("= {number} ")) || said.contains(&format!("= {number},")),
         "{refusal}: {}",
