@@ -1,7 +1,8 @@
 //! Piles are stored by their parts.
 
-use cannonpile::Pile;
 use cannonpile::lattice::{MAX_LAYERS, Region, Site};
+use cannonpile::{Load, Pile};
+use num_rational::BigRational;
 
 use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::json::back;
@@ -51,6 +52,32 @@ fn piles() {
             + r#""tilt":{"x":"0","y":"0"},"weights":[],"#
             + r#""loads":[{"site":{"i":0,"j":0,"k":0},"weight":"1/3","x":"0","y":"0"}],"horizontal":[]}"#
     );
+}
+
+/// Each number of a pile is written in lowest terms, also if a caller made it otherwise.
+#[test]
+fn raw_ratios_are_written_in_lowest_terms() {
+    let raw = |n: i64, d: i64| BigRational::new_raw(n.into(), d.into());
+    let pile = Pile::isosceles(3, raw(-3, -5)).unwrap();
+    let load = Load {
+        down: raw(-2, -4),
+        x: raw(-3, 6),
+        y: raw(0, -1),
+    };
+    let pile = pile
+        .with_tilt([raw(6, -9), raw(-6, 9)])
+        .and_then(|pile| pile.with_weight(Site::APEX, raw(-7, -14)))
+        .and_then(|pile| pile.with_load(Site::new(0, 0, 1), load))
+        .unwrap();
+    let text = back(&pile);
+    for part in [
+        r#""sin_phi":"3/5""#,
+        r#""tilt":{"x":"-2/3","y":"-2/3"}"#,
+        r#""weight":"1/2""#,
+        r#""weight":"1/2","x":"-1/2","y":"0""#,
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
 }
 
 #[test]
