@@ -19,8 +19,10 @@ use crate::{dump, vtk};
 ///
 /// Of a file with several steps, only the rows of the chosen one are returned: the last, unless the [`Format`] names one.
 pub struct Contacts<'r> {
-    kind: FileKind,
-    dialect: Option<Dialect>,
+    /// The kind of the file.
+    pub kind: FileKind,
+    /// The dialect, if the file is a text table.
+    pub dialect: Option<Dialect>,
     steps: Steps,
     source: Source<'r>,
 }
@@ -100,18 +102,6 @@ pub fn read<'r>(input: impl Read + 'r, format: &Format) -> Result<Contacts<'r>, 
 }
 
 impl Contacts<'_> {
-    /// Returns the kind of the file.
-    #[must_use]
-    pub const fn kind(&self) -> FileKind {
-        self.kind
-    }
-
-    /// Returns the dialect, if the file is a text table.
-    #[must_use]
-    pub const fn dialect(&self) -> Option<&Dialect> {
-        self.dialect.as_ref()
-    }
-
     /// Returns the number of rows so far, and of those that were left out.
     #[must_use]
     pub const fn rows(&self) -> &RowCounts {

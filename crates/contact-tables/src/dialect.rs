@@ -87,7 +87,7 @@ impl<T: FromStr> FromStr for Mark<T> {
 /// let table = "measured\nid1;id2;force\n-;-;N\n1;2;0,4622\n1;3;0,4622\n";
 /// let contacts = contact_tables::read(table.as_bytes(), &Default::default())?;
 /// assert_eq!(
-///     contacts.dialect().unwrap().to_string(),
+///     contacts.dialect.unwrap().to_string(),
 ///     "cells between semicolons, decimal commas, header on line 2, rows from line 4",
 /// );
 /// # Ok::<(), contact_tables::Error>(())

@@ -415,6 +415,31 @@ impl Ledger<'_> {
         };
         admitted.map_err(|fault| fault.at(row.line))
     }
+
+    /// Stores a row with the force of the floor on its first sphere. The first spheres of all rows before are `seen`.
+    pub(super) fn take_of_floor(
+        &mut self,
+        row: &Contact,
+        seen: &mut BTreeSet<i64>,
+    ) -> Result<(), Refusal> {
+        let ids = numbers(row)?;
+        if !seen.insert(ids[0]) {
+            let id = ids[0].unsigned_abs();
+            return Err(Fault::SphereTwice { id }.at(row.line));
+        }
+        let sphere = u64::try_from(ids[0]).ok();
+        let above = sphere.filter(|sphere| (1..self.first_on_floor).contains(sphere));
+        let force = whole(row.force, row.tangential);
+        let Some(sphere) = above else {
+            let admitted = self.admit_wall(ids.each(Into::into), force, row.line);
+            return admitted.map_err(|fault| fault.at(row.line));
+        };
+        // Codes list all spheres, also those that do not touch the floor.
+        if magnitude(force) > 0.0 {
+            self.fallen.push((sphere, magnitude(force)));
+        }
+        Ok(())
+    }
 }
 
 /// Returns the numbers of the spheres of a row.
@@ -438,44 +463,6 @@ fn rows(
         Some(Listed::Once(_)) => [first, None],
         Some(Listed::Twice) => [first; 2],
         Some(Listed::Differently) => [first, second.get(slot, ids)],
-    }
-}
-
-/// The rows of a table with the force of the floor on each sphere.
-pub(super) struct FloorRows<'l, 'p> {
-    ledger: &'l mut Ledger<'p>,
-    seen: BTreeSet<i64>,
-}
-
-impl<'l, 'p> FloorRows<'l, 'p> {
-    pub(super) fn new(ledger: &'l mut Ledger<'p>) -> Self {
-        Self {
-            ledger,
-            seen: BTreeSet::new(),
-        }
-    }
-}
-
-impl FloorRows<'_, '_> {
-    /// Stores the force of the floor on the first sphere of a row.
-    pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
-        let (ids, ledger) = (numbers(row)?, &mut *self.ledger);
-        if !self.seen.insert(ids[0]) {
-            let id = ids[0].unsigned_abs();
-            return Err(Fault::SphereTwice { id }.at(row.line));
-        }
-        let sphere = u64::try_from(ids[0]).ok();
-        let above = sphere.filter(|sphere| (1..ledger.first_on_floor).contains(sphere));
-        let force = whole(row.force, row.tangential);
-        let Some(sphere) = above else {
-            let admitted = ledger.admit_wall(ids.each(Into::into), force, row.line);
-            return admitted.map_err(|fault| fault.at(row.line));
-        };
-        // Codes list all spheres, also those that do not touch the floor.
-        if magnitude(force) > 0.0 {
-            ledger.fallen.push((sphere, magnitude(force)));
-        }
-        Ok(())
     }
 }
 

@@ -1,5 +1,6 @@
 //! Files of any supported format.
 
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::PathBuf;
 
@@ -11,7 +12,7 @@ use contact_tables::{
 use super::comparison::{Comparison, of_entry};
 use super::frame::Frame;
 use super::gathering::Gathering;
-use super::ledger::{FloorRows, Ledger, numbers};
+use super::ledger::{Ledger, numbers};
 use super::measured::{MAX_ENTRIES, Measured};
 use super::placed::Placed;
 use super::refusal::{Fault, Refusal};
@@ -435,8 +436,8 @@ impl Reader {
         Ok(Compared {
             comparison,
             unbalanced,
-            kind: read.kind(),
-            dialect: read.dialect().cloned(),
+            kind: read.kind,
+            dialect: read.dialect.clone(),
             rows,
             steps: read.steps(),
             step: read.step().map(str::to_owned),
@@ -464,8 +465,8 @@ impl Reader {
             dialect: DialectOptions::default(),
             ..self.format.clone()
         };
-        let mut rows = FloorRows::new(ledger);
-        let read = read_each(input, &format, |row| rows.take(row))?;
+        let mut seen = BTreeSet::new();
+        let read = read_each(input, &format, |row| ledger.take_of_floor(row, &mut seen))?;
         if let (Some(wanted), Some(found)) = (step, read.step())
             && !is_same_step(wanted, found)
         {
