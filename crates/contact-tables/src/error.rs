@@ -73,8 +73,10 @@ pub(crate) struct Fault {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Syntax {
-    text: String,
-    expected: &'static str,
+    /// The text, shortened if it is long.
+    pub text: String,
+    /// The expected form, with an example.
+    pub expected: &'static str,
 }
 
 impl Syntax {

@@ -195,6 +195,12 @@ impl From<cannonpile_horizontal::Error> for Error {
     }
 }
 
+impl From<contact_tables::Syntax> for Error {
+    fn from(contact_tables::Syntax { text, expected }: contact_tables::Syntax) -> Self {
+        Self::Core(cannonpile::Error::Syntax { text, expected })
+    }
+}
+
 /// Returns the error for a violated invariant.
 #[cold]
 #[track_caller]

@@ -239,7 +239,9 @@ pub(crate) fn compare_rough_tables(
     preset: &str,
     folder: PathBuf,
 ) -> PyResult<Comparison> {
-    let preset: Preset = read("preset", preset, str::parse)?;
+    let preset: Preset = read("preset", preset, |text| {
+        text.parse().map_err(cannonpile_dem::Error::from)
+    })?;
     let reader = Reader::of(preset).on_floor(Floor::Rough).in_folder(folder);
     let compared = work(py, || {
         let packing = floor.packing()?;
