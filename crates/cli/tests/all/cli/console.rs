@@ -62,7 +62,7 @@ console! {
     spheres: 22;
     stability: 31;
     summary: 42;
-    tables: 9;
+    tables: 7;
     verify: 16;
 }
 
