@@ -493,7 +493,7 @@ impl Scene {
             return Ok(None);
         }
         let given = [&self.friction, &self.floor_friction].each(Option::as_ref);
-        let [contacts, floor] = hold(&RoughPacking::new(&packing)?, given)?;
+        let [contacts, floor] = hold(&RoughPacking::new(packing)?, given)?;
         Ok(Some(contacts && floor))
     }
 }

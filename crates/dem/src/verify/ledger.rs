@@ -1,17 +1,16 @@
-//! The measured forces of a pile, stored by contact.
+//! The measured forces of a pile, row by row.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use contact_tables::{Contact, Force, Spheres};
+use num_traits::ToPrimitive;
 
 use super::floor::{Floor, Upward};
 use super::friction::FrictionTally;
-use super::listed::{Forces, Listed, Order};
 use super::measured::{
     MAX_ENTRIES, Measured, magnitude, opposite, refuse_infinite, relative, whole,
 };
 use super::refusal::{Fault, Refusal};
-use super::slots::Slots;
 use super::soft;
 use super::tally::{Judged, Tally};
 use super::unbalanced::{Balance, Directions, Unbalanced};
@@ -25,43 +24,78 @@ use cannonpile_stability::RoughPacking;
 /// touch a sphere. The limit leaves room for neighbours that do not touch.
 const PAIRS_A_SPHERE: u64 = 20;
 
-/// The memory of a force, a vector, the count of its rows, and the line of the first.
-const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>() + size_of::<Listed>() + size_of::<u64>();
-
 /// The largest number of contacts whose errors are compared with those of springs.
 const MAX_FITTED: usize = 1_000_000;
 
-/// The measured forces of a pile. A contact takes 17 bytes, and 24 more if vectors were measured. It takes as much
-/// again if pairs are listed twice with different forces.
+/// The measured forces of a pile. A row takes 80 bytes, and 24 more for a tangential force.
 pub(super) struct Ledger<'p> {
     numbered: NumberedPile<'p>,
-    slots: Slots,
     spheres: u64,
     first_on_floor: u64,
-    listed: Vec<Listed>,
-    forces: Forces,
-    /// The forces of second rows that differ from the first.
-    seconds: Forces,
-    /// Pairs without a contact.
-    strays: BTreeMap<[u64; 2], Stray>,
+    contacts: u64,
+    /// The rows of pairs of spheres. They are sorted before they are judged.
+    rows: Vec<Row>,
     floor: Floor,
-    /// The number of rows that list a pair of spheres a second time, and a contact with the floor.
-    repeated: [u64; 2],
-    /// The line of the first row of each contact.
-    lines: Vec<u64>,
+    /// The number of rows that list a contact with the floor a second time.
+    repeated: u64,
     /// On a rough floor, the directions of the contacts.
     rough: Option<Directions>,
     /// The spheres above the bottom layer that touch the floor, with their forces.
     fallen: Vec<(u64, f64)>,
 }
 
-/// A pair without a contact. Of two rows with different forces, the greater force counts.
-struct Stray {
-    measured: Measured,
+/// A row of a pair of spheres, as seen from the sphere with the smaller number.
+struct Row {
+    ids: [u64; 2],
     line: u64,
-    listed: Listed,
-    /// The difference between the forces of two rows.
-    contradiction: f64,
+    order: Order,
+    is_length: bool,
+    force: f64,
+    vector: Option<[f64; 3]>,
+    tangential: Option<Box<[f64; 3]>>,
+}
+
+/// The order of the two spheres in a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Order {
+    /// The sphere with the smaller number is first.
+    Forward,
+    /// The sphere with the greater number is first.
+    Backward,
+    /// The row has no order: a contact point belongs to both spheres.
+    Unknown,
+}
+
+/// A contact of the pile with its rows.
+struct Pair {
+    exact: NumberedContact,
+    /// The exact tangential force on the upper sphere.
+    tangential: [f64; 3],
+    /// The place of the first row among all.
+    place: usize,
+    rows: [Option<Measured>; 2],
+}
+
+impl Row {
+    fn measured(&self) -> Measured {
+        Measured {
+            ids: self.ids,
+            force: self.force,
+            vector: self.vector,
+            tangential: self.tangential.as_deref().copied(),
+            is_length: self.is_length,
+        }
+    }
+
+    fn is_of_pair(&self, other: &Self) -> bool {
+        self.ids == other.ids
+    }
+
+    /// Returns whether a second row of the pair has the same force.
+    fn agrees(&self, other: &Self) -> bool {
+        let forces = |row: &Self| (row.force, row.vector, row.tangential.clone());
+        forces(self) == forces(other)
+    }
 }
 
 impl<'p> Ledger<'p> {
@@ -69,25 +103,21 @@ impl<'p> Ledger<'p> {
         refuse_beyond_memory(
             "a comparison of all contacts",
             &packing.pile().contact_count(),
-            (MAX_ENTRIES, BYTES_A_CONTACT),
+            (MAX_ENTRIES, size_of::<Row>()),
             "use fewer layers, or a smaller top or base",
         )?;
         let numbered = NumberedPile::new(packing)?;
-        let slots = Slots::new(&numbered)?;
+        let contacts = numbered.contact_count().to_u64();
         Ok(Self {
             spheres: numbered.numbering().sphere_count(),
             first_on_floor: numbered.numbering().first_on_floor(),
-            listed: vec![Listed::Never; slots.len()],
-            forces: Forces::default(),
-            seconds: Forces::default(),
-            strays: BTreeMap::new(),
+            contacts: contacts.ok_or_else(|| bug("contacts that are compared fit in memory"))?,
+            rows: Vec::new(),
             floor: Floor::default(),
-            repeated: [0; 2],
-            lines: vec![0; slots.len()],
+            repeated: 0,
             rough: None,
             fallen: Vec::new(),
             numbered,
-            slots,
         })
     }
 
@@ -101,11 +131,6 @@ impl<'p> Ledger<'p> {
 
     pub(super) fn numbered(&self) -> &NumberedPile<'p> {
         &self.numbered
-    }
-
-    /// Returns the index of the contact between two spheres.
-    pub(super) fn slot(&self, [one, other]: [u64; 2]) -> Option<usize> {
-        self.slots.find([one.min(other), one.max(other)])
     }
 
     /// Returns the number of rows that are contacts with walls and are not judged.
@@ -143,10 +168,8 @@ impl<'p> Ledger<'p> {
             return Err(Fault::of_bug("the floor touches bottom spheres only"));
         }
         refuse_infinite(on_sphere)?;
-        let is_repeated =
-            self.floor
-                .add_below(sphere, Upward::of(on_sphere, self.rough.is_some()), line);
-        self.repeated[1] += u64::from(is_repeated);
+        let upward = Upward::of(on_sphere, self.rough.is_some());
+        self.repeated += u64::from(self.floor.add_below(sphere, upward, line));
         Ok(())
     }
 
@@ -170,15 +193,35 @@ impl<'p> Ledger<'p> {
             let column = "a tangential force";
             return Err(Fault::NotFinite { column, value });
         }
-        let measured = if first < second {
+        let limit = 2 * (self.contacts + self.limit());
+        if self.rows.len() as u64 >= limit {
+            // A table of several steps has more rows than pairs.
+            return match self.sort() {
+                Err(Refusal::Line { fault, .. }) => Err(fault),
+                _ => Err(Fault::TooMany { limit }),
+            };
+        }
+        let Measured {
+            ids,
+            force,
+            vector,
+            tangential,
+            is_length,
+        } = if first < second {
             *measured
         } else {
             measured.reversed()
         };
-        match self.slots.find(measured.ids) {
-            Some(slot) => self.fill(slot, order, &measured, line),
-            None => self.stray(order, measured, line),
-        }
+        self.rows.push(Row {
+            ids,
+            line,
+            order,
+            is_length,
+            force,
+            vector,
+            tangential: tangential.map(Box::new),
+        });
+        Ok(())
     }
 
     /// Stores the contact of a bottom sphere with a wall, whose number is outside the pile.
@@ -211,69 +254,7 @@ impl<'p> Ledger<'p> {
         };
         let upward = Upward::of(on_sphere, self.rough.is_some());
         let is_repeated = self.floor.add((sphere, wall), is_second, upward, line);
-        self.repeated[1] += u64::from(is_repeated);
-        Ok(())
-    }
-
-    fn fill(
-        &mut self,
-        slot: usize,
-        order: Order,
-        measured: &Measured,
-        line: u64,
-    ) -> Result<(), Fault> {
-        let split = match &self.rough {
-            Some(rough) => rough.split(slot, *measured).map_err(Fault::of_error)?,
-            None => *measured,
-        };
-        let measured = &Measured {
-            is_length: false,
-            ..split
-        };
-        let (ids, contacts) = (measured.ids, self.slots.len());
-        let listed = self.listed.get_mut(slot).zip(self.lines.get_mut(slot));
-        let (listed, own_line) = listed.ok_or_else(|| Fault::of_bug("every contact has a slot"))?;
-        let is_first = *listed == Listed::Never;
-        let agrees = !is_first && self.forces.get(slot, ids) == Some(*measured);
-        let Some(after) = listed.after(order, agrees) else {
-            let first = *own_line;
-            return Err(Fault::Twice { ids, first });
-        };
-        *listed = after;
-        if is_first {
-            *own_line = line;
-            return self.forces.set(slot, contacts, measured);
-        }
-        self.repeated[0] += 1;
-        if agrees {
-            return Ok(());
-        }
-        self.seconds.set(slot, contacts, measured)
-    }
-
-    fn stray(&mut self, order: Order, measured: Measured, line: u64) -> Result<(), Fault> {
-        let (ids, limit) = (measured.ids, self.limit());
-        if let Some(stray) = self.strays.get_mut(&ids) {
-            let after = stray.listed.after(order, stray.measured == measured);
-            let first = stray.line;
-            stray.listed = after.ok_or(Fault::Twice { ids, first })?;
-            stray.contradiction = stray.measured.difference(&measured);
-            if measured.magnitude() > stray.measured.magnitude() {
-                stray.measured = measured;
-            }
-            self.repeated[0] += 1;
-            return Ok(());
-        }
-        if self.strays.len() as u64 >= limit {
-            return Err(Fault::TooMany { limit });
-        }
-        let stray = Stray {
-            measured,
-            line,
-            listed: Listed::Once(order),
-            contradiction: 0.0,
-        };
-        self.strays.insert(ids, stray);
+        self.repeated += u64::from(is_repeated);
         Ok(())
     }
 
@@ -287,18 +268,72 @@ impl<'p> Ledger<'p> {
         !self.floor.is_empty()
     }
 
+    /// Sorts the rows by pairs. A third row of a pair is refused, and another force in the same order, as in a table of
+    /// several steps.
+    fn sort(&mut self) -> Result<(), Refusal> {
+        self.rows.sort_unstable_by_key(|row| (row.ids, row.line));
+        let pairs = self.rows.chunk_by(Row::is_of_pair);
+        let refused = pairs.filter_map(|rows| {
+            let (first, second) = (rows.first()?, rows.get(1)?);
+            let is_once = first.order == second.order && first.order != Order::Unknown;
+            let again = if is_once && !first.agrees(second) {
+                second
+            } else {
+                rows.get(2)?
+            };
+            Some((again.line, first))
+        });
+        let Some((line, first)) = refused.min_by_key(|(line, _)| *line) else {
+            return Ok(());
+        };
+        let (ids, first) = (first.ids, first.line);
+        Err(Fault::Twice { ids, first }.at(line))
+    }
+
+    /// Returns the contacts of the pile, each with its rows.
+    fn pairs(&self) -> Result<impl Iterator<Item = Result<Pair, Refusal>>, Refusal> {
+        type Exact<'e> = Box<dyn Iterator<Item = Result<(NumberedContact, [f64; 3]), Error>> + 'e>;
+        let exact: Exact<'_> = if self.rough.is_some() {
+            Box::new(self.numbered.rough_contacts().map_err(Refusal::of_forces)?)
+        } else {
+            let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
+            Box::new(contacts.map(|contact| Ok((contact?.in_order(), [0.0; 3]))))
+        };
+        Ok(exact.enumerate().map(|(n, exact)| {
+            let (exact, tangential) = exact.map_err(Refusal::of_forces)?;
+            let place = self.rows.partition_point(|row| row.ids < exact.ids);
+            let row = |place: usize| {
+                let row = self.rows.get(place).filter(|row| row.ids == exact.ids);
+                let measured = row.map(|row| match &self.rough {
+                    Some(rough) => rough.split(n, row.measured()),
+                    None => Ok(row.measured()),
+                });
+                let measured = measured.transpose()?;
+                let is_length = false;
+                Ok::<_, Error>(measured.map(|measured| Measured {
+                    is_length,
+                    ..measured
+                }))
+            };
+            let rows = [row(place)?, row(place + 1)?];
+            Ok(Pair {
+                exact,
+                tangential,
+                place,
+                rows,
+            })
+        }))
+    }
+
     /// Returns whether two rows of a pair are shares of its force: for most pairs the sum is nearer to the exact force than
     /// each row. A row of 0 beside the exact force is a contradiction.
     fn are_shares(&self) -> Result<bool, Refusal> {
-        let mut votes = [0_u64; 2];
-        let is_twice = |listed: &Listed| matches!(listed, Listed::Twice | Listed::Differently);
-        if !self.listed.iter().any(is_twice) {
+        if self.rows.is_sorted_by(|one, other| !one.is_of_pair(other)) {
             return Ok(false);
         }
-        let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
-        for (slot, contact) in contacts.enumerate() {
-            let exact = contact.map_err(Refusal::of_forces)?;
-            let rows = rows(&self.listed, [&self.forces, &self.seconds], slot, exact.ids);
+        let mut votes = [0_u64; 2];
+        for pair in self.pairs()? {
+            let Pair { exact, rows, .. } = pair?;
             if let [Some(first), Some(second)] = rows
                 && exact.force != 0.0
             {
@@ -318,18 +353,22 @@ impl<'p> Ledger<'p> {
             let (first, spheres) = (1, self.spheres);
             return Err(Fault::NoSuchSphere { id, first, spheres }.at(line));
         }
-        let mut strays = self.strays.values().map(|stray| &stray.measured);
-        let with_vectors =
-            !self.forces.vectors.is_empty() || strays.any(|stray| stray.vector.is_some());
+        self.sort()?;
+        let with_vectors = self.rows.iter().any(|row| row.vector.is_some());
         let is_rough = self.rough.is_some();
         let are_shares = self.are_shares()?;
         let mut tally = Tally::new(&self.numbered, with_vectors, is_rough);
         let mut balance = Balance::new(&self.numbered, is_rough)?;
         let mut friction = FrictionTally::default();
-        // Each error overwrites a force that has already been read.
-        let mut errors = 0;
-        let mut see = |slot, exact: NumberedContact, tangential: [f64; 3]| {
-            let rows = rows(&self.listed, [&self.forces, &self.seconds], slot, exact.ids);
+        let (mut relative_errors, mut places) = (Vec::new(), Vec::new());
+        for pair in self.pairs()? {
+            let Pair {
+                exact,
+                tangential,
+                place,
+                rows,
+            } = pair?;
+            places.extend(rows[0].map(|_| place));
             let [measured, second] = match rows {
                 [Some(first), Some(second)] if are_shares => [Some(first.plus(&second)), None],
                 // An equal row says nothing new.
@@ -338,35 +377,26 @@ impl<'p> Ledger<'p> {
             };
             friction.add(exact.ids, tangential, [measured, second]);
             balance.add(&exact, measured.as_ref())?;
-            if let Some(error) = tally.add(&exact, measured, second)
-                && let Some(place) = self.forces.along.get_mut(errors)
-            {
-                *place = error;
-                errors += 1;
-            }
-            Ok::<(), Refusal>(())
-        };
-        if is_rough {
-            let contacts = self.numbered.rough_contacts().map_err(Refusal::of_forces)?;
-            for (slot, contact) in contacts.enumerate() {
-                let (exact, tangential) = contact.map_err(Refusal::of_forces)?;
-                see(slot, exact, tangential)?;
-            }
-        } else {
-            let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
-            for (slot, contact) in contacts.enumerate() {
-                let exact = contact.map_err(Refusal::of_forces)?.in_order();
-                see(slot, exact, [0.0; 3])?;
+            relative_errors.extend(tally.add(&exact, measured, second));
+        }
+        places.sort_unstable();
+        let (mut place, mut pairs, mut strays) = (0, 0, Vec::new());
+        for rows in self.rows.chunk_by(Row::is_of_pair) {
+            let is_contact = places.binary_search(&place).is_ok();
+            (place, pairs) = (place + rows.len(), pairs + 1);
+            let forces = rows.iter().map(Row::measured);
+            let greatest =
+                forces.max_by(|one, other| one.magnitude().total_cmp(&other.magnitude()));
+            if let (Some(stray), false) = (greatest, is_contact) {
+                balance.add_stray(&stray)?;
+                let apart = rows.iter().map(|row| row.measured().difference(&stray));
+                strays.push((stray, apart.fold(0.0, f64::max)));
             }
         }
-        let mut relative_errors = self.forces.along;
-        relative_errors.truncate(errors);
-        for stray in self.strays.values() {
-            balance.add_stray(&stray.measured)?;
-        }
+        let repeated = [(self.rows.len() - pairs) as u64, self.repeated];
         // Without one of the contacts no stiffness is known, and for many it would take long.
         let contacts = relative_errors.len();
-        let is_whole = contacts == self.slots.len() && contacts <= MAX_FITTED && !is_rough;
+        let is_whole = contacts as u64 == self.contacts && contacts <= MAX_FITTED && !is_rough;
         let stiffness = is_whole
             .then(|| soft::stiffness(self.numbered.packing(), &relative_errors, with_vectors));
         let floor = self
@@ -375,18 +405,11 @@ impl<'p> Ledger<'p> {
         let friction = is_rough.then(|| friction.close(&self.numbered, &floor, &mut balance));
         let friction = friction.transpose()?;
         let (unbalanced, loads) = balance.close()?;
-        let strays = self.strays.values();
-        let strays = strays.map(|stray| (&stray.measured, stray.contradiction));
-        let strays: Vec<_> = strays.collect();
         let mut judged = tally.close(relative_errors, &strays, self.numbered.numbering());
         judged.friction = friction;
         judged.off_floor = floor.missing;
         (judged.loads, judged.stiffness) = (loads, stiffness.flatten());
-        for (repeated, are_shares) in self
-            .repeated
-            .into_iter()
-            .zip([are_shares, floor.are_shares])
-        {
+        for (repeated, are_shares) in repeated.into_iter().zip([are_shares, floor.are_shares]) {
             *(if are_shares {
                 &mut judged.shares
             } else {
@@ -447,22 +470,6 @@ pub(super) fn numbers(row: &Contact) -> Result<[i64; 2], Error> {
     match row.spheres {
         Spheres::Numbers(ids) => Ok(ids),
         Spheres::Places(_) => Err(bug("a table is read by numbers, or by place")),
-    }
-}
-
-/// Returns the rows of a contact. Equal ones are stored once.
-fn rows(
-    listed: &[Listed],
-    [first, second]: [&Forces; 2],
-    slot: usize,
-    ids: [u64; 2],
-) -> [Option<Measured>; 2] {
-    let first = first.get(slot, ids);
-    match listed.get(slot) {
-        None | Some(Listed::Never) => [None; 2],
-        Some(Listed::Once(_)) => [first, None],
-        Some(Listed::Twice) => [first; 2],
-        Some(Listed::Differently) => [first, second.get(slot, ids)],
     }
 }
 

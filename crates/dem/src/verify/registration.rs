@@ -88,11 +88,10 @@ impl Fit {
 }
 
 /// A table, and the pile that it is matched to.
-struct Search<'s, 'p> {
-    ledger: &'s Ledger<'p>,
+struct Search<'s> {
     places: &'s Places,
-    /// The magnitudes of the exact forces.
-    forces: Vec<f64>,
+    /// The pairs of spheres in contact, sorted, with the magnitudes of the exact forces.
+    forces: Vec<([u64; 2], f64)>,
     radius: f64,
     within: f64,
     /// The largest distance of a position from its exact one in a candidate frame.
@@ -165,20 +164,24 @@ pub(super) fn find(
     Ok(search.simplest(&many, best.frame))
 }
 
-impl<'s, 'p> Search<'s, 'p> {
+impl<'s> Search<'s> {
     fn new(
         rows: &'s Rows,
-        ledger: &'s Ledger<'p>,
+        ledger: &Ledger<'_>,
         places: &'s Places,
         [radius, within]: [f64; 2],
     ) -> Result<Self, Refusal> {
         let magnitudes = rows.iter().map(|row| magnitude(row.force));
         let contacts = ledger.numbered().contacts().map_err(Refusal::of_forces)?;
-        let forces = contacts.map(|contact| Ok(contact.map_err(Refusal::of_forces)?.force.abs()));
+        let forces = contacts.map(|contact| {
+            let contact = contact.map_err(Refusal::of_forces)?.in_order();
+            Ok((contact.ids, contact.force.abs()))
+        });
+        let mut forces = forces.collect::<Result<Vec<_>, Refusal>>()?;
+        forces.sort_unstable_by_key(|(ids, _)| *ids);
         let mut search = Self {
-            ledger,
             places,
-            forces: forces.collect::<Result<_, Refusal>>()?,
+            forces,
             radius,
             within,
             near: (radius / 2.0).max(within),
@@ -222,12 +225,12 @@ impl<'s, 'p> Search<'s, 'p> {
     /// Returns the points of the contacts of the pile with a force. With the floor, these include the contacts of each
     /// bottom sphere with its mirror image in the floor.
     fn pile(&self, with_floor: bool) -> Result<Vec<[f64; 3]>, Refusal> {
-        let greatest = self.forces.iter().copied().fold(0.0, f64::max);
+        let greatest = self.forces.iter().map(|(_, force)| *force);
+        let greatest = greatest.fold(0.0, f64::max);
         let mut points = Vec::new();
-        for (touch, force) in self.ledger.numbered().touches()?.zip(&self.forces) {
-            let (_, ids) = touch?;
+        for (ids, force) in &self.forces {
             if is_loaded(*force, greatest) {
-                points.extend(self.points(Place::Centres(self.places.centres_of(ids)?)));
+                points.extend(self.points(Place::Centres(self.places.centres_of(*ids)?)));
             }
         }
         for id in self.places.on_floor().filter(|_| with_floor) {
@@ -262,9 +265,12 @@ impl<'s, 'p> Search<'s, 'p> {
             {
                 let measured = row.force.map(|vector| frame.turned(vector));
                 let normal = unit(minus(first, second));
+                let [one, other] = ids;
+                let ids = [one.min(other), one.max(other)];
+                let place = self.forces.partition_point(|(pair, _)| *pair < ids);
+                let force = self.forces.get(place).filter(|(pair, _)| *pair == ids);
                 // Spheres without a contact have no force.
-                let force = self.ledger.slot(ids).and_then(|slot| self.forces.get(slot));
-                let force = force.copied().unwrap_or(0.0);
+                let force = force.map_or(0.0, |(_, force)| *force);
                 forces.push((measured, normal.each(|n| n * force)));
             }
         }

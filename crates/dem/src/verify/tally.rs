@@ -147,7 +147,7 @@ impl Tally {
     pub(super) fn close(
         self,
         errors: Vec<f64>,
-        pairs: &[(&Measured, f64)],
+        pairs: &[(Measured, f64)],
         numbering: &Numbering<'_>,
     ) -> Judged {
         let mut judged = self.judged;
@@ -175,7 +175,7 @@ impl Tally {
             if is_fixed(stray) {
                 judged.fixed += 1;
             } else if !stray.is_zero() {
-                strays.push((relative(stray.magnitude(), largest), *stray));
+                strays.push((relative(stray.magnitude(), largest), stray));
                 contradictions.extend(Some(*contradiction).filter(|apart| *apart > 0.0));
             }
         }
