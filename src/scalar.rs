@@ -248,7 +248,8 @@ pub trait Algebra: Ring + Numerators {
     /// Returns whether two values may represent the same number. For bounds this means that they overlap, otherwise
     /// that they are equal.
     fn may_equal(&self, other: &Self) -> bool {
-        self == other
+        let [a, b] = [self, other].map(Self::comparison_key);
+        a == b
     }
 }
 

@@ -5,6 +5,7 @@
 //! check rejects invalid text.
 
 mod comparisons;
+mod long_numbers;
 mod no_silent_default;
 mod proved_formulas;
 

@@ -1,33 +1,49 @@
-//! Every operation on numbers, with numbers of about 5000 digits, in a thread with a stack of 512 kB.
+//! Every operation on numbers, with numbers of up to 5000 digits, in a thread with a stack of 512 kB.
 //!
 //! The numbers are ratios of Fibonacci numbers. Their continued fractions have the most terms, and two neighbours differ in
 //! the last one only. An operation that calls itself once for each term exhausts the stack, which kills the test.
 
 use core::hash::{Hash, Hasher};
+use core::num::NonZeroI64;
 use std::hint::black_box;
 use std::process::Command;
 use std::thread::{Builder, scope};
+use std::time::Instant;
 use std::{fs, hash};
 
+use cannonpile::engine::{common_denominator, product, sum_of};
 use cannonpile::geometry::{Inclination, Spacing};
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
 use cannonpile::num_bigint::BigInt;
 use cannonpile::num_rational::BigRational;
 use cannonpile::scalar::{
-    Algebra, ByValue, CorrectlyRounded, DoubleDouble, Enclosure, Interval, Polynomial,
-    RealEmbeddable, Surd, SurdSum, parse, reduced,
+    Algebra, ByValue, CorrectlyRounded, DoubleDouble, Enclosure, Field, FixedRational, Interval,
+    Polynomial, RealEmbeddable, Ring, Surd, SurdSum, laws, parse, reduced,
 };
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Load, Packing, Pile, ratio};
+use cannonpile_dem::Friction;
 use cannonpile_dem::scene::Scene;
 use cannonpile_dem::table::{self, FileFormat, NumberFormat, Table, Units};
-use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+use cannonpile_disorder::{
+    Choice, ContactSet, Ensemble, FirstSign, ForceKind, RandomPiles, RandomStackings, Samples,
+    Shard, TallyRecord, Wave, check_fault_probability,
+};
 use cannonpile_figure::Subject;
-use cannonpile_stability::{margin, sensitivity, tilts};
+use cannonpile_stability::{RoughFloor, RoughPacking, margin, sensitivity, tilts};
 
 /// The greatest stack of an operation. Reading the options of a command takes more than this, with any numbers.
 const STACK: usize = 512 * 1024;
 const STACK_OF_COMMANDS: usize = 2 * STACK;
+
+/// The digits of a number. Sums of several such numbers and polygons take minutes in debug, where shorter ones suffice: a
+/// comparison of numbers of 1,000 digits that calls itself for each term exhausts the stack many times over.
+const LONGEST: u32 = 4990;
+const LONG: u32 = if cfg!(debug_assertions) {
+    1000
+} else {
+    LONGEST
+};
 
 /// F(n+1)/F(n) and F(n+2)/F(n+1) for the first Fibonacci number F(n) of this many digits.
 fn neighbours(digits: u32) -> [BigRational; 2] {
@@ -73,15 +89,14 @@ macro_rules! run {
         assert!(size <= STACK);
         let stack = scope(|threads| {
             let thread = Builder::new().stack_size(size).spawn_scoped(threads, || {
+                let started = Instant::now();
                 let _ = black_box($operation);
-                used()
+                (used(), started.elapsed())
             });
             thread.expect("a thread").join().expect($name)
         });
-        match stack {
-            Some(stack) => println!("{stack:4} kB  {}", $name),
-            None => println!("         {}", $name),
-        }
+        let (stack, time) = (stack.0.map_or("?".into(), |kb| kb.to_string()), stack.1);
+        println!("{stack:>4} kB {:7} ms  {}", time.as_millis(), $name);
         )*
     };
 }
@@ -97,7 +112,7 @@ fn written(table: Result<Table<'_>, cannonpile_dem::Error>, numbers: NumberForma
 
 #[test]
 fn numbers() {
-    let [a, b] = neighbours(4990);
+    let [a, b] = neighbours(LONGEST);
     let [x, y] = [&a, &b].map(|number| Surd::from(number.clone()));
     let [root, other] = [&a, &b].map(|number| Surd::sqrt(number.clone()).unwrap());
     let sum = SurdSum::new(root.clone(), other.clone());
@@ -111,6 +126,10 @@ fn numbers() {
         "rational: reduced": assert!(ByValue(&reduced(raw.clone())) == ByValue(&a));
         "rational: nearest f64 and f32": (f64s(&a), f32s(&a), f64s(&raw));
         "DoubleDouble::from_rational": DoubleDouble::from_rational(&a);
+        "rational: sums, products": (sum_of([a.clone(), b.clone()]), product(&a, &b), common_denominator([&a, &b]));
+        "rational: as a scalar": (a.clone().div_int(NonZeroI64::MIN), a.is_defined(), a.may_equal(&b), a.checked_div(&b), a.clone() - BigRational::from_i128(7));
+        "rational: laws": (laws::embedding::<BigRational>(&a, &b).unwrap(), laws::numerators::<BigRational>(&a, &b).unwrap());
+        "to_rational, to_constant": (Polynomial::constant(&a).to_constant().unwrap(), DoubleDouble::from_rational(&a).to_rational(), FixedRational::<i128>::from_rational(&a).to_rational());
         "Surd: from, order and equality": assert!(x != y && (x < y) == (y > x) && x == Surd::from(raw.clone()));
         "Surd: hash": assert_eq!(hashed(&x), hashed(&Surd::from(raw.clone())));
         "Surd: order of roots": assert!(root != other && (root < other) == (x < y));
@@ -118,8 +137,10 @@ fn numbers() {
         "Surd: product, reciprocal, square": (root.clone() * &other, root.checked_recip(), root.square());
         "Surd: sum, scaled, sign": (x.checked_add(&y), root.checked_add(&other), root.scaled(&b), root.sign());
         "Surd: nearest f64 and f32, order with f64": (root.nearest::<f64>(), root.nearest::<f32>(), x.nearest::<f64>(), root < 1.0);
+        "Surd: parts, negation": (root.coefficient(), root.radicand(), root.to_f64(), -root.clone() == Surd::zero());
         "Surd: text": assert_eq!(x.to_string().parse::<Surd>().unwrap(), x);
         "SurdSum: sum, sign, order with f64": (SurdSum::new(root.clone(), -other.clone()).sign(), sum < 1.0);
+        "SurdSum: to_surd": sum.to_surd();
         "SurdSum: nearest, equality, hash, text": (sum.nearest::<f64>(), sum == sum.clone(), hashed(&sum), sum.to_string());
         "Interval: from, contains": assert!(Interval::from_rational(&a).contains(&a));
         "Enclosure: contains, equality, hash": assert!(Enclosure::point(a.clone()).contains(&a) && hashed(&a.enclosure().unwrap()) == hashed(&Enclosure::point(a.clone())));
@@ -129,7 +150,7 @@ fn numbers() {
 
 #[test]
 fn piles() -> Result<(), Error> {
-    let [a, b] = neighbours(4990);
+    let [a, b] = neighbours(LONG);
     let loads = |first: &BigRational, second: &BigRational| -> Result<Pile, Error> {
         let pile =
             Pile::under(Region::SITE, "+-".parse()?)?.with_load(Site::APEX, first.clone())?;
@@ -142,7 +163,7 @@ fn piles() -> Result<(), Error> {
     };
     let (pile, other) = (loads(&a, &b)?, loads(&b, &a)?);
     // The corners of a polygon are quotients of long products.
-    let [c, d] = neighbours(500);
+    let [c, d] = neighbours(LONG / 2);
     let short = loads(&c, &d)?;
     let tilt = [a.clone() / ratio!(100), b.clone() / ratio!(1000)];
     let spacing = Spacing::from_square(b.recip() * ratio!(2))?;
@@ -153,6 +174,10 @@ fn piles() -> Result<(), Error> {
     let (in_pile, in_si) = (Units::of_pile(&pile), Units::of_packing(packing.clone()));
     let forces = pile.forces::<BigRational>();
     let floor = Site::new(0, 0, 2);
+    let contact = HorizontalContact {
+        site: floor,
+        axis: Axis::AlphaBeta,
+    };
     let one = || forces.contact(Site::APEX, Direction::Alpha).unwrap();
     let base = || {
         forces
@@ -173,9 +198,11 @@ fn piles() -> Result<(), Error> {
         "Pile: equality": assert!(pile == loads(&a, &b).unwrap() && pile != other);
         "Pile: hash": assert_eq!(hashed(&pile), hashed(&loads(&a, &b).unwrap()));
         "Pile: text, weight": (pile.to_string(), pile.weight());
+        "Pile: sin_phi, horizontal forces": (pile.sin_phi(), pile.horizontal_force(contact), pile.horizontal_forces().count());
         "Pile::isosceles": assert!(Pile::isosceles(3, b.recip()).unwrap() != Pile::isosceles(3, a.recip()).unwrap());
         "Load: equality, hash, text": assert!(hashed(&pile.load(Site::APEX).unwrap()) == hashed(&pile.load(Site::APEX).unwrap()) && pile.load(Site::APEX).unwrap() != pile.load(floor).unwrap() && pile.load(floor).unwrap().to_string() == "0");
         "Spacing, Inclination: equality, hash, text": assert!(hashed(&spacing) == hashed(&spacing.clone()) && !spacing.to_string().is_empty() && Inclination::new(&spacing, pile.dimension()).unwrap() == packing.inclination().clone());
+        "Inclination: sin, cos, tan": { let angle = packing.inclination(); ([angle.sin(), angle.cos(), angle.tan()], [angle.cos2(), angle.tan2()], angle.sin2()) };
         "Clearance: check": pile.clearance().check(&spacing);
         "Forces: one contact": one();
         "Forces: contacts, equality": assert!(contacts() == contacts());
@@ -186,10 +213,15 @@ fn piles() -> Result<(), Error> {
         "Forces<f64>": pile.forces::<f64>().contact(Site::APEX, Direction::Alpha);
         "Forces<Polynomial>": pile.forces::<Polynomial>().contact(Site::APEX, Direction::Alpha);
         "Packing: contact, vectors, base": (packing.contact(Site::APEX, Direction::Alpha).unwrap(), packing.clone().mass_of(floor).unwrap(), packing.on_floor(floor).unwrap());
+        "Packing: units": ([packing.radius(), packing.mass(), packing.gravity()], packing.sphere_weight(), [packing.unit_force(), packing.central_constant()]);
+        "Packing: positions, vectors": (packing.position(floor).unwrap(), packing.contact_point(Site::APEX, Direction::Alpha).unwrap(), packing.contact_vector(Site::APEX, Direction::Alpha).unwrap(), packing.positions(Selection::All).unwrap().count());
+        "Packing: contacts, contact_forces": (packing.contacts(Selection::All).unwrap().count(), packing.contact_forces(Selection::All).unwrap().count());
+        "Packing: to SI": (packing.contact_in_si(contacts()[0].clone()).unwrap(), packing.floor_force_in_si(base()[0].clone()), packing.stress_in_si(&forces.stress(Site::APEX).unwrap()), packing.horizontal_contact_in_si(contact, &a).is_ok());
+        "Layer: error_bound": { let mut layers = pile.forces::<f64>().layers(Selection::Base).unwrap(); layers.next_layer().unwrap().map(|layer| layer.error_bound()) };
         "Pile: standing": pile.standing().unwrap();
         "Pile: base_extremes": assert!(pile.base_extremes().unwrap() == pile.base_extremes().unwrap());
         "Pile: margin": assert!(margin(&pile).unwrap() == margin(&pile).unwrap());
-        "Pile: stability, of 500 digits": assert!(tilts(&short).unwrap() == tilts(&short).unwrap());
+        "Pile: stability, of half the digits": assert!(tilts(&short).unwrap() == tilts(&short).unwrap());
         "Packing: sensitivity, equality": { let changes = || sensitivity::<BigRational>(&packing, Site::APEX).unwrap(); assert!(changes() == changes()) };
         "tables, exact": [table::base(&in_pile, Selection::Base), table::contacts(&in_pile, Selection::All), table::base(&in_si, Selection::Base), table::contacts(&in_si, Selection::All), table::spheres(&packing, Selection::All)].map(|table| written(table, NumberFormat::Exact));
         "tables, intervals": [table::base(&in_pile, Selection::Base), table::contacts(&in_pile, Selection::All)].map(|table| written(table, NumberFormat::Interval));
@@ -202,10 +234,50 @@ fn piles() -> Result<(), Error> {
 }
 
 #[test]
+fn friction() -> Result<(), cannonpile_stability::Error> {
+    let [a, b] = neighbours(LONG);
+    let pile = Pile::triangular(2)?.with_load(Site::APEX, a.clone())?;
+    let packing = Packing::new(&pile, &Spacing::from_square(b.recip() * ratio!(2))?)?;
+    let (in_pile, in_si) = (RoughFloor::new(&pile)?, RoughPacking::new(&packing)?);
+    run! {
+        "RoughFloor: contacts, base": (in_pile.contacts::<BigRational>(Selection::All).unwrap().count(), in_pile.base::<BigRational>(Selection::Base).unwrap().count());
+        "RoughFloor: floor_friction": in_pile.floor_friction().unwrap();
+        "RoughPacking: contact_friction, floor_friction": (in_si.contact_friction(), in_si.floor_friction().unwrap());
+        "RoughPacking: holds": (in_si.contacts_hold_at(&a).unwrap(), in_si.floor_holds_at(&b.recip()).unwrap());
+        "RoughPacking: contacts, equality": { let contacts = || in_si.contacts(Selection::All).unwrap().collect::<Result<Vec<_>, _>>().unwrap(); assert!(contacts() == contacts()) };
+        "Friction: with_spheres, with_floor": Friction::sufficient(&packing).unwrap().with_spheres(&a).unwrap().with_floor(&b).unwrap();
+        "NumberFormat: show": NumberFormat::Exact.show(&Surd::from(a.clone()), "a number").unwrap();
+    }
+    Ok(())
+}
+
+#[test]
+fn random_stackings() -> Result<(), cannonpile_disorder::Error> {
+    let [a, b] = neighbours(LONG);
+    let q = a.recip();
+    let stackings = RandomStackings::new(3, FirstSign::Plus)?;
+    let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bin_width(b.clone())?;
+    let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
+    let record = TallyRecord::new(tally.clone(), q.clone())?;
+    run! {
+        "Ensemble: bin_width, equality": assert!(ensemble.bin_width() == &b && ensemble == ensemble.clone());
+        "Ensemble: run": ensemble.run(&Choice::All, Shard::WHOLE).unwrap();
+        "Tally: standing_probability": tally.standing_probability(ContactSet::Sloping, &q).unwrap();
+        "TallyRecord: fault_probability, equality": assert!(record.fault_probability() == &q && record == record.clone());
+        "Samples: fault_probability, equality": { let samples = || Samples::new(3, 1, ratio!(1 / 3)).unwrap(); assert!(samples() == samples() && samples().fault_probability() == &ratio!(1 / 3)) };
+        "check_fault_probability": check_fault_probability(&q).unwrap();
+        "moments, equality": assert!(stackings.moments(&q).unwrap() == stackings.moments(&q).unwrap());
+        "Wave": Wave::at(&q).unwrap().map(|wave| (wave.squared_width(3), wave == wave.clone()));
+        "figures of means": (cannonpile_figure::mean_profile(3, core::slice::from_ref(&q)).is_ok(), cannonpile_figure::mean_response(3, core::slice::from_ref(&q)).is_ok(), cannonpile_figure::distribution(&tally, ForceKind::Contact, &q).is_ok());
+    }
+    Ok(())
+}
+
+#[test]
 fn horizontal_contacts() -> Result<(), Box<dyn core::error::Error + Send + Sync>> {
     use cannonpile_horizontal::certificate::{Certificate, read_certificate, write_certificate};
 
-    let [a, b] = neighbours(1500);
+    let [a, b] = neighbours(LONG / 2);
     let pile = Pile::triangular(3)?
         .with_load(Site::APEX, a.clone())?
         .with_load(Site::new(1, 0, 1), b.clone())?;
@@ -236,7 +308,7 @@ fn horizontal_contacts() -> Result<(), Box<dyn core::error::Error + Send + Sync>
 #[test]
 fn commands() {
     let folder = tempfile::tempdir().expect("a folder");
-    for (name, digits) in [("long.toml", 4990), ("short.toml", 800)] {
+    for (name, digits) in [("long.toml", LONG), ("short.toml", 800)] {
         let [a, b] = neighbours(digits);
         let scene = format!("layers = 3\nload = [\"0,0,0={a}\", \"1,0,1={b}\"]\n");
         fs::write(folder.path().join(name), scene).expect("a scene");
