@@ -255,22 +255,22 @@ impl<T: Field> FirstOrder<T> {
         let (x, y, up) = if self.directions.len() == 2 {
             (difference.div_int(TWO), T::zero(), sum)
         } else {
-            let x = over(sum - &c, &(T::one() + &self.s))?;
+            let x = over(&(sum - &c), &(T::one() + &self.s))?;
             let up = c + &x;
             (x, difference, up)
         };
         let [sin2, across, cos2] = &self.squares;
         let vector = Vector {
-            x: over(x, sin2)?,
-            y: if y.is_zero() { y } else { over(y, across)? },
-            z: over(-up, cos2)?,
+            x: over(&x, sin2)?,
+            y: if y.is_zero() { y } else { over(&y, across)? },
+            z: over(&-up, cos2)?,
         };
         Ok(turned(vector, sign))
     }
 
     /// Returns the forces along the contacts below a sphere on which a force acts.
     fn response(&self, force: Vector<T>, sign: Sign) -> Result<[T; 3], Error> {
-        let in_mg = |part: T| over(part, &self.increment_sum);
+        let in_mg = |part: T| over(&part, &self.increment_sum);
         let load = Load {
             down: in_mg(force.z)?,
             x: in_mg(force.x)?,
@@ -323,7 +323,7 @@ fn turned<T: Ring>(vector: Vector<T>, sign: Sign) -> Vector<T> {
     }
 }
 
-fn over<T: Field>(n: T, d: &T) -> Result<T, Error> {
+fn over<T: Field>(n: &T, d: &T) -> Result<T, Error> {
     n.checked_div(d).ok_or_else(overflow::<T>)
 }
 
