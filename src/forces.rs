@@ -9,8 +9,6 @@ mod base;
 mod contacts;
 mod ends;
 mod layers;
-mod nearest;
-mod numerators;
 mod stress;
 mod sums;
 mod terms;
@@ -18,28 +16,28 @@ mod walk;
 
 pub use base::FloorForce;
 pub use contacts::ContactForce;
+pub(crate) use layers::Units;
 pub(crate) use layers::check_lengths;
-pub use layers::{Layer, Layers};
-pub(crate) use nearest::Units;
-pub use nearest::{NearestLayer, NearestLayers};
-pub use numerators::{NumeratorLayer, NumeratorLayers};
+pub use layers::{Integers, Layer, Layers, Nearest, Output};
 pub use walk::{Answers, Contacts, FloorForces};
 
 use alloc::vec::Vec;
 
+use num_rational::BigRational;
+
 use crate::each::Each;
 use crate::engine::{
-    Counters, LineSelection, Meter, Method, Plan, Quantity, Question, SphereForces, Storage,
-    closed_contact, nodes, received,
+    Counters, LineForces, LineSelection, Meter, Method, Plan, Quantity, Question, SphereForces,
+    to_scalar, to_scalars,
 };
 use crate::formula;
 use crate::geometry::{Load, Vector, position};
 use crate::lattice::{Direction, Site, count};
 use crate::scalar::{Algebra, Ring};
-use crate::shape::Rows;
+use crate::shape::RunLayers;
 use crate::{Error, Pile};
 
-use terms::{Terms, horizontal, of_direction, to_scalar, to_scalars};
+use terms::{horizontal, of_direction};
 
 /// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
 ///
@@ -80,7 +78,7 @@ use terms::{Terms, horizontal, of_direction, to_scalar, to_scalars};
 #[derive(Clone, Debug)]
 pub struct Forces<'p, T: Algebra> {
     pile: &'p Pile,
-    terms: Terms<'p, T>,
+    lines: LineForces<'p, T>,
     /// The requested method, or `None` for the cheapest.
     method: Option<Method>,
     meter: Meter<'p>,
@@ -110,7 +108,7 @@ impl Pile {
     pub fn forces<T: Algebra>(&self) -> Forces<'_, T> {
         Forces {
             pile: self,
-            terms: Terms::new(self.system()),
+            lines: LineForces::new(self),
             method: None,
             meter: Meter::NONE,
         }
@@ -135,7 +133,7 @@ impl Pile {
     ///
     /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
     /// let plan = pile.plan(Selection::Base)?;
-    /// assert_eq!((plan.method, plan.planes), (Method::Sweep, 1));
+    /// assert_eq!((plan.method, plan.rows), (Method::Sweep, 12_u32.into()));
     ///
     /// let by_trees = Question::from(Selection::Base).with_method(Method::Tree);
     /// assert_eq!(pile.plan(by_trees)?.method, Method::Tree);
@@ -147,42 +145,11 @@ impl Pile {
             quantity,
             method,
         } = question.into();
-        let mut rows = self.rows(part)?;
-        if quantity.is_of_contacts() {
-            rows = rows.off_the_floor();
-        }
-        self.system().plan(&rows, quantity, method, Storage::Limbs)
-    }
-
-    /// Returns the number of spheres at sign changes on which the force of a contact depends. These spheres are the
-    /// nodes of its tree.
-    ///
-    /// For d sign changes above the contact, the number is at most (3^d − 1)/2. It is also at most the number of
-    /// spheres above the contact at these sign changes.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::OnFloor`]; [`Error::TooLarge`] for more than 4 million spheres.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::{Direction, Region, Site};
-    ///
-    /// let layers = 10_i128.pow(30);
-    /// let pile = Pile::under(Region::SITE, format!("(2,1,{layers})").parse()?)?;
-    /// // A line that begins at the surface of the last run, far below the sign changes.
-    /// let low = Site { i: 5, j: 7, k: pile.layers() - 2 };
-    /// assert_eq!(pile.tree_size(low, Direction::Alpha)?, 0);
-    /// // A line that crosses both sign changes.
-    /// assert_eq!(pile.tree_size(Site { i: 1, j: 0, ..low }, Direction::Alpha)?, 4);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn tree_size(&self, site: Site, direction: Direction) -> Result<usize, Error> {
-        let site = self.shape().check(site)?;
-        if site.k == self.layers() - 1 {
-            return Err(Error::OnFloor { site });
-        }
-        nodes(self.shape(), site, direction)
+        let rows = match quantity {
+            Quantity::Contacts => self.rows(part)?.off_the_floor(),
+            Quantity::Floor => self.rows(part)?,
+        };
+        LineForces::<BigRational>::new(self).plan(&rows, quantity, method)
     }
 }
 
@@ -237,7 +204,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
             Ok((self.pile.shape().check(site)?, load))
         };
         let loads: Result<Vec<_>, Error> = loads.into_iter().map(check).collect();
-        self.terms.add_loads(loads?);
+        self.lines.add_loads(loads?);
         Ok(self)
     }
 
@@ -263,7 +230,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn with_tilt(mut self, tilt: [T; 2]) -> Result<Self, Error> {
         self.pile.check_in_plane("tilt", &tilt[1])?;
-        self.terms.add_tilt(tilt);
+        self.lines.add_tilt(tilt);
         Ok(self)
     }
 
@@ -313,7 +280,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_method(self, method: Method) -> Result<Self, Error> {
-        self.terms.system.check_method(method)?;
+        self.pile.check_method(method)?;
         Ok(Self {
             method: Some(method),
             ..self
@@ -351,7 +318,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn increment_sum(&self) -> Result<T, Error> {
-        self.terms.increment_sum()
+        self.lines.increment_sum()
     }
 
     /// Returns the forces on `site` from the spheres above, by direction, in f₀. The force is zero where no sphere lies
@@ -373,7 +340,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn from_above(&self, site: Site) -> Result<[T; 3], Error> {
         let site = self.pile.shape().check(site)?;
-        self.terms
+        self.lines
             .contacts(self.received(site, LineSelection::All)?)
     }
 
@@ -395,7 +362,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn to_below(&self, site: Site) -> Result<[T; 3], Error> {
-        self.terms.contacts(self.transmitted(site)?)
+        self.lines.contacts(self.transmitted(site)?)
     }
 
     /// Returns the force of a bottom sphere on the floor.
@@ -423,7 +390,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         if site.k != floor {
             return Err(Error::NotOnFloor { site, floor });
         }
-        self.terms
+        self.lines
             .floor(site, &self.received(site, LineSelection::All)?)
     }
 
@@ -448,7 +415,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn contact(&self, site: Site, direction: Direction) -> Result<T, Error> {
         let (force, changes) = self.contact_numerator(site, direction)?;
-        to_scalar("a contact force", force, &self.terms.lines.scale(changes))
+        to_scalar("a contact force", force, &self.lines.scale(changes))
     }
 
     /// Returns the contact force on the upper sphere as a vector, f·ê, in f₀ and the symbolic basis. The force on the
@@ -470,8 +437,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
         let (force, changes) = self.contact_numerator(site, direction)?;
-        let along = of_direction(self.terms.directions_below(site.k), direction);
-        self.terms
+        let along = of_direction(self.lines.directions_below(site.k), direction);
+        self.lines
             .vector("a contact force", along.scaled(&force), changes)
     }
 
@@ -507,58 +474,60 @@ impl<'p, T: Algebra> Forces<'p, T> {
         site: Site,
         direction: Direction,
     ) -> Result<(T::Numerator, usize), Error> {
-        self.check_contact(site, direction)?;
-        let (lines, contact) = (&self.terms.lines, (site, direction));
-        if let Some(force) = closed_contact(lines, contact, self.method, self.meter) {
-            return Ok((force, 0));
+        let run = self.check_contact(site, direction)?;
+        if run.index == 0 && self.method != Some(Method::Sweep) {
+            self.meter.visit(1);
+            return Ok((self.lines.closed(run, site, direction), 0));
         }
-        let wanted = LineSelection::for_contact(self.pile.shape(), site, direction);
+        // A sign change at the sphere mixes its three lines.
+        let wanted = if run.index > 0 && run.from == site.k {
+            LineSelection::All
+        } else {
+            LineSelection::One(direction)
+        };
         let above = self.received(site, wanted)?;
-        let SphereForces { forces, changes } = lines.to_below(site, above, self.meter);
+        let SphereForces { forces, changes } = self.lines.to_below(site, above, self.meter);
         Ok((of_direction(forces, direction), changes))
     }
 
     /// Returns the forces on a sphere from above, along the wanted lines.
     fn received(&self, site: Site, wanted: LineSelection) -> Result<SphereForces<T>, Error> {
-        let Terms { lines, system, .. } = &self.terms;
-        received((lines, system), (site, wanted), self.method, self.meter)
+        self.lines.received((site, wanted), self.method, self.meter)
     }
 
     /// Returns the forces of a sphere on the spheres below.
     fn transmitted(&self, site: Site) -> Result<SphereForces<T>, Error> {
         self.check_off_the_floor(site)?;
         let above = self.received(site, LineSelection::All)?;
-        Ok(self.terms.lines.to_below(site, above, self.meter))
+        Ok(self.lines.to_below(site, above, self.meter))
     }
 
-    /// Returns an error unless the pile has the site above its bottom layer.
-    fn check_off_the_floor(&self, site: Site) -> Result<(), Error> {
-        let site = self.pile.shape().check(site)?;
-        if site.k == self.floor() {
-            return Err(Error::OnFloor { site });
+    /// Returns the run of the step below the site, or an error unless the pile has the site above its bottom layer.
+    #[inline]
+    fn check_off_the_floor(&self, site: Site) -> Result<&'p RunLayers, Error> {
+        let shape = self.lines.shape;
+        let Site { k, .. } = shape.check(site)?;
+        match shape.run_below(k) {
+            Some(run) => Ok(run),
+            None => Err(Error::OnFloor { site }),
         }
-        Ok(())
     }
 
-    /// Returns an error unless a sphere lies below `site` in `direction`.
-    fn check_contact(&self, site: Site, direction: Direction) -> Result<(), Error> {
-        self.check_off_the_floor(site)?;
-        if self.pile.dimension().directions().contains(&direction) {
-            Ok(())
+    /// Returns the run of the step below the site, or an error unless a sphere lies below it in `direction`.
+    #[inline]
+    fn check_contact(&self, site: Site, direction: Direction) -> Result<&'p RunLayers, Error> {
+        let run = self.check_off_the_floor(site)?;
+        if self
+            .lines
+            .shape
+            .dimension()
+            .directions()
+            .contains(&direction)
+        {
+            Ok(run)
         } else {
             Err(Error::NoSuchDirection { direction })
         }
-    }
-
-    /// Returns the plan for some rows in this scalar.
-    fn plan(&self, rows: &Rows<'_>, quantity: Quantity) -> Result<Plan, Error> {
-        let system = &self.terms.system;
-        system.plan(
-            rows,
-            quantity,
-            self.method,
-            Storage::of::<T>(&self.terms.system),
-        )
     }
 
     /// Returns the unit vector ê of a direction under + steps, in the symbolic basis.
@@ -578,8 +547,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn direction(&self, direction: Direction) -> Result<Vector<T>, Error> {
-        let numerators = of_direction(self.terms.directions.clone(), direction).into_array();
-        let [x, y, z] = to_scalars("a direction", numerators, &self.terms.direction_scale)?;
+        let numerators = of_direction(self.lines.directions.clone(), direction).into_array();
+        let [x, y, z] = to_scalars("a direction", numerators, &self.lines.direction_scale)?;
         Ok(Vector { x, y, z })
     }
 
@@ -603,8 +572,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     pub fn resultant_above(&self, site: Site) -> Result<Vector<T>, Error> {
         let site = self.pile.shape().check(site)?;
         let SphereForces { forces, changes } = self.received(site, LineSelection::All)?;
-        let force = formula::resultant(&forces, &self.terms.directions_above(site.k));
-        self.terms.vector("a resultant force", force, changes)
+        let force = formula::resultant(&forces, &self.lines.directions_above(site.k));
+        self.lines.vector("a resultant force", force, changes)
     }
 
     /// Returns the position of a sphere, in 2R and the symbolic basis, with z down from the top layer.
@@ -640,7 +609,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         let z = T::Numerator::from_i128(k) * self.direction_scale();
         Ok(Vector {
             z,
-            ..position(&counts, &self.terms.directions)
+            ..position(&counts, &self.lines.directions)
         })
     }
 
@@ -651,12 +620,12 @@ impl<'p, T: Algebra> Forces<'p, T> {
         direction: Direction,
     ) -> Result<Vector<T::Numerator>, Error> {
         self.check_contact(site, direction)?;
-        Ok(of_direction(self.terms.directions_below(site.k), direction))
+        Ok(of_direction(self.lines.directions_below(site.k), direction))
     }
 
     /// Returns the denominator of the numerators of directions and positions.
     pub(crate) fn direction_scale(&self) -> &T::Numerator {
-        &self.terms.direction_scale
+        &self.lines.direction_scale
     }
 
     /// Returns the sum of all forces on a sphere, its weight included, in f₀. It is the zero vector in an exact scalar.
@@ -681,18 +650,18 @@ impl<'p, T: Algebra> Forces<'p, T> {
     pub fn unbalanced(&self, site: Site) -> Result<Vector<T>, Error> {
         let below = self.transmitted(site)?;
         let above = self.received(site, LineSelection::All)?;
-        let (terms, changes) = (&self.terms, below.changes);
-        let rescaled = |force| terms.lines.rescaled(force, above.changes, changes);
+        let (lines, changes) = (&self.lines, below.changes);
+        let rescaled = |force| lines.scaled(force, changes.saturating_sub(above.changes));
         let received = above.forces.each(rescaled);
-        let load = terms.load(site, changes);
+        let load = lines.load_vector(site, changes);
         let unbalanced = formula::unbalanced(
             &below.forces,
-            &terms.directions_below(site.k),
+            &lines.directions_below(site.k),
             &received,
-            &terms.directions_above(site.k),
+            &lines.directions_above(site.k),
             &load.z,
         ) + &horizontal(&load);
-        terms.vector("a resultant force", unbalanced, changes)
+        lines.vector("a resultant force", unbalanced, changes)
     }
 
     /// Returns the index of the bottom layer.

@@ -55,7 +55,7 @@
 //! | the sites of a part | [`pile.sites(part)`](Pile::sites); by rows: [`pile.rows(part)`](Pile::rows) |
 //! | many forces, fast, in slices | [`.layers(part)`](Forces::layers), also as [correctly rounded floats](Layers::nearest) or [exact integers](Layers::numerators) |
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for correctly rounded floats in slices |
-//! | forces row by row, for piles larger than memory | [`fill_row`](NearestLayers::fill_row) and similar methods; [`packing.places()`](Packing::places) for centres and contact points |
+//! | forces row by row, for piles larger than memory | [`fill_row`](Layers::fill_row) and similar methods; [`packing.places()`](Packing::places) for centres and contact points |
 //! | sums of forces | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
 //! | the stability of a pile; the extreme forces on its base | [`Pile::stands`], [`Pile::standing`]; [`Pile::base_extremes`] |
 //! | the paper's theorems | [`theorem`] |
@@ -172,8 +172,8 @@ pub use engine::Interrupt;
 pub use engine::{Counters, Method, Plan, Quantity, Question};
 pub use error::Error;
 pub use forces::{
-    Answers, ContactForce, Contacts, FloorForce, FloorForces, Forces, Layer, Layers, NearestLayer,
-    NearestLayers, NumeratorLayer, NumeratorLayers,
+    Answers, ContactForce, Contacts, FloorForce, FloorForces, Forces, Integers, Layer, Layers,
+    Nearest, Output,
 };
 pub use geometry::Load;
 pub use packing::{PackedContact, Packing, Places, SiBasis};

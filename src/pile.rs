@@ -5,9 +5,7 @@ mod loading;
 mod system;
 
 pub(crate) use loading::Loading;
-pub(crate) use system::{Extra, System};
-
-use alloc::borrow::Cow;
+pub(crate) use system::Extra;
 
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -16,7 +14,6 @@ use num_traits::{One, Signed, Zero};
 use crate::Error;
 use crate::each::Each;
 use crate::error::not_negative;
-use crate::formula;
 use crate::geometry::{Clearance, Load, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, HorizontalContact, Region, Sign, Site, count};
 use crate::scalar::{Algebra, ByValue, Ring, reduced, sum_of};
@@ -46,7 +43,7 @@ pub struct Pile {
     shape: Shape,
     /// sin φ. It is 0 for discs: the limit s → 0 of the isosceles pile, whose γ lines carry no force.
     sin_phi: BigRational,
-    loading: Loading,
+    pub(crate) loading: Loading,
 }
 
 exact_surd::equality!(Hash for Pile; |x| (&x.shape, ByValue(&x.sin_phi), &x.loading));
@@ -716,32 +713,12 @@ impl Pile {
         }
     }
 
-    #[cfg(feature = "serde")]
-    pub(crate) fn loading(&self) -> &Loading {
-        &self.loading
-    }
-
-    /// Returns the data of the pile for an engine.
-    pub(crate) fn system(&self) -> System<'_> {
-        let increments = formula::increments(&self.sin_phi);
-        System {
-            shape: &self.shape,
-            sin_phi: &self.sin_phi,
-            increment_sum: formula::weight(&increments),
-            increments,
-            directions: self.directions(),
-            loading: Cow::Borrowed(&self.loading),
-            has_scalar_loads: false,
-        }
-    }
-
     /// Returns whether every sphere has the weight mg under vertical gravity, and carries no load or horizontal contact
     /// force.
     #[doc(hidden)]
     #[must_use]
     pub fn is_uniform(&self) -> bool {
-        let system = self.system();
-        system.has_unit_weights() && system.gravity_is_vertical()
+        self.has_unit_weights() && self.gravity_is_vertical()
     }
 
     /// Returns the sum of gravity and load on a sphere.
@@ -757,16 +734,14 @@ impl Pile {
     #[must_use]
     pub fn own_increments(&self, site: Site) -> [BigRational; 3] {
         let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
-        self.system()
-            .load_increments(&self.loading.total(site), sign)
+        self.load_increments(&self.loading.total(site), sign)
     }
 
     /// Returns whether no sphere has a negative increment, so that forces grow along every line of a run.
     #[doc(hidden)]
     #[must_use]
     pub fn forces_grow(&self) -> bool {
-        let system = self.system();
-        let ordinary = [Sign::Plus, Sign::Minus].each(|sign| system.ordinary(sign));
+        let ordinary = [Sign::Plus, Sign::Minus].each(|sign| self.ordinary(sign));
         let extras = self.loading.extras();
         let extras = extras.map(|(site, ..)| self.own_increments(site));
         let mut all = ordinary.into_iter().chain(extras).flatten();

@@ -109,30 +109,6 @@ pub enum Exactness {
     },
 }
 
-impl Exactness {
-    /// Returns the exactness of a computation that uses two scalar types.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Algebra, Exactness};
-    ///
-    /// assert_eq!(f64::EXACTNESS.weaker(f32::EXACTNESS), Exactness::Rounded { bits: 24 });
-    /// assert_eq!(Exactness::Exact.weaker(Exactness::Enclosure), Exactness::Enclosure);
-    /// ```
-    #[must_use]
-    pub const fn weaker(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Rounded { bits: a }, Self::Rounded { bits: b }) => Self::Rounded {
-                bits: if a < b { a } else { b },
-            },
-            (rounded @ Self::Rounded { .. }, _) | (_, rounded @ Self::Rounded { .. }) => rounded,
-            (Self::Enclosure, _) | (_, Self::Enclosure) => Self::Enclosure,
-            (Self::ExactOrFault, _) | (_, Self::ExactOrFault) => Self::ExactOrFault,
-            (Self::Exact, Self::Exact) => Self::Exact,
-        }
-    }
-}
-
 /// A commutative ring that contains the integers. Most formulas need nothing else.
 ///
 /// Operators take the right operand by reference, which avoids copies of big numbers. In generic code `Self` stays on
@@ -296,6 +272,13 @@ pub trait Numerators: Sized {
         values: &[BigRational; N],
     ) -> ([Self::Numerator; N], Self::Numerator);
 
+    /// Returns the numerators of integers over a common denominator. Rationals keep this denominator, and a scalar with
+    /// [`OwnNumerators`] divides by it.
+    fn from_integers(
+        integers: [BigInt; 3],
+        denominator: impl FnOnce() -> BigInt,
+    ) -> [Self::Numerator; 3];
+
     /// Returns the values as numerators over 1. Rationals, whose numerators need a common denominator, are returned as
     /// they are, in `Err`.
     fn into_numerators<const N: usize>(
@@ -317,6 +300,11 @@ impl<T: OwnNumerators> Numerators for T {
 
     fn numerators<const N: usize>(values: &[BigRational; N]) -> ([T; N], T) {
         (values.each_ref().map(T::from_rational), T::one())
+    }
+
+    fn from_integers(integers: [BigInt; 3], denominator: impl FnOnce() -> BigInt) -> [T; 3] {
+        let denominator = denominator();
+        integers.each(|n| T::from_rational(&exact_surd::rational::quotient(n, &denominator)))
     }
 
     fn into_numerators<const N: usize>(values: [T; N]) -> Result<[T; N], [BigRational; N]> {

@@ -185,7 +185,7 @@ impl Pile {
         let layers = self.low_layers();
         let sites = layers.iter().filter_map(|k| self.shape().layer(*k).ok());
         let sites = sites.map(|region| region.site_count()).sum::<BigUint>();
-        let planes = self.system().size_of_sweep(self.layers() - 1).planes;
+        let planes = self.size_of_sweep(self.layers() - 1).planes;
         let whole = sites * planes * 3_u32 <= BigUint::from(MAX_WORK);
         let mut standing = self.standing_until(!whole)?;
         if !whole && standing.first_failure.is_some() {
@@ -259,8 +259,8 @@ impl Pile {
     /// Returns the layers below which the forces may be smallest: where the sign changes, and at the end of a run along
     /// which forces decrease.
     fn low_layers(&self) -> Vec<i128> {
-        let (shape, system) = (self.shape(), self.system());
-        let falls = |sign| system.ordinary(sign).iter().any(Signed::is_negative);
+        let shape = self.shape();
+        let falls = |sign| self.ordinary(sign).iter().any(Signed::is_negative);
         let falls = [Sign::Plus, Sign::Minus].each(|sign| (sign, falls(sign)));
         let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
         let layers = runs.flat_map(|run| {
@@ -306,8 +306,7 @@ impl Pile {
     /// Returns the forces where lines begin at a surface: for each direction and sign one below an ordinary sphere, whose
     /// forces are all equal, and those below all spheres with extra weight.
     fn at_surfaces(&self) -> Vec<ContactForce<BigRational>> {
-        let system = self.system();
-        let (shape, loading) = (system.shape, &system.loading);
+        let (shape, loading) = (self.shape(), &self.loading);
         let floor = shape.layers() - 1;
         let contact = |site: Site, direction: Direction| ContactForce {
             site,
@@ -350,9 +349,8 @@ impl Pile {
     /// Returns the contacts below spheres with horizontal contact forces, and those around spheres with other loads or
     /// weights. Only there can a decrease along a line begin or end within a run.
     fn at_special_spheres(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
-        let system = self.system();
-        let (shape, loading) = (system.shape, &system.loading);
-        let falls = |sign| system.ordinary(sign).iter().any(Signed::is_negative);
+        let (shape, loading) = (self.shape(), &self.loading);
+        let falls = |sign| self.ordinary(sign).iter().any(Signed::is_negative);
         let everywhere = falls(Sign::Plus) || falls(Sign::Minus);
         let mut sites = Vec::new();
         for (site, _, pushes) in loading.extras() {
@@ -381,15 +379,14 @@ impl Pile {
         let Some(last) = layers.last() else {
             return Ok(Vec::new());
         };
-        let system = self.system();
-        let lines = LineForces::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(self);
         let (mut ends, mut sites) = (BigUint::zero(), BigUint::zero());
         for k in layers {
             ends += lines.most_ends_of_pieces(*k)?;
             sites += shape.layer(*k)?.site_count();
         }
         // One layer more, so that the last sign change is included.
-        let planes = system.size_of_sweep(last + 1).planes;
+        let planes = self.size_of_sweep(last + 1).planes;
         let are_cheaper = trees_are_cheaper(&ends, &sites);
         let by_trees = || {
             refuse_beyond(
@@ -410,7 +407,7 @@ impl Pile {
             return by_trees();
         }
         let by_sweep = || {
-            let mut sweep = shortest_exact_sweep(&lines, &system, last + 1)?;
+            let mut sweep = shortest_exact_sweep(&lines, last + 1)?;
             let least = layers.iter().map(|k| {
                 sweep.advance(*k, Meter::NONE)?;
                 least_transmitted(&mut sweep, &lines)
@@ -456,12 +453,10 @@ fn least_at_ends(
     let mut least: Option<(BigInt, Site, Direction)> = None;
     let mut denominator = BigInt::one();
     for (_, row) in lines.ends_of_pieces(k)? {
-        let above = lines.forces_above(k, &row, LineSelection::All)?;
-        let changes = above.changes;
-        for ([i, j], forces) in row.into_iter().zip(above.forces) {
+        let above = lines.forces_above(k, &row, LineSelection::All, Meter::NONE)?;
+        for ([i, j], above) in row.into_iter().zip(above) {
             let site = Site { i, j, k };
-            let SphereForces { forces, changes } =
-                lines.to_below(site, SphereForces { forces, changes }, Meter::NONE);
+            let SphereForces { forces, changes } = lines.to_below(site, above, Meter::NONE);
             denominator = lines.scale(changes);
             for (force, direction) in forces.into_iter().zip(directions.iter().copied()) {
                 if least.as_ref().is_none_or(|(least, ..)| force < *least) {

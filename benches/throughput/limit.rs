@@ -8,6 +8,7 @@ use std::hint::black_box;
 
 use cannonpile::Pile;
 use cannonpile::shape::Selection;
+use cannonpile_testkit::cases;
 use num_traits::ToPrimitive;
 
 use crate::fill::memset;
@@ -28,7 +29,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
 
     for (full, smoke) in [(60, 6), (200, 8), (400, 10)] {
         let pile = alternating(extent.size(full, smoke));
-        let planes = pile.plan(Selection::Base).expect("a plan").planes;
+        let planes = cases::limbs(pile.plan(Selection::Base).expect("a plan").bits);
         let mut other = slices(&pile);
         let loops = ratio(
             extent.pairs,
@@ -97,7 +98,7 @@ fn sweep_floats(layers: &[usize], slices: &mut [Vec<f64>; 3]) {
 }
 
 /// Updates the state of a third of each layer, in limbs, and propagates carries once in three layers, as the sweep does.
-fn sweep_limbs(layers: &[usize], planes: usize) {
+fn sweep_limbs(layers: &[usize], planes: u64) {
     let most = layers.last().copied().unwrap_or(0) / 3 + 1;
     let mut limbs: Vec<[Vec<i64>; 3]> = (0..planes)
         .map(|_| [(); 3].map(|()| vec![1; most]))
@@ -120,7 +121,7 @@ fn sweep_limbs(layers: &[usize], planes: usize) {
             }
         }
         if k % 3 == 2 {
-            for p in 1..planes {
+            for p in 1..limbs.len() {
                 let (below, above) = limbs.split_at_mut(p);
                 for (lower, upper) in below[p - 1].iter_mut().zip(&mut above[0]) {
                     for (lower, upper) in lower[..third].iter_mut().zip(&mut upper[..third]) {

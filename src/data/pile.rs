@@ -83,7 +83,7 @@ impl Parts {
             }
         };
         let [x, y] = pile.tilt().clone();
-        let (shape, loading) = (pile.shape(), pile.loading());
+        let (shape, loading) = (pile.shape(), &pile.loading);
         Self {
             dimension: pile.dimension(),
             sin_phi: pile.sin_phi().clone(),

@@ -111,7 +111,7 @@ mod tests {
 
     use super::*;
     use crate::Pile;
-    use crate::engine::LineSelection;
+    use crate::engine::{LineSelection, Meter};
     use crate::lattice::{Region, Site};
 
     /// Returns piles with and without sign changes, with lines of odd and of even length. Each pile has a variant with
@@ -176,8 +176,7 @@ mod tests {
     #[test]
     fn a_row_of_the_top_has_its_ends() {
         let pile = Pile::under(Region::triangle(4).unwrap(), "+".parse().unwrap()).unwrap();
-        let system = pile.system();
-        let lines = LineForces::<BigRational>::new(&system);
+        let lines = LineForces::<BigRational>::new(&pile);
         let ends: Vec<_> = lines.ends_of_pieces(0).unwrap().collect();
         let row = |j, ends: &[i128]| (j, ends.iter().map(|i| [*i, j]).collect());
         assert_eq!(
@@ -195,8 +194,7 @@ mod tests {
     fn check_linearity(piles: impl IntoIterator<Item = Pile>) -> usize {
         let mut unlisted = 0;
         for pile in piles {
-            let system = pile.system();
-            let lines = LineForces::<BigRational>::new(&system);
+            let lines = LineForces::<BigRational>::new(&pile);
             for k in 1..pile.layers() {
                 for (j, ends) in lines.ends_of_pieces(k).unwrap() {
                     let row = pile
@@ -208,9 +206,8 @@ mod tests {
                         .unwrap();
                     let sites: Vec<[i128; 2]> = row.i.map(|i| [i, j]).collect();
                     let forces = lines
-                        .forces_above(k, &sites, LineSelection::All)
-                        .unwrap()
-                        .forces;
+                        .forces_above(k, &sites, LineSelection::All, Meter::NONE)
+                        .unwrap();
                     for (site, around) in sites.iter().skip(1).zip(forces.windows(3)) {
                         if ends.contains(site) {
                             continue;
@@ -219,6 +216,7 @@ mod tests {
                         let [before, here, after] = around else {
                             unreachable!()
                         };
+                        let [before, here, after] = [before, here, after].map(|of| &of.forces);
                         for ((a, b), c) in before.iter().zip(here).zip(after) {
                             let stacking = pile.shape().stacking();
                             assert_eq!(a + c, b + b, "{stacking} {site:?} k={k}");

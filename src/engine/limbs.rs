@@ -104,11 +104,6 @@ impl Size {
         };
         Self { bits, planes }
     }
-
-    /// Returns the bits that the planes provide.
-    pub(crate) fn reserved(self) -> u64 {
-        62 + u64::from(LIMB) * (self.planes as u64 - 1)
-    }
 }
 
 /// Returns an upper bound of 2√3·B·D, for K = `layers` layers of N = `spheres` spheres in all.
@@ -444,8 +439,7 @@ pub(super) fn limbs(value: &BigInt, planes: usize) -> Option<Vec<i64>> {
 mod tests {
     use super::*;
     use crate::Pile;
-    use crate::engine::rows::exact_sweep;
-    use crate::engine::single::plain_sweep;
+    use crate::engine::rows::{exact_sweep, plain_sweep};
     use crate::engine::{Cells, LineForces, Sweep};
     use crate::lattice::{Dimension, Region, Site};
     use crate::shape::Shape;
@@ -585,11 +579,10 @@ mod tests {
 
     /// Compares the forces on all lines of some layers, in limbs and in big integers.
     fn compare(pile: &Pile) {
-        let (system, last) = (pile.system(), pile.layers() - 1);
-        let lines = LineForces::<BigRational>::new(&system);
-        let mut exact: Sweep<'_, BigRational, Planes> = exact_sweep(&lines, &system, last).unwrap();
-        let mut plain: Sweep<'_, BigRational, Cells<BigInt>> =
-            plain_sweep(&lines, &system, last).unwrap();
+        let last = pile.layers() - 1;
+        let lines = LineForces::<BigRational>::new(pile);
+        let mut exact: Sweep<'_, BigRational, Planes> = exact_sweep(&lines, last).unwrap();
+        let mut plain: Sweep<'_, BigRational, Cells<BigInt>> = plain_sweep(&lines, last).unwrap();
         // The first steps cross 13 layers, so that passes are deferred. The last steps cross single layers.
         for k in (0..=last).filter(|k| *k % 13 == 7 || last - *k < 4) {
             exact.advance(k, crate::engine::Meter::NONE).unwrap();
@@ -605,8 +598,7 @@ mod tests {
     #[test]
     fn numbers_that_grow_to_two_limbs_equal_big_integers() {
         let pile = Pile::under(Region::SITE, "+-".repeat(21).parse().unwrap()).unwrap();
-        let system = pile.system();
-        let planes = |last| system.size_of_sweep(last).planes;
+        let planes = |last| pile.size_of_sweep(last).planes;
         assert_eq!([planes(20), planes(pile.layers() - 1)], [1, 2]);
         compare(&pile);
     }
@@ -622,8 +614,7 @@ mod tests {
             let load = BigRational::from(BigInt::from(1_i64 << bits));
             let [i, j] = corners[0];
             let pile = pile.clone().with_load(Site { i, j, k: 4 }, load).unwrap();
-            let system = pile.system();
-            let planes = |last| system.size_of_sweep(last).planes;
+            let planes = |last| pile.size_of_sweep(last).planes;
             grown += usize::from(planes(6) < planes(8));
             compare(&pile);
         }

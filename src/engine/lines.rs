@@ -10,18 +10,21 @@
 //!
 //! A straight pile has no sign change, so every force has a closed form.
 
+use alloc::borrow::Cow;
 use alloc::vec::Vec;
+use core::array;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use super::meter::Meter;
+use crate::Error;
 use crate::each::Each;
 use crate::formula::{self, force, half_turn, transmitted};
 use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Row, Sign, Site};
-use crate::pile::{Extra, System};
+use crate::pile::{Extra, Pile};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{RunLayers, Shape};
 use crate::sorted::Sorted;
@@ -34,12 +37,17 @@ pub(crate) struct SphereForces<T: Algebra> {
     pub(crate) changes: usize,
 }
 
-/// The increments that the spheres of a pile add to their lines, as numerators in the ring of the scalar.
+/// A pile in the numerators of a scalar: the increments that its spheres add to their lines, and the directions of the
+/// lines.
 ///
 /// A force after d sign changes has the denominator [`scale`](Self::scale)(d).
 #[derive(Clone, Debug)]
 pub(crate) struct LineForces<'p, T: Algebra> {
-    pub(super) shape: &'p Shape,
+    /// The data of the pile, with the rational loads of the forces.
+    pub(crate) pile: Cow<'p, Pile>,
+    pub(crate) shape: &'p Shape,
+    /// Whether loads or a tilt in the scalar act on the pile as well.
+    pub(crate) has_scalar_loads: bool,
     /// The increments of an ordinary sphere, under the sign of the runs with an even index and under the other one.
     /// They differ only under gravity that leans.
     ordinary: [[T::Numerator; 3]; 2],
@@ -51,10 +59,14 @@ pub(crate) struct LineForces<'p, T: Algebra> {
     /// sphere with horizontal contacts only.
     pub(super) extra_loads: Sorted<Site, Vector<T::Numerator>>,
     scale: T::Numerator,
-    /// 1/[`System::denominator`], whose numerator over `scale` is 1 in integers.
-    least: BigRational,
     /// Whether a sign change triples the denominator. It does if the ring of numerators does not contain 1/3.
     triples: bool,
+    /// W, over `sum_scale`.
+    pub(crate) increment_sum: T::Numerator,
+    pub(crate) sum_scale: T::Numerator,
+    /// The directions under a + step, over `direction_scale`.
+    pub(crate) directions: [Vector<T::Numerator>; 3],
+    pub(crate) direction_scale: T::Numerator,
 }
 
 /// A line of contacts within a run: its direction, and the position at which it would cross layer 0.
@@ -73,13 +85,40 @@ struct Own<N> {
     load: Vector<N>,
 }
 
-/// Returns the numerator of a value over the denominator of `least`, which all numerators share.
-fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerator {
-    if value.is_zero() {
-        return T::Numerator::zero();
+/// Returns values as numerators over one denominator. A scalar that is its own numerator stays as it is.
+pub(crate) fn numerators<T: Algebra, const N: usize>(
+    values: [T; N],
+) -> ([T::Numerator; N], T::Numerator) {
+    match T::into_numerators(values) {
+        Ok(own) => (own, T::Numerator::one()),
+        Err(rationals) => T::numerators(&rationals),
     }
-    let ([value, _], _) = T::numerators(&[value, least.clone()]);
-    value
+}
+
+/// Returns `n / d`, or an error if the scalar cannot hold it.
+pub(crate) fn to_scalar<T: Algebra>(
+    quantity: &'static str,
+    n: T::Numerator,
+    d: &T::Numerator,
+) -> Result<T, Error> {
+    match T::from_ratio(n, d) {
+        Some(value) if value.is_defined() => Ok(value),
+        _ => Err(Error::overflow(quantity, T::NAME)),
+    }
+}
+
+/// Returns each of `n` over `d`, or an error if the scalar cannot hold one of them.
+pub(crate) fn to_scalars<T: Algebra>(
+    quantity: &'static str,
+    n: [T::Numerator; 3],
+    d: &T::Numerator,
+) -> Result<[T; 3], Error> {
+    let [x, y, z] = n;
+    Ok([
+        to_scalar(quantity, x, d)?,
+        to_scalar(quantity, y, d)?,
+        to_scalar(quantity, z, d)?,
+    ])
 }
 
 /// Returns the signs of the runs with an even index and of those with an odd one.
@@ -107,96 +146,148 @@ fn horizontal<N: Ring>(Load { x, y, .. }: Load<N>, w: &N) -> Vector<N> {
 }
 
 impl<'p, T: Algebra> LineForces<'p, T> {
-    pub(crate) fn new(system: &System<'p>) -> Self {
-        // One denominator serves all increments and loads.
-        let least = BigRational::new(BigInt::one(), system.denominator());
-        let (_, scale) = T::numerators(core::array::from_ref(&least));
-        let numerator = |value| numerator::<T>(value, &least);
-        let w = &system.increment_sum;
-        let gravity = system.loading.ordinary();
-        let [first, second] = signs(system.shape);
-        let of_first = system.load_increments(&gravity, first).each(numerator);
-        let of_second = if gravity.is_vertical() {
-            of_first.clone()
-        } else {
-            system.load_increments(&gravity, second).each(numerator)
-        };
-        // The increments of a load balance it, so their sum is its vertical part.
-        let gravity = Vector {
-            z: formula::weight(&of_first),
-            ..horizontal(gravity, w).map(numerator)
-        };
+    pub(crate) fn new(pile: &'p Pile) -> Self {
+        Self::of(Cow::Borrowed(pile), pile.shape())
+    }
+
+    /// Returns the numerators of a pile of the given shape.
+    pub(crate) fn of(pile: Cow<'p, Pile>, shape: &'p Shape) -> Self {
+        let (increments, scale) =
+            numerators(formula::increments(&T::from_rational(pile.sin_phi())));
+        let ([increment_sum], sum_scale) = T::numerators(&[pile.increment_sum()]);
+        let directions = pile.directions::<T>().each(Vector::into_array);
+        let components = array::from_fn::<_, 9, _>(|n| directions[n / 3][n % 3].clone());
+        let (components, direction_scale) = numerators(components);
+        let zero = T::Numerator::zero;
         let mut lines = Self {
-            shape: system.shape,
-            ordinary: [of_first, of_second],
-            gravity,
+            shape,
+            has_scalar_loads: false,
+            gravity: Vector {
+                x: zero(),
+                y: zero(),
+                z: formula::weight(&increments),
+            },
+            ordinary: [increments.clone(), increments],
             extras: Sorted::new(),
             extra_loads: Sorted::new(),
             scale,
-            least: least.clone(),
             triples: formula::triples::<T>(),
+            increment_sum,
+            sum_scale,
+            directions: [0, 3, 6].each(|line| {
+                let [x, y, z] = [0, 1, 2].each(|n| components[line + n].clone());
+                Vector { x, y, z }
+            }),
+            direction_scale,
+            pile,
         };
-        let extras = system.extras().map(|Extra { site, load, lines }| Own {
-            site,
-            lines: lines.each(numerator),
-            load: vector(load, w).map(numerator),
-        });
-        lines.add(extras.collect());
+        if !lines.pile.is_uniform() {
+            lines.weigh();
+        }
         lines
     }
 
-    /// Returns a given horizontal force as a numerator over the denominator after `changes` sign changes.
-    pub(crate) fn numerator(&self, force: BigRational, changes: usize) -> T::Numerator {
-        self.scaled(numerator::<T>(force, &self.least), changes)
+    /// Takes the weights and loads of the pile. Each increment is rounded once, from a rational.
+    fn weigh(&mut self) {
+        let pile = &self.pile;
+        // One denominator serves all increments and loads.
+        let least = BigRational::new(BigInt::one(), pile.denominator());
+        let numerator = |value: BigRational| {
+            if value.is_zero() {
+                return T::Numerator::zero();
+            }
+            let ([value, _], _) = T::numerators(&[value, least.clone()]);
+            value
+        };
+        let (_, scale) = T::numerators(array::from_ref(&least));
+        let (w, gravity) = (pile.increment_sum(), pile.loading.ordinary());
+        let increments = |sign| pile.load_increments(&gravity, sign).each(numerator);
+        let ordinary = signs(self.shape).each(increments);
+        let extras = pile.extras().map(|Extra { site, load, lines }| Own {
+            site,
+            lines: lines.each(numerator),
+            load: vector(load, &w).map(numerator),
+        });
+        let extras = extras.collect();
+        self.gravity = Vector {
+            // The increments of a load balance it, so their sum is its vertical part.
+            z: formula::weight(&ordinary[0]),
+            ..horizontal(gravity, &w).map(numerator)
+        };
+        (self.ordinary, self.scale) = (ordinary, scale);
+        self.add(extras);
+    }
+
+    /// Adds to the loads on spheres.
+    pub(crate) fn add_loads(&mut self, loads: Vec<(Site, Load<T>)>) {
+        let (mut rational, mut own) = (false, Vec::new());
+        for (site, Load { down, x, y }) in loads {
+            match T::into_numerators([down, x, y]) {
+                Ok([down, x, y]) => own.push((site, Load { down, x, y })),
+                Err([down, x, y]) => {
+                    let loading = &mut self.pile.to_mut().loading;
+                    loading.add_load(site, &Load { down, x, y });
+                    rational = true;
+                }
+            }
+        }
+        if rational {
+            *self = Self::of(self.pile.clone(), self.shape);
+        }
+        if !own.is_empty() {
+            self.has_scalar_loads = true;
+            self.add_own_loads(own);
+        }
     }
 
     /// Adds to the loads on spheres, in a scalar that is its own numerator.
-    pub(crate) fn add_loads(
-        &mut self,
-        system: &System<'_>,
-        loads: Vec<(Site, Load<T::Numerator>)>,
-    ) {
-        let (s, w) = Self::constants(system);
+    fn add_own_loads(&mut self, loads: Vec<(Site, Load<T::Numerator>)>) {
+        let s = self.sin_phi();
         let mut forces = Vec::new();
         for (site, load) in loads {
             let sign = self.shape.sign_below(site.k).unwrap_or(Sign::Plus);
             forces.push(Own {
                 site,
-                lines: system.load_increments_of(&load, &s, sign),
-                load: vector(load, &w),
+                lines: self.pile.load_increments_of(&load, &s, sign),
+                load: vector(load, &self.increment_sum),
             });
         }
         self.add(forces);
     }
 
-    /// Adds to the tilt of gravity, in a scalar that is its own numerator.
-    pub(crate) fn add_tilt(&mut self, system: &System<'_>, [x, y]: [T::Numerator; 2]) {
-        let (s, w) = Self::constants(system);
+    /// Adds to the tilt of gravity.
+    pub(crate) fn add_tilt(&mut self, tilt: [T; 2]) {
+        let [x, y] = match T::into_numerators(tilt) {
+            Ok(tilt) => tilt,
+            Err(tilt) => {
+                self.pile.to_mut().loading.add_tilt(tilt);
+                *self = Self::of(self.pile.clone(), self.shape);
+                return;
+            }
+        };
+        self.has_scalar_loads = true;
         let leaning = |weight: BigRational| {
             let ([weight], _) = T::numerators(&[weight]);
             let [x, y] = [&x, &y].each(|part| force(weight.clone(), part));
-            Load {
-                down: T::Numerator::zero(),
-                x,
-                y,
-            }
+            let down = T::Numerator::zero();
+            Load { down, x, y }
         };
-        let ordinary = leaning(system.loading.ordinary_weight());
+        let s = self.sin_phi();
+        let ordinary = leaning(self.pile.loading.ordinary_weight());
         for (sign, lines) in signs(self.shape).into_iter().zip(&mut self.ordinary) {
-            let own = system.load_increments_of(&ordinary, &s, sign);
+            let own = self.pile.load_increments_of(&ordinary, &s, sign);
             *lines = add(lines.clone(), &own);
         }
-        self.gravity = self.gravity.clone() + &vector(ordinary, &w);
-        let extras = system.loading.extra_weights();
+        self.gravity = self.gravity.clone() + &vector(ordinary, &self.increment_sum);
+        let extras = self.pile.loading.extra_weights();
         let extras = extras.map(|(site, weight)| (site, leaning(weight)));
-        self.add_loads(system, extras.collect());
+        self.add_own_loads(extras.collect());
     }
 
-    /// Returns s and W, in a scalar that is its own numerator.
-    fn constants(system: &System<'_>) -> (T::Numerator, T::Numerator) {
-        let constants = [system.sin_phi.clone(), system.increment_sum.clone()];
-        let ([s, w], _) = T::numerators(&constants);
-        (s, w)
+    /// Returns s = sin φ, in a scalar that is its own numerator.
+    fn sin_phi(&self) -> T::Numerator {
+        let ([s], _) = T::numerators(core::array::from_ref(self.pile.sin_phi()));
+        s
     }
 
     /// Adds to the forces of spheres.
@@ -206,7 +297,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
             let run_below = self.shape.stretch_to(site.k + 1);
             if let Some(run) = run_below.filter(|run| site.k < run.to) {
                 for (direction, own) in Direction::ALL.into_iter().zip(lines) {
-                    let place = (Line::through(site, direction, run), site.k);
+                    let place = (Line::through(site, direction, &run), site.k);
                     extras.push((place, own));
                 }
             }
@@ -224,7 +315,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
     }
 
     /// Converts a numerator from the denominator before any sign change to the one after `changes` sign changes.
-    pub(super) fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
+    pub(crate) fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
         match self.power(changes) {
             Some(power) => numerator * &power,
             None => numerator,
@@ -233,14 +324,9 @@ impl<'p, T: Algebra> LineForces<'p, T> {
 
     /// Returns the factor between the denominators before any sign change and after `changes` of them, unless they are
     /// equal.
-    fn power(&self, changes: usize) -> Option<T::Numerator> {
+    pub(super) fn power(&self, changes: usize) -> Option<T::Numerator> {
         let three = || T::Numerator::from_i128(3);
         (self.triples && changes > 0).then(|| pow(three(), changes))
-    }
-
-    /// Converts a numerator from the denominator after `from` sign changes to the one after `to`.
-    pub(crate) fn rescaled(&self, numerator: T::Numerator, from: usize, to: usize) -> T::Numerator {
-        self.scaled(numerator, to.saturating_sub(from))
     }
 
     /// Returns the force of gravity and of the load on a sphere, in mg/W, over the denominator after `changes` sign
@@ -258,15 +344,41 @@ impl<'p, T: Algebra> LineForces<'p, T> {
         self.gravity.clone().map(|part| self.scaled(part, changes))
     }
 
-    /// Returns the sum of the increments of `n` ordinary spheres in the first run, over the denominator before any sign
-    /// change. `line` is the index of the direction.
-    pub(crate) fn ordinary(&self, n: T::Numerator, line: usize) -> T::Numerator {
-        self.ordinary_in(0, n, line)
+    /// Returns the sum of the increments of `n` ordinary spheres in a run, over the denominator before any sign change.
+    /// `line` is the index of the direction.
+    pub(crate) fn ordinary(&self, run: usize, n: T::Numerator, line: usize) -> T::Numerator {
+        force(n, &self.ordinary[run % 2][line])
     }
 
-    /// Returns the sum of the increments of `n` ordinary spheres in a run, over the denominator before any sign change.
-    pub(super) fn ordinary_in(&self, run: usize, n: T::Numerator, line: usize) -> T::Numerator {
-        force(n, &self.ordinary[run % 2][line])
+    /// Returns the force that a sphere of the first run, `run`, transmits along one line: the increments of this sphere
+    /// and of the spheres above it on the line. The caller has checked the site.
+    #[inline]
+    pub(crate) fn closed(&self, run: &RunLayers, site: Site, direction: Direction) -> T::Numerator {
+        let Site { i, j, k } = site;
+        let above = self.shape.spheres_above(run, k, [i, j])[direction.index()];
+        let [i, j] = start_of([i, j], direction, run.sign, -1);
+        let below = Site { i, j, k: k + 1 };
+        self.counted(run, below, direction, above + 1)
+    }
+
+    /// Returns the sum of the increments of the `n` spheres above a site on a line of the run, loads included. It is a
+    /// numerator over the denominator before any sign change.
+    #[inline]
+    pub(super) fn counted(
+        &self,
+        run: &RunLayers,
+        site: Site,
+        direction: Direction,
+        n: i128,
+    ) -> T::Numerator {
+        let ordinary = self.ordinary(run.index, T::Numerator::from_i128(n), direction.index());
+        if self.extras.is_empty() {
+            return ordinary;
+        }
+        let line = Line::through(site, direction, run);
+        let extras = self.extras.range(&((line, site.k - n)..(line, site.k)));
+        let add = |sum, (_, extra): &(_, T::Numerator)| transmitted(sum, extra);
+        extras.iter().fold(ordinary, add)
     }
 
     /// Returns the increments of an ordinary sphere above which the sign changes `changes` times, over the denominator
@@ -287,7 +399,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
         Direction::ALL.each(|direction| {
             let extra = self
                 .extras
-                .get(&(Line::through(site, direction, run), site.k));
+                .get(&(Line::through(site, direction, &run), site.k));
             // A sphere of ordinary weight has no entry.
             extra.map_or_else(T::Numerator::zero, |extra| {
                 self.scaled(extra.clone(), run.index)
@@ -383,7 +495,7 @@ fn add<N: Ring>([a, b, c]: [N; 3], [own_a, own_b, own_c]: &[N; 3]) -> [N; 3] {
 }
 
 impl Line {
-    pub(super) fn through(site: Site, direction: Direction, run: RunLayers) -> Self {
+    pub(super) fn through(site: Site, direction: Direction, run: &RunLayers) -> Self {
         let place = start_of([site.i, site.j], direction, run.sign, site.k);
         Self {
             run: run.index,

@@ -272,9 +272,9 @@ mod tests {
     /// Compares the floats from limbs with those from exact numbers, on all lines below the top layer, before and after
     /// a half-turn.
     fn compare<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(pile: &Pile) {
-        let (system, last) = (pile.system(), pile.layers() - 1);
-        let lines = LineForces::<BigRational>::new(&system);
-        let mut sweep = exact_sweep(&lines, &system, last).unwrap();
+        let last = pile.layers() - 1;
+        let lines = LineForces::<BigRational>::new(pile);
+        let mut sweep = exact_sweep(&lines, last).unwrap();
         for k in 1..=last {
             sweep.advance(k, crate::engine::Meter::NONE).unwrap();
             let changes = sweep.turned_already();

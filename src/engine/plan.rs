@@ -8,36 +8,18 @@ use num_traits::Zero;
 
 use super::grid::Grid;
 use super::limbs::{Size, bound};
+use super::lines::LineForces;
 use super::question::{Method, Quantity};
 use super::tree::{MAX_NODES, size_of_tree};
 use crate::Error;
+use crate::Pile;
 use crate::each::Each;
-use crate::lattice::{Region, Site};
-use crate::pile::System;
+use crate::lattice::{Dimension, Region, Site};
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::Rows;
 
 /// The maximum number of spheres of a row that share a tree.
 pub(crate) const CHUNK: i128 = 1024;
-
-/// The representation of the numbers in a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Storage {
-    /// In limbs, whose number follows from the proved bound.
-    Limbs,
-    /// In the given number of 64-bit words for each value.
-    Words(usize),
-}
-
-impl Storage {
-    /// Returns the representation of the numerators of a scalar in a sweep of a system.
-    pub(crate) fn of<T: Algebra>(system: &System<'_>) -> Self {
-        match T::EXACTNESS {
-            Exactness::Exact if !system.has_scalar_loads => Self::Limbs,
-            _ => Self::Words(size_of::<T::Numerator>().div_ceil(size_of::<i64>())),
-        }
-    }
-}
 
 /// The method that computes a quantity for a part of a pile, and its cost.
 ///
@@ -50,7 +32,7 @@ impl Storage {
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
 /// let plan = pile.plan(Selection::Base)?;
 /// assert_eq!(plan.method, Method::Sweep);
-/// assert_eq!(plan.to_string(), "sweep: 5 runs, 81 numbers of 1 x 64 bits");
+/// assert_eq!(plan.to_string(), "sweep: 27 spheres visited, 648 bytes for numbers of 12 bits");
 ///
 /// // A base of more than 10³⁰ rows is computed row by row, with a tree for each piece of a row.
 /// let high = Pile::under(Region::SITE, format!("(2,1,{})", 10_i128.pow(30)).parse()?)?;
@@ -64,53 +46,35 @@ impl Storage {
 pub struct Plan {
     /// The method that computes the forces.
     pub method: Method,
-    /// The number of runs above the lowest layer of the question. A sweep makes a pass for each run, and a tree has a
-    /// level for each.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub runs: usize,
-    /// The maximum number of spheres whose forces are computed or looked up.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub visited: BigUint,
-    /// The maximum number of spheres whose forces are transferred across a sign change.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub turned: BigUint,
-    /// The maximum number of passes of a sweep, each through a run or a part of one. 0 for the other methods.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub passes: BigUint,
-    /// The number of values that a sweep stores. 0 for the other methods.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub numbers: BigUint,
-    /// The bits that exact numerators may need, by the proved bound. 0 for methods whose numbers grow as required.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub bits: u64,
-    /// The bits that a sweep reserves for each value.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub reserved: u64,
-    /// The number of `i64` limbs of each value.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub planes: usize,
-    /// The maximum number of square roots.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub roots: u64,
     /// The number of rows in the answer.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub rows: BigUint,
-    /// The memory for the numbers of a sweep, in bytes.
+    /// The maximum number of spheres whose forces are computed or looked up.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
+    pub visited: BigUint,
+    /// The bits that the exact numerators of a sweep may need, by the proved bound. 0 for the other methods, whose numbers
+    /// grow as required.
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
+    pub bits: u64,
+    /// The memory for the numbers of a sweep, in bytes. 0 for the other methods.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub bytes: BigUint,
 }
 
 impl fmt::Display for Plan {
+    /// `sweep: 27 spheres visited, 648 bytes for numbers of 12 bits`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.method)?;
-        match self.method {
-            Method::Closed => Ok(()),
-            Method::Tree => write!(f, ": {} runs", self.runs),
-            Method::Sweep => write!(
-                f,
-                ": {} runs, {} numbers of {} x 64 bits",
-                self.runs, self.numbers, self.planes
-            ),
+        let Self {
+            method,
+            visited,
+            bits,
+            bytes,
+            ..
+        } = self;
+        write!(f, "{method}: {visited} spheres visited")?;
+        match method {
+            Method::Closed | Method::Tree => Ok(()),
+            Method::Sweep => write!(f, ", {bytes} bytes for numbers of {bits} bits"),
         }
     }
 }
@@ -140,13 +104,13 @@ pub(crate) fn unless_too_large<A>(
     }
 }
 
-impl System<'_> {
+impl Pile {
     /// Returns an error if a method does not apply to the pile.
     pub(crate) fn check_method(&self, method: Method) -> Result<(), Error> {
         let applies = match method {
-            Method::Closed => self.is_straight(),
+            Method::Closed => self.shape().stacking().is_straight(),
             Method::Tree => true,
-            Method::Sweep => self.fills_its_layers(),
+            Method::Sweep => self.dimension() == Dimension::Three,
         };
         if applies {
             Ok(())
@@ -157,7 +121,7 @@ impl System<'_> {
 
     /// Returns the width of the numbers of an exact sweep down to layer `last`, including a sign change there.
     pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
-        let changes = self.shape.changes_above(last + 1);
+        let changes = self.shape().changes_above(last + 1);
         Size::new(&self.bound_of_sweep(last), changes)
     }
 
@@ -165,12 +129,32 @@ impl System<'_> {
     /// numbers.
     pub(crate) fn bound_of_sweep(&self, last: i128) -> BigInt {
         let [ordinary, extras] = self.magnitudes();
-        let spheres = self.shape.spheres_in(0..last + 1);
+        let spheres = self.shape().spheres_in(0..last + 1);
         bound(last + 1, &spheres, &ordinary, &extras)
     }
 
-    /// Returns the method and its cost for a question about the spheres in `rows`, with numbers in the given
-    /// representation.
+    pub(crate) fn check_on_floor(&self, rows: &Rows<'_>) -> Result<(), Error> {
+        let floor = self.layers() - 1;
+        match rows.clone().flatten().next() {
+            Some(site) if site.k != floor => Err(Error::NotOnFloor { site, floor }),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl<T: Algebra> LineForces<'_, T> {
+    /// Returns the number of 64-bit words of each value of a sweep whose exact numbers need this many limbs.
+    pub(super) fn words(&self, limbs: usize, are_limbs: bool) -> usize {
+        let own = size_of::<T::Numerator>().div_ceil(size_of::<i64>());
+        match T::EXACTNESS {
+            Exactness::Exact if are_limbs && !self.has_scalar_loads => limbs,
+            // The digits of a big integer are stored on the heap.
+            Exactness::Exact => own + limbs,
+            _ => own,
+        }
+    }
+
+    /// Returns the method and its cost for a question about the spheres in `rows`.
     ///
     /// # Errors
     /// [`Error::NoSuchMethod`], [`Error::NotOnFloor`], [`Error::TooLarge`].
@@ -179,78 +163,39 @@ impl System<'_> {
         rows: &Rows<'_>,
         quantity: Quantity,
         method: Option<Method>,
-        keeping: Storage,
     ) -> Result<Plan, Error> {
         if let Some(method) = method {
-            self.check_method(method)?;
+            self.pile.check_method(method)?;
         }
         let mut answers = rows.site_count();
-        if quantity.is_of_contacts() {
-            answers *= self.shape.dimension().directions().len();
-        } else if quantity != Quantity::Positions {
-            self.check_on_floor(rows)?;
+        match quantity {
+            Quantity::Contacts => answers *= self.shape.dimension().directions().len(),
+            Quantity::Floor => self.pile.check_on_floor(rows)?,
         }
-        let last = last_of(rows);
-        let mut plan = Plan {
+        let closed = Plan {
             method: Method::Closed,
-            runs: match self.shape.stretch_to(last) {
-                Some(run) => run.index + 1,
-                None => 0,
-            },
-            visited: rows.site_count(),
-            turned: BigUint::zero(),
-            passes: BigUint::zero(),
-            numbers: BigUint::zero(),
-            bits: 0,
-            reserved: 0,
-            planes: 0,
-            roots: quantity.roots(),
             rows: answers,
+            visited: rows.site_count(),
+            bits: 0,
             bytes: BigUint::zero(),
         };
-        if quantity == Quantity::Positions {
-            plan.visited = BigUint::zero();
-            return Ok(plan);
-        }
+        let is_one = rows.one().is_some();
+        let by_trees = || self.plan_trees(&closed, rows);
+        let by_sweep = || self.plan_sweep(&closed, rows, !is_one);
         match method {
-            Some(Method::Closed) => {}
-            None if self.is_straight() => {}
-            Some(Method::Tree) => self.plan_trees(&mut plan, rows)?,
-            Some(Method::Sweep) => self.plan_sweep(&mut plan, rows, keeping)?,
-            None if rows.one().is_some() => {
-                // A query for a single sphere falls back to a sweep if the tree is too large.
-                if let Err(too_large) = self.plan_trees(&mut plan, rows) {
-                    let growing = match keeping {
-                        // This sweep uses big integers, whose digits are stored on the heap.
-                        Storage::Limbs => {
-                            let digits = self.size_of_sweep(last).planes;
-                            Storage::Words(digits + size_of::<BigInt>().div_ceil(size_of::<i64>()))
-                        }
-                        words @ Storage::Words(_) => words,
-                    };
-                    self.plan_sweep(&mut plan, rows, growing)
-                        .map_err(|_| too_large)?;
-                }
-            }
-            None => {
-                let swept = self.plan_sweep(&mut plan, rows, keeping);
-                // If the sweep does not fit in memory, the rows are computed one by one.
-                swept.or_else(|_| self.plan_trees(&mut plan, rows))?;
-            }
-        }
-        Ok(plan)
-    }
-
-    pub(crate) fn check_on_floor(&self, rows: &Rows<'_>) -> Result<(), Error> {
-        let floor = self.shape.layers() - 1;
-        match rows.clone().flatten().next() {
-            Some(site) if site.k != floor => Err(Error::NotOnFloor { site, floor }),
-            _ => Ok(()),
+            Some(Method::Closed) => Ok(closed.clone()),
+            None if self.shape.stacking().is_straight() => Ok(closed.clone()),
+            Some(Method::Tree) => by_trees(),
+            Some(Method::Sweep) => self.plan_sweep(&closed, rows, true),
+            // A query for a single sphere falls back to a sweep if the tree is too large.
+            None if is_one => by_trees().or_else(|too_large| by_sweep().map_err(|_| too_large)),
+            // If the sweep does not fit in memory, the rows are computed one by one.
+            None => by_sweep().or_else(|_| by_trees()),
         }
     }
 
     /// Plans a tree for each piece of a row.
-    fn plan_trees(&self, plan: &mut Plan, rows: &Rows<'_>) -> Result<(), Error> {
+    fn plan_trees(&self, closed: &Plan, rows: &Rows<'_>) -> Result<Plan, Error> {
         let last = last_of(rows);
         let sites = rows.site_count();
         let mut pieces = BigUint::from(1_u32);
@@ -283,11 +228,24 @@ impl System<'_> {
             }
             above = most;
         }
-        above *= pieces;
-        plan.method = Method::Tree;
-        plan.turned = &above + &sites;
-        plan.visited = above + sites;
-        Ok(())
+        Ok(Plan {
+            method: Method::Tree,
+            visited: above * pieces + sites,
+            ..closed.clone()
+        })
+    }
+
+    /// Plans one sweep, down to the last layer of `rows`.
+    fn plan_sweep(&self, closed: &Plan, rows: &Rows<'_>, are_limbs: bool) -> Result<Plan, Error> {
+        let last = last_of(rows);
+        let size = self.pile.size_of_sweep(last);
+        let words = Grid::numbers(self.shape, last, self.words(size.planes, are_limbs))?;
+        Ok(Plan {
+            method: Method::Sweep,
+            bits: size.bits,
+            bytes: words * size_of::<i64>(),
+            ..closed.clone()
+        })
     }
 
     /// Returns an error if a tree of layer `k` is too large, judged by four sample pieces. Other pieces may still be
@@ -296,31 +254,6 @@ impl System<'_> {
         for piece in samples(&self.shape.layer(k)?) {
             size_of_tree(self.shape, k, &piece)?;
         }
-        Ok(())
-    }
-
-    /// Plans one sweep, down to the last layer of `rows`.
-    fn plan_sweep(&self, plan: &mut Plan, rows: &Rows<'_>, keeping: Storage) -> Result<(), Error> {
-        let (last, shape) = (last_of(rows), self.shape);
-        let size = self.size_of_sweep(last);
-        let words = match keeping {
-            Storage::Limbs => size.planes,
-            Storage::Words(words) => words,
-        };
-        let words_in_all = Grid::numbers(shape, last, words)?;
-        plan.method = Method::Sweep;
-        plan.numbers = shape.layer(last)?.site_count() * 3_u32;
-        plan.bytes = words_in_all * size_of::<i64>();
-        (plan.bits, plan.reserved, plan.planes) = (size.bits, size.reserved(), size.planes);
-        plan.turned = BigUint::zero();
-        let changes = (1..).map_while(|run| shape.stretch(run));
-        for change in changes.take_while(|run| run.from <= last) {
-            plan.turned += shape.layer(change.from)?.site_count();
-        }
-        plan.visited = rows.site_count();
-        let layers = rows.layers();
-        let stops = (layers.end - layers.start).max(1).unsigned_abs();
-        plan.passes = BigUint::from(stops) + plan.runs;
         Ok(())
     }
 }

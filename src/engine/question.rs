@@ -41,7 +41,7 @@ named!(
     "a method: closed, tree or sweep"
 );
 
-/// A quantity that a question requests for each sphere.
+/// A quantity that a question requests for each sphere. Its units do not matter to a plan.
 ///
 /// # Examples
 /// ```
@@ -49,103 +49,39 @@ named!(
 /// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(10)?;
-/// let roots = |quantity| {
-///     pile.plan(Question::new(Selection::All, quantity)).map(|plan| plan.roots)
-/// };
-/// assert_eq!(roots(Quantity::ContactMultiples)?, 0);
-/// assert_eq!(roots(Quantity::ContactForces)?, 1);
+/// let rows = |quantity| pile.plan(Question::new(Selection::Base, quantity)).map(|plan| plan.rows);
+/// assert_eq!(rows(Quantity::Floor)?, 55_u32.into());
+/// assert_eq!(rows(Quantity::Contacts)?, 0_u32.into());
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
-    /// The forces on the supports, in f₀: [`Forces::contacts`](crate::Forces::contacts).
-    ContactMultiples,
-    /// Contact forces in newtons, without vectors: [`Packing::contact_forces`](crate::Packing::contact_forces).
-    ContactForces,
-    /// The contact forces in SI units, with vectors and contact points:
-    /// [`Packing::contacts`](crate::Packing::contacts).
-    ContactVectors,
-    /// The forces on the floor, in mg and mg·tanθ: [`Forces::base`](crate::Forces::base).
-    FloorMultiples,
-    /// The forces on the floor in newtons: [`Packing::base`](crate::Packing::base).
-    FloorForces,
-    /// The positions of the centres, in metres: [`Packing::position`](crate::Packing::position).
-    Positions,
+    /// The forces on the supports: [`Forces::contacts`](crate::Forces::contacts).
+    Contacts,
+    /// The forces on the floor: [`Forces::base`](crate::Forces::base).
+    Floor,
 }
 
 impl Quantity {
-    const ALL: [Self; 6] = [
-        Self::ContactMultiples,
-        Self::ContactForces,
-        Self::ContactVectors,
-        Self::FloorMultiples,
-        Self::FloorForces,
-        Self::Positions,
-    ];
-
     const fn name(self) -> &'static str {
         match self {
-            Self::ContactMultiples => "contact multiples",
-            Self::ContactForces => "contact forces",
-            Self::ContactVectors => "contact vectors",
-            Self::FloorMultiples => "floor multiples",
-            Self::FloorForces => "floor forces",
-            Self::Positions => "positions",
+            Self::Contacts => "contacts",
+            Self::Floor => "floor",
         }
-    }
-
-    /// Returns the maximum number of square roots that the quantity needs.
-    ///
-    /// The radicands are 1/cos²θ, tan²θ, sin²θ and cos²θ. Components along y add 4cos²φ.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Quantity;
-    ///
-    /// assert_eq!(Quantity::FloorMultiples.roots(), 0);
-    /// // The radicands tan²θ and 4cos²φ.
-    /// assert_eq!(Quantity::FloorForces.roots(), 2);
-    /// ```
-    #[must_use]
-    pub const fn roots(self) -> u64 {
-        match self {
-            Self::ContactMultiples | Self::FloorMultiples => 0,
-            Self::ContactForces => 1,
-            Self::FloorForces => 2,
-            Self::Positions => 3,
-            Self::ContactVectors => 5,
-        }
-    }
-
-    /// Returns whether the quantity describes contacts between spheres.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Quantity;
-    ///
-    /// assert!(Quantity::ContactVectors.is_of_contacts());
-    /// assert!(!Quantity::FloorForces.is_of_contacts());
-    /// ```
-    #[must_use]
-    pub const fn is_of_contacts(self) -> bool {
-        matches!(
-            self,
-            Self::ContactMultiples | Self::ContactForces | Self::ContactVectors
-        )
     }
 }
 
 named!(
     Quantity,
-    Quantity::ALL,
-    "a quantity: contact multiples, contact forces, contact vectors, floor multiples, floor forces or positions"
+    [Quantity::Contacts, Quantity::Floor],
+    "a quantity: contacts or floor"
 );
 
 /// A question: the spheres, the quantity, and optionally the method.
 ///
-/// A [`Selection`] alone converts to a question for forces in pile units: those on the floor for the base, and contact
-/// forces for any other part.
+/// A [`Selection`] alone converts to a question for forces: those on the floor for the base, and contact forces for any
+/// other part.
 ///
 /// # Examples
 /// ```
@@ -153,7 +89,7 @@ named!(
 /// use cannonpile::{Quantity, Question};
 ///
 /// let question = Question::from(Selection::Base);
-/// assert_eq!((question.quantity, question.method), (Quantity::FloorMultiples, None));
+/// assert_eq!((question.quantity, question.method), (Quantity::Floor, None));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(::serde::Serialize, ::serde::Deserialize))]
@@ -176,7 +112,7 @@ impl Question {
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Quantity, Question};
     ///
-    /// let question = Question::new(Selection::Base, Quantity::FloorMultiples);
+    /// let question = Question::new(Selection::Base, Quantity::Floor);
     /// assert_eq!(question, Selection::Base.into());
     /// ```
     #[must_use]
@@ -210,8 +146,8 @@ impl Question {
 impl From<Selection> for Question {
     fn from(part: Selection) -> Self {
         let quantity = match part {
-            Selection::Base => Quantity::FloorMultiples,
-            _ => Quantity::ContactMultiples,
+            Selection::Base => Quantity::Floor,
+            _ => Quantity::Contacts,
         };
         Self::new(part, quantity)
     }

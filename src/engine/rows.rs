@@ -1,97 +1,96 @@
-//! The forces on many spheres, in row order.
+//! The forces on spheres, by lines or by layers.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use num_rational::BigRational;
+use num_traits::Zero;
 
 use super::cells::Cells;
-use super::grid::{Grid, Layer};
+use super::grid::Grid;
 use super::limbs::Planes;
 use super::lines::{LineForces, SphereForces};
 use super::meter::Meter;
-use super::plan::{CHUNK, Plan, last_of};
+use super::plan::{CHUNK, Plan, last_of, unless_too_large};
 use super::question::Method;
-use super::single::{by_tree, plain_sweep, received};
 use super::sweep::Sweep;
 use super::thirds::has_threefold_symmetry;
 use super::tree::LineSelection;
 use crate::Error;
-use crate::lattice::Row;
-use crate::pile::System;
-use crate::scalar::Algebra;
-use crate::shape::Rows;
+use crate::lattice::{Row, Site};
+use crate::scalar::{Algebra, Exactness};
+use crate::shape::{Rows, Shape};
 
-/// The method that a plan has chosen for many spheres.
+/// The engine that a plan has chosen for many spheres.
 #[derive(Clone, Debug)]
-pub(crate) enum Engine<'p, T: Algebra, L> {
-    /// Each sphere separately.
-    Single(Option<Method>),
-    /// A tree for each piece of a row.
-    Tree,
-    /// A sweep, with one layer in memory.
-    Sweep(Box<Sweep<'p, T, L>>),
+pub(crate) enum Engine<'p, T: Algebra> {
+    /// By lines, with a tree for each piece of a row.
+    Lines,
+    /// By layers, in numerators of the scalar.
+    Cells(Box<Sweep<'p, T, Cells<T::Numerator>>>),
+    /// By layers, in limbs, for a scalar that is exact itself.
+    Limbs(Box<Sweep<'p, BigRational, Planes>>),
 }
 
-impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
-    fn new(
+impl<'p, T: Algebra> Engine<'p, T> {
+    /// # Errors
+    /// [`Error::TooLarge`] if it does not fit in memory.
+    pub(crate) fn new(
         plan: &Plan,
         rows: &Rows<'_>,
-        sweep: impl FnOnce(i128) -> Result<Sweep<'p, T, L>, Error>,
+        lines: &LineForces<'p, T>,
     ) -> Result<Self, Error> {
+        let last = last_of(rows);
         Ok(match plan.method {
-            Method::Tree if rows.one().is_none() => Self::Tree,
-            // Each sphere uses this method, or a tree if *closed* does not apply to the sphere.
-            method @ (Method::Closed | Method::Tree) => Self::Single(Some(method)),
-            Method::Sweep => Self::Sweep(Box::new(sweep(last_of(rows))?)),
+            Method::Closed | Method::Tree => Self::Lines,
+            // Integers cannot represent loads in another exact scalar.
+            Method::Sweep if T::EXACTNESS == Exactness::Exact && !lines.has_scalar_loads => {
+                let lines = LineForces::of(lines.pile.clone(), lines.shape);
+                Self::Limbs(Box::new(shortest_exact_sweep(&lines, last)?))
+            }
+            Method::Sweep => Self::Cells(Box::new(plain_sweep(lines, last)?)),
         })
     }
 
     pub(crate) const fn is_sweep(&self) -> bool {
-        matches!(self, Self::Sweep(_))
+        !matches!(self, Self::Lines)
     }
 
     /// Returns the best number of spheres for one request: those that share a tree, or a number that fits in the cache.
-    pub(crate) const fn sites_at_once(&self) -> i128 {
+    pub(crate) fn sites_at_once(&self, lines: &LineForces<'_, T>) -> i128 {
         match self {
-            Self::Tree => CHUNK,
-            Self::Single(_) | Self::Sweep(_) => 64,
+            Self::Lines if !lines.shape.stacking().is_straight() => CHUNK,
+            _ => 64,
         }
     }
 
-    /// Advances a sweep to layer `k`. Other methods do nothing.
+    /// Advances a sweep to layer `k`. The engine by lines does nothing.
     ///
     /// # Errors
     /// [`Error::Bug`], [`Error::Interrupted`].
     pub(crate) fn go_down_to(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
         match self {
-            Self::Sweep(sweep) => sweep.advance(k, meter),
-            Self::Single(_) | Self::Tree => Ok(()),
+            Self::Lines => Ok(()),
+            Self::Cells(sweep) => sweep.advance(k, meter),
+            Self::Limbs(sweep) => sweep.advance(k, meter),
         }
     }
 
     /// Returns the forces from above on each sphere of a piece of a row. A sweep must be at the layer of the row.
     pub(crate) fn received_in(
         &self,
-        pile: (&LineForces<'p, T>, &System<'p>),
+        lines: &LineForces<'p, T>,
         piece: &Row,
         meter: Meter<'_>,
     ) -> Vec<Result<SphereForces<T>, Error>> {
-        let sites = piece.clone().into_iter();
-        let one = |method, site| received(pile, (site, LineSelection::All), method, meter);
         match self {
-            Self::Single(method) => sites.map(|site| one(*method, site)).collect(),
-            Self::Tree => match received_in(pile.0, piece, meter) {
-                Ok(received) => received.into_iter().map(Ok).collect(),
-                Err(error) => sites.map(|_| Err(error.clone())).collect(),
-            },
-            Self::Sweep(sweep) => {
-                let one = |site| {
-                    meter.visit(1);
-                    sweep.received_before_turn(site)
-                };
-                sites.map(one).collect()
-            }
+            Self::Lines => by_lines(lines, piece, meter),
+            Self::Cells(sweep) => of_row(piece, meter, |site| sweep.received_before_turn(site)),
+            Self::Limbs(sweep) => of_row(piece, meter, |site| {
+                sweep
+                    .received_before_turn(site)
+                    .map(|above| in_scalar(sweep, above))
+            }),
         }
     }
 
@@ -99,105 +98,158 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
     /// be at the layer of the row.
     pub(crate) fn transmitted_in(
         &self,
-        pile: (&LineForces<'p, T>, &System<'p>),
+        lines: &LineForces<'p, T>,
         piece: &Row,
         meter: Meter<'_>,
     ) -> Vec<Result<SphereForces<T>, Error>> {
-        let sites = piece.clone().into_iter();
-        let lines = pile.0;
-        let increments = lines.increments_below(piece.k);
-        if let Self::Sweep(sweep) = self {
-            let one = |site| {
-                meter.visit(1);
-                sweep.transmitted(&increments, site, meter)
-            };
-            return sites.map(one).collect();
+        match self {
+            Self::Lines => {
+                let increments = lines.increments_below(piece.k);
+                let above = by_lines(lines, piece, meter);
+                let below = |(site, above): (_, Result<_, _>)| {
+                    Ok(lines.below_layer(&increments, site, above?, meter))
+                };
+                piece.clone().into_iter().zip(above).map(below).collect()
+            }
+            Self::Cells(sweep) => {
+                let increments = sweep.lines.increments_below(piece.k);
+                of_row(piece, meter, |site| {
+                    sweep.transmitted(&increments, site, meter)
+                })
+            }
+            Self::Limbs(sweep) => {
+                let increments = sweep.lines.increments_below(piece.k);
+                of_row(piece, meter, |site| {
+                    let below = sweep.transmitted(&increments, site, meter);
+                    below.map(|below| in_scalar(sweep, below))
+                })
+            }
         }
-        let above = self.received_in(pile, piece, meter);
-        let below = |(site, above): (_, Result<_, _>)| {
-            Ok(lines.below_layer(&increments, site, above?, meter))
+    }
+}
+
+/// Returns the forces of each sphere of a piece of a row, from a sweep.
+fn of_row<A>(
+    piece: &Row,
+    meter: Meter<'_>,
+    one: impl Fn(Site) -> Result<A, Error>,
+) -> Vec<Result<A, Error>> {
+    let one = |site| {
+        meter.visit(1);
+        one(site)
+    };
+    piece.clone().into_iter().map(one).collect()
+}
+
+/// Converts the integers of a sweep in limbs into the numerators of an exact scalar.
+fn in_scalar<T: Algebra>(
+    sweep: &Sweep<'_, BigRational, Planes>,
+    SphereForces { forces, changes }: SphereForces<BigRational>,
+) -> SphereForces<T> {
+    let forces = T::from_integers(forces, || sweep.lines.scale(changes));
+    SphereForces { forces, changes }
+}
+
+/// Returns the forces from above on each sphere of a piece of a row, with one tree for each [`CHUNK`].
+fn by_lines<T: Algebra>(
+    lines: &LineForces<'_, T>,
+    piece: &Row,
+    meter: Meter<'_>,
+) -> Vec<Result<SphereForces<T>, Error>> {
+    let changes = lines.shape.changes_above(piece.k);
+    let sites = piece.clone().into_iter();
+    if changes == 0 {
+        let one = |site| lines.above(site, LineSelection::All, meter);
+        return sites.map(one).collect();
+    }
+    let mut received = Vec::new();
+    for Row { k, j, i } in piece.pieces(CHUNK) {
+        let sites: Vec<[i128; 2]> = i.map(|i| [i, j]).collect();
+        match lines.forces_above(k, &sites, LineSelection::All, meter) {
+            Ok(forces) => received.extend(forces.into_iter().map(Ok)),
+            Err(error) => received.extend(sites.iter().map(|_| Err(error.clone()))),
+        }
+    }
+    received
+}
+
+impl<T: Algebra> LineForces<'_, T> {
+    /// Returns the forces from above on a sphere of the pile, and zero on lines outside `wanted`.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if the method does not fit in memory.
+    pub(crate) fn received(
+        &self,
+        (site, wanted): (Site, LineSelection),
+        method: Option<Method>,
+        meter: Meter<'_>,
+    ) -> Result<SphereForces<T>, Error> {
+        let by_sweep = || {
+            let mut sweep = plain_sweep(self, site.k)?;
+            sweep.advance(site.k, meter)?;
+            meter.visit(1);
+            sweep.received(site)
         };
-        sites.zip(above).map(below).collect()
+        match method {
+            Some(Method::Sweep) => by_sweep(),
+            Some(Method::Closed | Method::Tree) => self.above(site, wanted, meter),
+            // If many sign changes make the tree too large, the layers may still be small enough for a sweep.
+            None => unless_too_large(|| self.above(site, wanted, meter), by_sweep),
+        }
     }
 }
 
-impl<'p, T: Algebra> Engine<'p, T, Cells<T::Numerator>> {
-    /// Returns the engine that a plan has chosen, in the numerators of the scalar.
-    ///
-    /// # Errors
-    /// [`Error::TooLarge`] if it does not fit in memory.
-    pub(crate) fn plain(
-        plan: &Plan,
-        rows: &Rows<'_>,
-        (lines, system): (&LineForces<'p, T>, &System<'p>),
-    ) -> Result<Self, Error> {
-        Self::new(plan, rows, |last| plain_sweep(lines, system, last))
-    }
-}
-
-impl<'p> Engine<'p, BigRational, Planes> {
-    /// Returns the engine that a plan has chosen. A sweep works in limbs.
-    ///
-    /// # Errors
-    /// [`Error::TooLarge`] if it does not fit in memory.
-    pub(crate) fn exact(
-        plan: &Plan,
-        rows: &Rows<'_>,
-        (lines, system): (&LineForces<'p, BigRational>, &System<'p>),
-    ) -> Result<Self, Error> {
-        Self::new(plan, rows, |last| shortest_exact_sweep(lines, system, last))
-    }
+/// Returns a sweep down to layer `last` in the numerators of the scalar. It starts at the top.
+///
+/// # Errors
+/// [`Error::TooLarge`] if a layer does not fit in memory.
+pub(super) fn plain_sweep<'p, T: Algebra>(
+    lines: &LineForces<'p, T>,
+    last: i128,
+) -> Result<Sweep<'p, T, Cells<T::Numerator>>, Error> {
+    let limbs = match T::EXACTNESS {
+        Exactness::Exact => lines.pile.size_of_sweep(last).planes,
+        _ => 1,
+    };
+    let grid = Grid::new(lines.shape, last, lines.words(limbs, false))?;
+    let layer = Cells::new(&grid, &T::Numerator::zero());
+    Sweep::new(lines.clone(), grid, layer)
 }
 
 /// Returns a sweep in limbs down to layer `last`. It starts at the top.
 ///
 /// # Errors
 /// [`Error::TooLarge`] if a layer does not fit in memory.
+#[cfg(test)]
 pub(crate) fn exact_sweep<'p>(
     lines: &LineForces<'p, BigRational>,
-    system: &System<'_>,
     last: i128,
 ) -> Result<Sweep<'p, BigRational, Planes>, Error> {
-    let size = system.size_of_sweep(last);
-    let grid = Grid::new(lines.shape, last, size.planes)?;
-    let layer = Planes::new(&grid, system.bound_of_sweep(last));
-    Sweep::new(lines.clone(), grid, layer)
-}
-
-/// Returns the forces from above on consecutive spheres of a row, with one tree for each piece of it.
-///
-/// # Errors
-/// [`Error::TooLarge`] if a tree has too many nodes.
-fn received_in<T: Algebra>(
-    lines: &LineForces<'_, T>,
-    row: &Row,
-    meter: Meter<'_>,
-) -> Result<Vec<SphereForces<T>>, Error> {
-    let mut received = Vec::new();
-    for piece in row.pieces(CHUNK) {
-        let sites: Vec<[i128; 2]> = piece.i.map(|i| [i, piece.j]).collect();
-        let above = by_tree(lines, row.k, &sites, LineSelection::All, meter)?;
-        let changes = above.changes;
-        let forces = above.forces.into_iter();
-        received.extend(forces.map(|forces| SphereForces { forces, changes }));
-    }
-    Ok(received)
+    in_limbs(lines, last, Grid::new)
 }
 
 /// Returns a sweep in limbs down to layer `last`. It stores a third of each layer if the pile has threefold symmetry,
 /// and whole layers otherwise.
 ///
 /// # Errors
-/// As for [`exact_sweep`].
+/// [`Error::TooLarge`] if a layer does not fit in memory.
 pub(crate) fn shortest_exact_sweep<'p>(
     lines: &LineForces<'p, BigRational>,
-    system: &System<'_>,
     last: i128,
 ) -> Result<Sweep<'p, BigRational, Planes>, Error> {
-    if !has_threefold_symmetry(system) {
-        return exact_sweep(lines, system, last);
+    if has_threefold_symmetry(&lines.pile) {
+        in_limbs(lines, last, Grid::of_thirds)
+    } else {
+        in_limbs(lines, last, Grid::new)
     }
-    let grid = Grid::of_thirds(lines.shape, last, system.size_of_sweep(last).planes)?;
-    let layer = Planes::new(&grid, system.bound_of_sweep(last));
+}
+
+fn in_limbs<'p>(
+    lines: &LineForces<'p, BigRational>,
+    last: i128,
+    grid: impl FnOnce(&'p Shape, i128, usize) -> Result<Grid<'p>, Error>,
+) -> Result<Sweep<'p, BigRational, Planes>, Error> {
+    let grid = grid(lines.shape, last, lines.pile.size_of_sweep(last).planes)?;
+    let layer = Planes::new(&grid, lines.pile.bound_of_sweep(last));
     Sweep::new(lines.clone(), grid, layer)
 }

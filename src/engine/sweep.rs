@@ -44,7 +44,7 @@ use crate::scalar::{Algebra, CorrectlyRounded};
 /// The state of a sweep: the forces on all lines of one layer.
 #[derive(Clone, Debug)]
 pub(crate) struct Sweep<'p, T: Algebra, S> {
-    lines: LineForces<'p, T>,
+    pub(super) lines: LineForces<'p, T>,
     grid: Grid<'p>,
     layer: S,
     /// The last pass, or `None` at the top.
@@ -209,14 +209,14 @@ impl<'p, T: Algebra, S: Layer<T>> Sweep<'p, T, S> {
     }
 }
 
-impl<'p, T: Algebra> Sweep<'p, T, Cells<T::Numerator>> {
-    /// Returns a function from a row of the current layer to the forces on its lines. It returns [`Error::Bug`] for a
-    /// row of another layer.
-    pub(crate) fn carried_by_rows<'s>(
-        &'s self,
-    ) -> impl Fn(&Row) -> Result<[&'s [T::Numerator]; 3], Error> + use<'s, 'p, T> {
-        let shift = self.stored.shift;
-        move |row| Ok(self.layer.slices(self.grid.row(row.j, &row.i, shift)?))
+impl<T: Algebra> Sweep<'_, T, Cells<T::Numerator>> {
+    /// Returns the forces on the lines of a row of the current layer, by direction.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a row of another layer.
+    pub(crate) fn carried(&self, row: &Row) -> Result<[&[T::Numerator]; 3], Error> {
+        let cells = self.grid.row(row.j, &row.i, self.stored.shift)?;
+        Ok(self.layer.slices(cells))
     }
 }
 
@@ -288,7 +288,7 @@ impl Sweep<'_, BigRational, Planes> {
     ///
     /// # Errors
     /// [`Error::Bug`].
-    pub(crate) fn copy_to_images<V: Copy>(&self, slices: &mut [&mut [V]; 3]) -> Result<(), Error> {
+    pub(crate) fn copy_to_images<V: Clone>(&self, slices: &mut [&mut [V]; 3]) -> Result<(), Error> {
         if self.grid.corner.is_none() {
             return Ok(());
         }
@@ -337,9 +337,8 @@ mod tests {
     /// Writes a row with a sweep that is at layer 4.
     fn write(row: &Row) -> Result<bool, Error> {
         let pile = pile();
-        let system = pile.system();
-        let lines = LineForces::<BigRational>::new(&system);
-        let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
+        let lines = LineForces::<BigRational>::new(&pile);
+        let mut sweep = exact_sweep(&lines, 6).unwrap();
         sweep.advance(4, crate::engine::Meter::NONE).unwrap();
         let readout = Readout {
             combination: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
@@ -354,9 +353,8 @@ mod tests {
     #[test]
     fn a_sweep_never_goes_back_up() {
         let pile = pile();
-        let system = pile.system();
-        let lines = LineForces::<BigRational>::new(&system);
-        let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
+        let lines = LineForces::<BigRational>::new(&pile);
+        let mut sweep = exact_sweep(&lines, 6).unwrap();
         for (requested, at) in [(4, 4), (1, 4), (4, 4), (5, 5)] {
             sweep
                 .advance(requested, crate::engine::Meter::NONE)

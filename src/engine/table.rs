@@ -24,12 +24,13 @@ use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 
 use super::interrupt::check as check_interrupt;
+use super::lines::LineForces;
 use super::parallel;
 use super::slices::split_front;
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::{Along, Row, Sign, Slopes};
-use crate::pile::System;
+use crate::lattice::{Along, Dimension, Row, Sign, Slopes};
+use crate::scalar::Algebra;
 use crate::shape::Shape;
 
 /// The distinct contact forces of a straight pile, by direction: the values of 1, 2, 3, … increments.
@@ -52,14 +53,15 @@ impl<V> Table<V> {
     ///
     /// # Errors
     /// Those of `value`.
-    pub(crate) fn new(
-        system: &System<'_>,
+    pub(crate) fn new<T: Algebra>(
+        lines: &LineForces<'_, T>,
         most: i128,
         value: impl Fn(i128, usize) -> Result<V, Error>,
     ) -> Result<Option<Self>, Error> {
-        let shape = system.shape;
+        let shape = lines.shape;
+        let is_bare = lines.pile.has_unit_weights() && !lines.has_scalar_loads;
         let applies =
-            system.is_straight() && system.has_unit_weights() && system.fills_its_layers();
+            is_bare && shape.stacking().is_straight() && shape.dimension() == Dimension::Three;
         if !applies || most > MOST {
             return Ok(None);
         }
@@ -72,25 +74,6 @@ impl<V> Table<V> {
             tables: [table(0)?, table(1)?, table(2)?],
             shape: shape.clone(),
         }))
-    }
-}
-
-impl<V> Table<V> {
-    /// Returns the table with `value` applied to each entry.
-    ///
-    /// # Errors
-    /// Those of `value`.
-    pub(crate) fn map<U>(&self, value: impl Fn(&V) -> Result<U, Error>) -> Result<Table<U>, Error> {
-        let table = |line: usize| {
-            self.tables[line]
-                .iter()
-                .map(&value)
-                .collect::<Result<Vec<U>, Error>>()
-        };
-        Ok(Table {
-            tables: [table(0)?, table(1)?, table(2)?],
-            shape: self.shape.clone(),
-        })
     }
 }
 
@@ -227,8 +210,6 @@ mod tests {
     #[cfg(feature = "rayon")]
     #[test]
     fn halves_have_equal_numbers_of_spheres_up_to_one_layer() {
-        use crate::lattice::Dimension;
-
         let table = |layers| Table::<i64> {
             tables: [const { Vec::new() }; 3],
             shape: Shape::pyramid(layers, Dimension::Three).unwrap(),

@@ -37,13 +37,11 @@
 //! forces are computed for the stored spheres alone, and copied to their images.
 
 use super::grid::{Grid, Moves, Piece, Stored, cut, sum};
-
 use crate::Error;
 use crate::each::Each;
 use crate::error::bug;
-use crate::lattice::Direction;
-use crate::pile::System;
-use crate::scalar::ByValue;
+use crate::lattice::{Dimension, Direction};
+use crate::pile::Pile;
 use crate::shape::Shape;
 
 /// The maximum number of steps in a window, unless a single run is longer.
@@ -53,12 +51,12 @@ use crate::shape::Shape;
 const LAYERS: i128 = 9;
 
 /// Returns whether the forces of a pile have threefold symmetry.
-pub(crate) fn has_threefold_symmetry(system: &System<'_>) -> bool {
-    let [a, b, c] = &system.increments;
-    let same = ByValue(a) == ByValue(b) && ByValue(b) == ByValue(c);
-    let even = same && system.fills_its_layers() && system.gravity_is_vertical();
+pub(crate) fn has_threefold_symmetry(pile: &Pile) -> bool {
+    let even = pile.is_regular() && pile.dimension() == Dimension::Three;
     // If the rotation maps the base or the top onto itself, it does so with all layers.
-    even && system.has_no_loads() && system.shape.base().sum_of_turn().is_some()
+    even && pile.gravity_is_vertical()
+        && pile.has_no_loads()
+        && pile.shape().base().sum_of_turn().is_some()
 }
 
 impl<'p> Grid<'p> {
@@ -169,7 +167,7 @@ impl Stored {
     ///
     /// # Errors
     /// [`Error::Bug`].
-    pub(crate) fn copy_to_images<V: Copy>(
+    pub(crate) fn copy_to_images<V: Clone>(
         &self,
         shape: &Shape,
         k: i128,
@@ -183,9 +181,9 @@ impl Stored {
                 let (image, turns) = self.kept([i, row.j])?;
                 if turns > 0 {
                     let [from, ..] = cells.site(image, 0)?;
-                    let values = slices.each_ref().each(|slice| slice[from]);
+                    let values = slices.each_ref().each(|slice| slice[from].clone());
                     for line in 0..3 {
-                        slices[line][place] = values[turned(line, turns)];
+                        slices[line][place] = values[turned(line, turns)].clone();
                     }
                 }
             }
@@ -274,11 +272,11 @@ mod tests {
 
     /// Compares all spheres, as integers and as floats, and the smallest numbers, in every `stops`-th layer.
     fn compare(pile: &Pile, stops: i128) {
-        let (system, last) = (pile.system(), pile.layers() - 1);
-        assert!(has_threefold_symmetry(&system));
-        let lines = LineForces::<BigRational>::new(&system);
-        let mut whole = exact_sweep(&lines, &system, last).unwrap();
-        let mut third = shortest_exact_sweep(&lines, &system, last).unwrap();
+        let last = pile.layers() - 1;
+        assert!(has_threefold_symmetry(pile));
+        let lines = LineForces::<BigRational>::new(pile);
+        let mut whole = exact_sweep(&lines, last).unwrap();
+        let mut third = shortest_exact_sweep(&lines, last).unwrap();
         for k in (0..=last).filter(|k| (last - k) % stops == 0) {
             whole.advance(k, crate::engine::Meter::NONE).unwrap();
             third.advance(k, crate::engine::Meter::NONE).unwrap();
@@ -329,9 +327,9 @@ mod tests {
     #[test]
     fn thirds_in_plain_numbers_give_the_same_numbers() {
         let pile = Pile::under(Region::SITE, "+-+--+-+-+++-+".parse().unwrap()).unwrap();
-        let (system, last) = (pile.system(), pile.layers() - 1);
-        let lines = LineForces::<BigRational>::new(&system);
-        let mut whole = exact_sweep(&lines, &system, last).unwrap();
+        let last = pile.layers() - 1;
+        let lines = LineForces::<BigRational>::new(&pile);
+        let mut whole = exact_sweep(&lines, last).unwrap();
         let grid = Grid::of_thirds(pile.shape(), last, 1).unwrap();
         assert!(grid.last < last);
         let cells = Cells::new(&grid, &BigInt::ZERO);
@@ -418,7 +416,7 @@ mod tests {
         let hexagon = Region::hexagon(3, 2).unwrap();
         let top = *pile(hexagon).shape().sites().next().as_ref().unwrap();
         let one = BigRational::from_integer(1.into());
-        assert!(has_threefold_symmetry(&pile(hexagon).weightless().system()));
+        assert!(has_threefold_symmetry(&pile(hexagon).weightless()));
         for pile in [
             pile(hexagon).with_load(top, one).unwrap(),
             pile(Region::new(0..=2, 0..=2, 0..=4).unwrap()),
@@ -426,7 +424,7 @@ mod tests {
             Pile::discs(4).unwrap(),
             Pile::isosceles(4, BigRational::new(1.into(), 3.into())).unwrap(),
         ] {
-            assert!(!has_threefold_symmetry(&pile.system()));
+            assert!(!has_threefold_symmetry(&pile));
         }
     }
 }

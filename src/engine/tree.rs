@@ -1,6 +1,10 @@
-//! The method *tree*: memoised recursion on the dependency cone of a sphere.
+//! The methods by lines: *closed*, and *tree*, a memoised recursion on the dependency cone of a sphere.
 //!
-//! A force depends on few other forces. Within a run the force on a line grows linearly with a count of spheres, so the
+//! Without a sign change above, the force on a line is the increment of its direction times the number of spheres above
+//! on the line: (8) and (9) of the paper. Each load on the line adds one term. So a force takes O(1) operations,
+//! whatever the height: *closed* is a tree without levels.
+//!
+//! Below sign changes a force depends on few other forces. Within a run the force on a line grows linearly with a count of spheres, so the
 //! recursion skips the run. It continues only where a line crosses a sign change. At the change it needs the three
 //! forces on the sphere there, so a node may need three nodes of the next level.
 //!
@@ -20,10 +24,11 @@
 
 use alloc::vec::Vec;
 
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 use super::interrupt::check as check_interrupt;
-use super::lines::{LineForces, start_of};
+use super::lines::{LineForces, SphereForces, start_of};
+use super::meter::Meter;
 use crate::Error;
 use crate::each::Each;
 use crate::error::{bug, refuse_beyond_memory};
@@ -42,16 +47,6 @@ const FEW_NODES: usize = 10_000;
 /// The bytes for each node: its site, in a list that grows by doubling, and three numerators of the level below it.
 const BYTES_A_NODE: usize = 256;
 
-/// The forces from above on some spheres of one layer, as numerators.
-pub(crate) struct Above<T: Algebra> {
-    /// The forces by site, in the order of the question.
-    pub(crate) forces: Vec<[T::Numerator; 3]>,
-    /// The number of sign changes above. The denominator is [`LineForces::scale`] of this number.
-    pub(crate) changes: usize,
-    /// The number of spheres at sign changes on which the forces depend.
-    pub(crate) nodes: usize,
-}
-
 /// A level of a tree: spheres of one layer whose forces from above are needed, sorted and distinct.
 struct Level {
     stretch: RunLayers,
@@ -69,21 +64,7 @@ pub(crate) enum LineSelection {
 }
 
 impl LineSelection {
-    /// Returns the lines on which the force of a contact below a sphere depends: the line of the contact, or all three
-    /// at a sign change, which mixes them.
-    pub(crate) fn for_contact(shape: &Shape, site: Site, direction: Direction) -> Self {
-        if shape.stacking().is_straight() {
-            return Self::One(direction);
-        }
-        let sign = shape.sign_below(site.k);
-        if site.k > 0 && sign != shape.sign_below(site.k - 1) {
-            Self::All
-        } else {
-            Self::One(direction)
-        }
-    }
-
-    pub(super) fn includes(self, direction: Direction) -> bool {
+    fn includes(self, direction: Direction) -> bool {
         self == Self::All || self == Self::One(direction)
     }
 }
@@ -94,13 +75,6 @@ impl LineSelection {
 /// [`Error::TooLarge`] for more than 4 million.
 pub(crate) fn size_of_tree(shape: &Shape, k: i128, sites: &[[i128; 2]]) -> Result<usize, Error> {
     levels(shape, k, sites, LineSelection::All).map(|levels| nodes_above(&levels))
-}
-
-/// Returns the number of spheres at sign changes on which the force of a contact depends.
-pub(crate) fn nodes(shape: &Shape, site: Site, direction: Direction) -> Result<usize, Error> {
-    let wanted = LineSelection::for_contact(shape, site, direction);
-    let levels = levels(shape, site.k, &[[site.i, site.j]], wanted)?;
-    Ok(nodes_above(&levels) + usize::from(wanted == LineSelection::All))
 }
 
 /// Returns the number of nodes above the spheres of the question.
@@ -153,6 +127,34 @@ fn levels(
 }
 
 impl<T: Algebra> LineForces<'_, T> {
+    /// Returns the forces from above on a sphere, and zero on lines outside `wanted`. The caller has checked the site.
+    ///
+    /// # Errors
+    /// As for [`forces_above`](Self::forces_above).
+    pub(crate) fn above(
+        &self,
+        site: Site,
+        wanted: LineSelection,
+        meter: Meter<'_>,
+    ) -> Result<SphereForces<T>, Error> {
+        let (k, place) = (site.k, [site.i, site.j]);
+        let run = self.shape.stretch_to(k);
+        // Without a sign change above, the tree has no level.
+        let forces = match run {
+            Some(run) if run.index > 0 => {
+                let above = self
+                    .forces_above(k, &[place], wanted, meter)?
+                    .into_iter()
+                    .next();
+                return above.ok_or_else(|| bug("a tree above one sphere has its forces"));
+            }
+            Some(run) => self.on_sphere(&run, site, wanted, None, |_| Ok(T::Numerator::zero()))?,
+            None => zeros::<T>(),
+        };
+        meter.visit(1);
+        Ok(SphereForces { forces, changes: 0 })
+    }
+
     /// Returns the forces from above on spheres of layer `k`, and zero on lines outside `wanted`. The caller has
     /// checked the sites.
     ///
@@ -163,76 +165,100 @@ impl<T: Algebra> LineForces<'_, T> {
         k: i128,
         sites: &[[i128; 2]],
         wanted: LineSelection,
-    ) -> Result<Above<T>, Error> {
+        meter: Meter<'_>,
+    ) -> Result<Vec<SphereForces<T>>, Error> {
         let levels = levels(self.shape, k, sites, wanted)?;
         let nodes = nodes_above(&levels);
+        meter.visit(nodes + sites.len());
+        meter.turn(nodes);
         let mut levels = levels.into_iter().rev();
-        let Some(first) = levels.next() else {
-            let none = || Direction::ALL.each(|_| T::Numerator::zero());
-            let forces = sites.iter().map(|_| none()).collect();
-            return Ok(Above {
-                forces,
+        let Some(mut level) = levels.next() else {
+            let none = |_| SphereForces {
+                forces: zeros::<T>(),
                 changes: 0,
-                nodes: 0,
-            });
+            };
+            return Ok(sites.iter().map(none).collect());
         };
-        let mut forces = self.received(&first, &[], &[])?;
-        let mut level = first;
+        let mut forces = self.on_level(&level, &[], &[])?;
         for next in levels {
             let turned: Vec<_> = forces.iter().map(formula::half_turn::<T>).collect();
-            forces = self.received(&next, &level.sites, &turned)?;
+            forces = self.on_level(&next, &level.sites, &turned)?;
             level = next;
         }
         let of_site = |site: &[i128; 2]| {
             let place = level.sites.binary_search(site).ok();
-            let force = place.and_then(|place| forces.get(place)).cloned();
-            force.ok_or_else(|| bug("the last level of a tree has every sphere asked for"))
+            let forces = place.and_then(|place| forces.get(place)).cloned();
+            let missing = || bug("the last level of a tree has every sphere asked for");
+            Ok(SphereForces {
+                forces: forces.ok_or_else(missing)?,
+                changes: level.stretch.index,
+            })
         };
-        Ok(Above {
-            forces: sites.iter().map(of_site).collect::<Result<_, _>>()?,
-            changes: level.stretch.index,
-            nodes,
-        })
+        sites.iter().map(of_site).collect()
     }
 
     /// Returns the forces from above on the spheres of a level. `turned` are the forces on the spheres `starts` at the
     /// sign change above, after the half-turn.
-    fn received(
+    fn on_level(
         &self,
         level: &Level,
         starts: &[[i128; 2]],
         turned: &[[T::Numerator; 3]],
     ) -> Result<Vec<[T::Numerator; 3]>, Error> {
-        let (run, k) = (level.stretch, level.k);
-        let unit = self.scaled(T::Numerator::one(), run.index);
+        let (run, k) = (&level.stretch, level.k);
+        let unit = self.power(run.index);
         let mut forces = Vec::with_capacity(level.sites.len());
-        for site in &level.sites {
+        for &[i, j] in &level.sites {
             check_interrupt()?;
-            let counts = self.shape.spheres_above(&run, k, *site);
-            let mut force = Direction::ALL.each(|_| T::Numerator::zero());
-            for direction in Direction::ALL {
-                if !level.wanted.includes(direction) {
-                    continue;
-                }
-                let n = counts[direction.index()];
-                let counted = self.counted(run, k, *site, direction, n) * &unit;
-                // A line that begins at a sign change starts with the turned force there.
-                let begins_at_change = run.index > 0 && n == k - run.from;
-                force[direction.index()] = if begins_at_change {
-                    let start = start_of(*site, direction, run.sign, n);
-                    let place = starts.binary_search(&start).ok();
-                    let carried = place.and_then(|place| turned.get(place));
-                    let carried = carried
-                        .ok_or_else(|| bug("a line that crosses a sign change starts there"))?;
-                    formula::transmitted(carried[direction.index()].clone(), &counted)
-                } else {
-                    counted
-                };
-            }
-            forces.push(force);
+            let carried = |direction| {
+                let start = start_of([i, j], direction, run.sign, k - run.from);
+                let place = starts.binary_search(&start).ok();
+                let carried = place.and_then(|place| turned.get(place));
+                let carried =
+                    carried.ok_or_else(|| bug("a line that crosses a sign change starts there"))?;
+                Ok(carried[direction.index()].clone())
+            };
+            let site = Site { i, j, k };
+            forces.push(self.on_sphere(run, site, level.wanted, unit.as_ref(), carried)?);
         }
         Ok(forces)
     }
+
+    /// Returns the forces from above on a sphere below `run`, and zero on lines outside `wanted`. `unit` converts
+    /// increments to the denominator below the sign changes. `carried` returns the force with which a line begins at the
+    /// sign change above the run.
+    fn on_sphere(
+        &self,
+        run: &RunLayers,
+        site: Site,
+        wanted: LineSelection,
+        unit: Option<&T::Numerator>,
+        carried: impl Fn(Direction) -> Result<T::Numerator, Error>,
+    ) -> Result<[T::Numerator; 3], Error> {
+        let counts = self.shape.spheres_above(run, site.k, [site.i, site.j]);
+        let mut forces = zeros::<T>();
+        for (direction, force) in Direction::ALL.into_iter().zip(&mut forces) {
+            if !wanted.includes(direction) {
+                continue;
+            }
+            let n = counts[direction.index()];
+            let counted = self.counted(run, site, direction, n);
+            let counted = match unit {
+                Some(unit) => counted * unit,
+                None => counted,
+            };
+            *force = if run.index > 0 && n == site.k - run.from {
+                formula::transmitted(carried(direction)?, &counted)
+            } else {
+                counted
+            };
+        }
+        Ok(forces)
+    }
+}
+
+fn zeros<T: Algebra>() -> [T::Numerator; 3] {
+    [(); 3].each(|()| T::Numerator::zero())
 }
 
 #[cfg(test)]

@@ -31,11 +31,11 @@ impl Forces<'_, BigRational> {
         mut visit: impl FnMut(&Vector<BigInt>),
     ) -> Result<BigInt, Error> {
         const MOST: u64 = 100_000_000;
-        let (terms, floor) = (&self.terms, self.floor());
-        let (lines, shape) = (&terms.lines, terms.system.shape);
-        let unit = terms.floor_unit(shape.changes_above(floor));
+        let (lines, floor) = (&self.lines, self.floor());
+        let shape = lines.shape;
+        let unit = lines.floor_unit(shape.changes_above(floor));
         let mut visit = |site, above: &SphereForces<BigRational>| {
-            visit(&terms.floor_numerators(site, above).0);
+            visit(&lines.floor_numerators(site, above).0);
         };
         let rows = self.pile.rows(Selection::Base)?;
         if self.pile.is_paper_pile() {
@@ -53,20 +53,16 @@ impl Forces<'_, BigRational> {
         )?;
         // The bound of the number of ends is not sharp.
         let are_few = &ends * 2_u32 < sites;
-        let by_trees = |row: &[[i128; 2]]| {
-            let above = lines.forces_above(floor, row, LineSelection::All)?;
-            let changes = above.changes;
-            let received = |forces| SphereForces { forces, changes };
-            Ok(above.forces.into_iter().map(received).collect())
-        };
+        let by_trees =
+            |row: &[[i128; 2]]| lines.forces_above(floor, row, LineSelection::All, Meter::NONE);
         if are_few && trees_are_cheaper(&(ends + self.trees_of_base()?), &sites) {
             self.visit_ends(by_trees, &mut visit)?;
             return Ok(unit);
         }
-        let sweep = if terms.system.is_straight() {
+        let sweep = if shape.stacking().is_straight() {
             None
         } else {
-            match shortest_exact_sweep(lines, &terms.system, floor) {
+            match shortest_exact_sweep(lines, floor) {
                 Err(Error::TooLarge { .. }) => None,
                 sweep => Some(sweep?),
             }
@@ -87,10 +83,10 @@ impl Forces<'_, BigRational> {
             }
             None if are_few => self.visit_ends(by_trees, &mut visit)?,
             None => {
-                let plan = self.plan(&rows, Quantity::FloorMultiples)?;
-                let engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
+                let plan = lines.plan(&rows, Quantity::Floor, self.method)?;
+                let engine = Engine::new(&plan, &rows, lines)?;
                 for row in rows {
-                    let received = engine.received_in((lines, &terms.system), &row, Meter::NONE);
+                    let received = engine.received_in(lines, &row, Meter::NONE);
                     for (site, above) in row.into_iter().zip(received) {
                         visit(site, &above?);
                     }
@@ -103,7 +99,7 @@ impl Forces<'_, BigRational> {
     /// Estimates the number of spheres in all trees, one for each row of the base. Most rows have a sphere below one at the
     /// last sign change, so the tree of the middle sphere there stands for all of them.
     fn trees_of_base(&self) -> Result<BigUint, Error> {
-        let shape = self.terms.system.shape;
+        let shape = self.lines.shape;
         let floor = self.floor();
         let Some(run) = shape.stretch_to(floor) else {
             return Ok(BigUint::ZERO);
@@ -129,7 +125,7 @@ impl Forces<'_, BigRational> {
         visit: &mut impl FnMut(Site, &SphereForces<BigRational>),
     ) -> Result<(), Error> {
         let k = self.floor();
-        for (_, row) in self.terms.lines.ends_of_pieces(k)? {
+        for (_, row) in self.lines.ends_of_pieces(k)? {
             check_interrupt()?;
             for ([i, j], above) in row.iter().zip(above(&row)?) {
                 visit(Site { i: *i, j: *j, k }, &above);

@@ -5,12 +5,11 @@ use core::iter::zip;
 
 use num_traits::Zero;
 
-use super::terms::{Terms, to_scalar};
-use super::walk::RowEngine;
+use super::walk::Source;
 use super::{Answers, Forces};
 use crate::Error;
 use crate::each::Each;
-use crate::engine::{Engine, Layer, LineSelection, Meter, Quantity, SphereForces};
+use crate::engine::{LineForces, LineSelection, Meter, Quantity, numerators, to_scalar};
 use crate::geometry::{Vector, square_across};
 use crate::lattice::{Axis, Direction, HorizontalContact, Row, Site};
 use crate::scalar::{Algebra, Ring};
@@ -50,12 +49,13 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn stress(&self, site: Site) -> Result<[T; 6], Error> {
+        let lines = &self.lines;
         let above = self.received(self.pile.shape().check(site)?, LineSelection::All)?;
         let below = (site.k != self.floor()).then(|| {
             let above = above.clone();
-            self.terms.lines.to_below(site, above, self.meter)
+            lines.contacts(lines.to_below(site, above, self.meter))
         });
-        self.terms.stress(site, &above, below.as_ref())
+        lines.stress(site, lines.contacts(above)?, below.transpose()?)
     }
 
     /// Iterates over the [`stress`](Self::stress) of the spheres of a part of the pile, in row order.
@@ -80,90 +80,64 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn stresses(&self, part: Selection) -> Result<Answers<'p, T, [T; 6]>, Error> {
         let rows = self.pile.rows(part)?;
-        Answers::new(
-            self,
-            rows,
-            (Quantity::ContactMultiples, 1),
-            RowEngine::stresses_in,
-        )
+        Answers::new(self, rows, (Quantity::Contacts, 1), Source::stresses_in)
     }
 }
 
-impl<T: Algebra> RowEngine<'_, T> {
+impl<T: Algebra> Source<'_, T> {
     /// Returns the stress of each sphere of a piece of a row. A sweep must be at the layer of the row.
-    fn stresses_in(&self, piece: &Row, meter: Meter<'_>) -> Vec<Result<[T; 6], Error>> {
-        match self {
-            Self::Plain(terms, engine) => terms.stresses_in(engine, piece, meter),
-            Self::Exact(terms, engine) => {
-                let exact = terms.stresses_in(engine, piece, meter).into_iter();
-                exact
-                    .map(|stress| Ok(stress?.map(|part| T::from_rational(&part))))
-                    .collect()
-            }
-        }
-    }
-}
-
-impl<'p, T: Algebra> Terms<'p, T> {
-    fn stresses_in<S: Layer<T>>(
-        &self,
-        engine: &Engine<'p, T, S>,
-        piece: &Row,
-        meter: Meter<'_>,
-    ) -> Vec<Result<[T; 6], Error>> {
-        let pile = (&self.lines, &self.system);
-        let above = engine.received_in(pile, piece, meter);
-        let is_floor = piece.k + 1 == self.system.shape.layers();
+    fn stresses_in(&self, piece: &Row) -> Vec<Result<[T; 6], Error>> {
+        let is_floor = piece.k + 1 == self.lines.shape.layers();
+        let above = self.received_in(piece);
         let below: Vec<_> = if is_floor {
             above.iter().map(|_| Ok(None)).collect()
         } else {
             // The work of these spheres is already counted.
-            let below = engine.transmitted_in(pile, piece, Meter::NONE);
-            below.into_iter().map(|below| below.map(Some)).collect()
+            let below = self.transmitted_in(piece, Meter::NONE).into_iter();
+            below.map(|below| below.map(Some)).collect()
         };
         let stress = |(site, (above, below)): (Site, (Result<_, _>, Result<Option<_>, _>))| {
-            self.stress(site, &above?, below?.as_ref())
+            self.lines.stress(site, above?, below?)
         };
         zip(piece.clone(), zip(above, below)).map(stress).collect()
     }
+}
 
+impl<T: Algebra> LineForces<'_, T> {
     /// Returns the stress of a sphere, from its forces from above, and from those to below unless it is on the floor.
-    fn stress(
-        &self,
-        site: Site,
-        above: &SphereForces<T>,
-        below: Option<&SphereForces<T>>,
-    ) -> Result<[T; 6], Error> {
-        let Self { lines, system, .. } = self;
-        let changes = below.map(|below| below.changes);
-        let changes = changes.into_iter().fold(above.changes, Ord::max);
+    fn stress(&self, site: Site, above: [T; 3], below: Option<[T; 3]>) -> Result<[T; 6], Error> {
+        let (pile, k) = (&self.pile, site.k);
+        let below = below.into_iter().flatten();
+        let sloping = zip(above, self.directions_above(k));
+        let sloping = sloping.chain(zip(below, self.directions_below(k)));
+        let horizontal = pile.loading.pushes(site).map(|_| horizontal_contacts(site));
+        let horizontal = horizontal.into_iter().flatten().map(|contact| {
+            let [a, b] = contact.axis.ends().each(Direction::index);
+            let along = self.directions[b].clone() - &self.directions[a];
+            (T::from_rational(&pile.horizontal_force(contact)), along)
+        });
+        // At most three contacts above, three below and six beside the sphere.
+        let mut contacts = sloping.chain(horizontal);
+        let mut along = Vec::with_capacity(12);
+        let forces = [(); 12].map(|()| {
+            let (force, direction) = contacts.next()?;
+            along.push(dyad(&direction));
+            Some(force)
+        });
+        // A place without a contact has no force, and no direction either.
+        let forces = forces.map(|force| force.unwrap_or_else(T::zero));
+        let (forces, scale) = numerators(forces);
         let mut sums = [(); 6].map(|()| T::Numerator::zero());
-        let mut add = |force: T::Numerator, along: &Vector<T::Numerator>| {
-            let parts = zip(&mut sums, dyad(along));
-            parts.for_each(|(sum, part)| *sum = part * &force + &*sum);
-        };
-        let above = (above, self.directions_above(site.k));
-        let below = below.map(|below| (below, self.directions_below(site.k)));
-        for (received, directions) in [above].into_iter().chain(below) {
-            for (force, along) in zip(&received.forces, &directions) {
-                add(
-                    lines.rescaled(force.clone(), received.changes, changes),
-                    along,
-                );
+        for (force, along) in zip(&forces, along) {
+            for (sum, part) in zip(&mut sums, along) {
+                *sum = part * force + &*sum;
             }
         }
-        if system.loading.pushes(site).is_some() {
-            for contact in horizontal_contacts(site) {
-                let force = lines.numerator(system.loading.horizontal_force(contact), changes);
-                let [a, b] = contact.axis.ends().each(Direction::index);
-                add(force, &(self.directions[b].clone() - &self.directions[a]));
-            }
-        }
-        let ([across2], one) = T::numerators(&[square_across(system.sin_phi)]);
-        let unit = self.floor_unit(changes) * &self.direction_scale * &one;
-        let part = |sum, factor| {
-            let sum: T::Numerator = sum * &self.sum_scale * factor;
-            to_scalar("a stress", sum, &unit)
+        let ([across2], one) = T::numerators(&[square_across(pile.sin_phi())]);
+        let directions2 = self.direction_scale.clone() * &self.direction_scale;
+        let unit = scale * &self.increment_sum * &directions2 * &one;
+        let part = |sum: T::Numerator, factor| {
+            to_scalar("a stress", sum * &self.sum_scale * factor, &unit)
         };
         let [xx, yy, zz, xy, xz, yz] = sums;
         Ok([

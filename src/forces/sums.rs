@@ -10,9 +10,10 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::Forces;
-use super::terms::{Terms, horizontal, to_scalar, to_scalars};
+use super::terms::horizontal;
 use crate::Error;
 use crate::each::Each;
+use crate::engine::{LineForces, to_scalar, to_scalars};
 use crate::error::refuse_beyond;
 use crate::formula;
 use crate::formula::{force, half_turn, transmitted};
@@ -44,16 +45,16 @@ impl Forces<'_, BigRational> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn sum_of_contacts(&self, part: Selection) -> Result<BigRational, Error> {
-        let (terms, floor) = (&self.terms, self.floor());
+        let (lines, floor) = (&self.lines, self.floor());
         let layers = match part {
             Selection::All => 0..floor,
             Selection::Layer(k) => {
-                terms.system.shape.layer(k)?;
+                lines.shape.layer(k)?;
                 k..(k + 1).min(floor)
             }
             Selection::Base => floor..floor,
             Selection::One(site) if site.k == floor => {
-                terms.system.shape.check(site)?;
+                lines.shape.check(site)?;
                 floor..floor
             }
             Selection::One(site) => return Ok(self.to_below(site)?.iter().sum()),
@@ -69,11 +70,11 @@ impl Forces<'_, BigRational> {
         let add = |[a, b, c]: &[BigInt; 3], changes| {
             *sums.entry(changes, BigInt::ZERO) += a + b + c;
         };
-        terms.sum_layers(layers, add);
+        lines.sum_layers(layers, add);
         let quantity = "a sum of forces";
         let mut total = BigRational::zero();
         for (changes, sum) in sums.into_vec() {
-            total += to_scalar::<BigRational>(quantity, sum, &terms.lines.scale(changes))?;
+            total += to_scalar::<BigRational>(quantity, sum, &lines.scale(changes))?;
         }
         Ok(total)
     }
@@ -100,30 +101,29 @@ impl Forces<'_, BigRational> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn sum_on_floor(&self, part: Selection) -> Result<[BigRational; 3], Error> {
-        let (terms, floor) = (&self.terms, self.floor());
+        let (lines, floor) = (&self.lines, self.floor());
         if let Selection::One(site) = part {
             let force = self.on_floor(site)?;
             return Ok([force.normal, force.shear_x, force.shear_y]);
         }
-        terms.system.check_on_floor(&self.pile.rows(part)?)?;
-        let lines = &terms.lines;
-        let (received, changes) = terms.sum_layers(floor..floor, |_, _| ());
+        self.pile.check_on_floor(&self.pile.rows(part)?)?;
+        let (received, changes) = lines.sum_layers(floor..floor, |_, _| ());
         let ordinary = lines.ordinary_load(changes);
-        let spheres = BigInt::from(terms.system.shape.layer(floor)?.site_count());
+        let spheres = BigInt::from(lines.shape.layer(floor)?.site_count());
         let extras = lines.extras_in(floor..floor + 1);
         let load = extras.fold(ordinary.clone().scaled(&spheres), |sum, site| {
             sum + &(lines.load(site, changes) - &ordinary)
         });
-        let load = load.scaled(&terms.direction_scale);
-        let directions = terms.directions_above(floor);
+        let load = load.scaled(&lines.direction_scale);
+        let directions = lines.directions_above(floor);
         let force = formula::support_load(&received, &directions, &load.z) + &horizontal(&load);
-        let force = force.scaled(&terms.sum_scale);
-        let unit = terms.floor_unit(changes);
+        let force = force.scaled(&lines.sum_scale);
+        let unit = lines.floor_unit(changes);
         to_scalars("a sum of forces", [force.z, force.x, force.y], &unit)
     }
 }
 
-impl Terms<'_, BigRational> {
+impl LineForces<'_, BigRational> {
     /// Calls `visit` for each of `layers` with the sums of the forces that the layer transmits, by direction, and with
     /// the number of sign changes above these forces. The sums are integers over the scale of this number. Returns the
     /// sums for the last layer above the end of `layers`.
@@ -134,16 +134,16 @@ impl Terms<'_, BigRational> {
     ) -> ([BigInt; 3], usize) {
         let mut sums = [(); 3].each(|()| BigInt::zero());
         let mut changes = 0;
-        let runs = (0..).map_while(|run| self.system.shape.stretch(run));
+        let runs = (0..).map_while(|run| self.shape.stretch(run));
         for run in runs.take_while(|run| run.from < layers.end) {
             if run.index > changes {
                 sums = half_turn::<BigRational>(&sums);
                 changes = run.index;
             }
             let visited = layers.start.max(run.from).min(run.to)..run.to.min(layers.end);
-            sums = self.with_own(sums, &run, run.from..visited.start);
+            sums = self.with_layers(sums, &run, run.from..visited.start);
             for k in visited {
-                sums = self.with_own(sums, &run, k..k + 1);
+                sums = self.with_layers(sums, &run, k..k + 1);
                 visit(&sums, changes);
             }
         }
@@ -151,12 +151,12 @@ impl Terms<'_, BigRational> {
     }
 
     /// Adds the increments of some layers of a run to the sums, by direction.
-    fn with_own(&self, sums: [BigInt; 3], run: &RunLayers, layers: Range<i128>) -> [BigInt; 3] {
-        let spheres = BigInt::from(self.system.shape.spheres_in(layers.clone()));
-        let ordinary = self.lines.increments_after(run.index);
+    fn with_layers(&self, sums: [BigInt; 3], run: &RunLayers, layers: Range<i128>) -> [BigInt; 3] {
+        let spheres = BigInt::from(self.shape.spheres_in(layers.clone()));
+        let ordinary = self.increments_after(run.index);
         let mut own = ordinary.each(|w| force(spheres.clone(), &w));
-        for site in self.lines.extras_in(layers) {
-            let extra = self.lines.extra(site);
+        for site in self.extras_in(layers) {
+            let extra = self.extra(site);
             own.iter_mut()
                 .zip(extra)
                 .for_each(|(own, extra)| *own += extra);

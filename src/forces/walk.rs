@@ -1,77 +1,69 @@
 //! The forces of consecutive spheres, from the engine that a plan selects.
 
-use alloc::boxed::Box;
 use alloc::vec::{IntoIter, Vec};
 use core::iter::FusedIterator;
 
-use num_rational::BigRational;
-
-use super::terms::Terms;
 use super::{ContactForce, FloorForce, Forces};
 use crate::Error;
 use crate::each::Each;
-use crate::engine::{Cells, Engine, Meter, Plan, Planes, Quantity};
+use crate::engine::{Engine, LineForces, Meter, Plan, Quantity};
 use crate::lattice::Row;
-use crate::scalar::{Algebra, Exactness};
+use crate::scalar::Algebra;
 use crate::shape::{Rows, Selection, exact_hint};
 
 /// The computation of forces for some rows of a pile, from the top down.
 #[derive(Clone, Debug)]
-pub(super) enum RowEngine<'p, T: Algebra> {
-    /// The engine on numerators of the scalar.
-    Plain(Box<Terms<'p, T>>, Engine<'p, T, Cells<T::Numerator>>),
-    /// The exact engine on integers, for a scalar that is exact itself.
-    Exact(Box<Terms<'p, BigRational>>, Engine<'p, BigRational, Planes>),
+pub(super) struct Source<'p, T: Algebra> {
+    pub(super) lines: LineForces<'p, T>,
+    pub(super) engine: Engine<'p, T>,
+    pub(super) meter: Meter<'p>,
 }
 
-impl<'p, T: Algebra> RowEngine<'p, T> {
-    pub(super) fn new(plan: &Plan, rows: &Rows<'_>, terms: &Terms<'p, T>) -> Result<Self, Error> {
-        // Integers cannot represent loads in another exact scalar.
-        if T::EXACTNESS == Exactness::Exact && !terms.system.has_scalar_loads {
-            let terms = Terms::<BigRational>::new(terms.system.clone());
-            let engine = Engine::exact(plan, rows, (&terms.lines, &terms.system))?;
-            return Ok(Self::Exact(Box::new(terms), engine));
-        }
-        let engine = Engine::plain(plan, rows, (&terms.lines, &terms.system))?;
-        Ok(Self::Plain(Box::new(terms.clone()), engine))
-    }
-
-    pub(super) const fn is_sweep(&self) -> bool {
-        match self {
-            Self::Plain(_, engine) => engine.is_sweep(),
-            Self::Exact(_, engine) => engine.is_sweep(),
-        }
+impl<'p, T: Algebra> Source<'p, T> {
+    pub(super) fn new(forces: &Forces<'p, T>, rows: &Rows<'_>, plan: &Plan) -> Result<Self, Error> {
+        Ok(Self {
+            lines: forces.lines.clone(),
+            engine: Engine::new(plan, rows, &forces.lines)?,
+            meter: forces.meter,
+        })
     }
 
     /// Returns the best number of spheres of a row to compute at once.
-    pub(super) const fn sites_at_once(&self) -> i128 {
-        match self {
-            Self::Plain(_, engine) => engine.sites_at_once(),
-            Self::Exact(_, engine) => engine.sites_at_once(),
-        }
+    fn sites_at_once(&self) -> i128 {
+        self.engine.sites_at_once(&self.lines)
     }
 
-    /// Advances a sweep to layer `k`, unless it is already there. Other engines do nothing.
-    pub(super) fn go_down_to(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
-        match self {
-            Self::Plain(_, engine) => engine.go_down_to(k, meter),
-            Self::Exact(_, engine) => engine.go_down_to(k, meter),
-        }
+    /// Returns the forces of each sphere of a piece of a row on the spheres below. The row must be above the floor, and
+    /// a sweep must be at the layer of the row.
+    pub(super) fn transmitted_in(
+        &self,
+        piece: &Row,
+        meter: Meter<'_>,
+    ) -> Vec<Result<[T; 3], Error>> {
+        let below = self.engine.transmitted_in(&self.lines, piece, meter);
+        let forces = |below: Result<_, _>| self.lines.contacts(below?);
+        below.into_iter().map(forces).collect()
+    }
+
+    /// Returns the forces from above on each sphere of a piece of a row. A sweep must be at the layer of the row.
+    pub(super) fn received_in(&self, piece: &Row) -> Vec<Result<[T; 3], Error>> {
+        let above = self.engine.received_in(&self.lines, piece, self.meter);
+        let forces = |above: Result<_, _>| self.lines.contacts(above?);
+        above.into_iter().map(forces).collect()
+    }
+
+    /// Returns the force on the floor of each sphere of a piece of a bottom row. A sweep must be at the bottom layer.
+    pub(super) fn on_floor_in(&self, piece: &Row) -> Vec<Result<FloorForce<T>, Error>> {
+        let above = self.engine.received_in(&self.lines, piece, self.meter);
+        let floor = |(site, above): (_, Result<_, _>)| self.lines.floor(site, &above?);
+        piece.clone().into_iter().zip(above).map(floor).collect()
     }
 
     /// Returns the contact forces of each sphere of a piece of a row with the spheres below it. A sweep must be at the
     /// layer of the row.
-    pub(super) fn contacts_in(
-        &self,
-        piece: &Row,
-        meter: Meter<'_>,
-    ) -> Vec<Result<ContactForce<T>, Error>> {
-        let system = match self {
-            Self::Plain(terms, _) => &terms.system,
-            Self::Exact(terms, _) => &terms.system,
-        };
-        let directions = system.shape.dimension().directions();
-        let forces = self.transmitted_in(piece, meter);
+    pub(super) fn contacts_in(&self, piece: &Row) -> Vec<Result<ContactForce<T>, Error>> {
+        let directions = self.lines.shape.dimension().directions();
+        let forces = self.transmitted_in(piece, self.meter);
         let mut contacts = Vec::with_capacity(directions.len() * forces.len());
         for (site, forces) in piece.clone().into_iter().zip(forces) {
             let forces = match forces {
@@ -89,55 +81,64 @@ impl<'p, T: Algebra> RowEngine<'p, T> {
         }
         contacts
     }
+}
 
-    /// Returns the forces of each sphere of a piece of a row on the spheres below. The row must be above the floor, and
-    /// a sweep must be at the layer of the row.
-    pub(super) fn transmitted_in(
-        &self,
-        piece: &Row,
-        meter: Meter<'_>,
-    ) -> Vec<Result<[T; 3], Error>> {
-        match self {
-            Self::Plain(terms, engine) => {
-                let below = engine.transmitted_in((&terms.lines, &terms.system), piece, meter);
-                let forces = |below: Result<_, _>| terms.contacts(below?);
-                below.into_iter().map(forces).collect()
-            }
-            Self::Exact(terms, engine) => {
-                let below = engine.transmitted_in((&terms.lines, &terms.system), piece, meter);
-                let inexact = |force: BigRational| T::from_rational(&force);
-                let forces = |below: Result<_, _>| Ok(terms.contacts(below?)?.each(inexact));
-                below.into_iter().map(forces).collect()
-            }
-        }
+impl<'p, T: Algebra> Forces<'p, T> {
+    /// Iterates over the contact forces of a part of the pile in row order, in f₀. The contacts of a sphere are those
+    /// with its supports, so a sphere on the floor has none.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer does not fit in memory and
+    /// depends on too many spheres at the sign changes above it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut total = 0.0;
+    /// for contact in pile.forces::<f64>().contacts(Selection::All)? {
+    ///     total += contact?.force;
+    /// }
+    /// assert_eq!(total, 1485.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T>, Error> {
+        let rows = self.pile.rows(part)?.off_the_floor();
+        let by_site = self.pile.dimension().directions().len();
+        Answers::new(
+            self,
+            rows,
+            (Quantity::Contacts, by_site),
+            Source::contacts_in,
+        )
     }
 
-    /// Returns the force on the floor of each sphere of a piece of a bottom row. A sweep must be at the bottom layer.
-    pub(super) fn on_floor_in(
-        &self,
-        piece: &Row,
-        meter: Meter<'_>,
-    ) -> Vec<Result<FloorForce<T>, Error>> {
-        let sites = piece.clone().into_iter();
-        match self {
-            Self::Plain(terms, engine) => {
-                let above = engine.received_in((&terms.lines, &terms.system), piece, meter);
-                let floor = |(site, above): (_, Result<_, _>)| terms.floor(site, &above?);
-                sites.zip(above).map(floor).collect()
-            }
-            Self::Exact(terms, engine) => {
-                let above = engine.received_in((&terms.lines, &terms.system), piece, meter);
-                let inexact = |force: BigRational| T::from_rational(&force);
-                let floor =
-                    |(site, above): (_, Result<_, _>)| Ok(terms.floor(site, &above?)?.map(inexact));
-                sites.zip(above).map(floor).collect()
-            }
-        }
+    /// Iterates over the forces of bottom spheres on the floor, in row order.
+    ///
+    /// # Errors
+    /// [`Error::NotOnFloor`] for a part outside the bottom layer; otherwise as for [`contacts`](Self::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let base = pile.forces::<f64>().base(Selection::Base)?;
+    /// let base: Result<Vec<_>, _> = base.collect();
+    /// assert!(base?.iter().all(|force| force.normal == 4.0));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn base(&self, part: Selection) -> Result<FloorForces<'p, T>, Error> {
+        let rows = self.pile.rows(part)?;
+        Answers::new(self, rows, (Quantity::Floor, 1), Source::on_floor_in)
     }
 }
 
 /// A function that computes the forces of a piece of a row, sphere by sphere.
-type Compute<'p, T, A> = fn(&RowEngine<'p, T>, &Row, Meter<'_>) -> Vec<Result<A, Error>>;
+type Compute<'p, T, A> = fn(&Source<'p, T>, &Row) -> Vec<Result<A, Error>>;
 
 /// An iterator over the forces of a part of a pile, in row order: contact forces ([`Contacts`](crate::Contacts)) or
 /// forces on the floor ([`FloorForces`](crate::FloorForces)).
@@ -147,7 +148,7 @@ type Compute<'p, T, A> = fn(&RowEngine<'p, T>, &Row, Meter<'_>) -> Vec<Result<A,
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Answers<'p, T: Algebra, A> {
     plan: Plan,
-    walk: RowEngine<'p, T>,
+    source: Source<'p, T>,
     rows: Rows<'p>,
     /// The rest of the current row.
     row: Option<Row>,
@@ -155,7 +156,6 @@ pub struct Answers<'p, T: Algebra, A> {
     by_site: usize,
     compute: Compute<'p, T, A>,
     computed: IntoIter<Result<A, Error>>,
-    meter: Meter<'p>,
 }
 
 /// An iterator over the contact forces of a part of a pile, by sphere in row order. The contacts of a sphere are those
@@ -192,61 +192,6 @@ pub type Contacts<'p, T> = Answers<'p, T, ContactForce<T>>;
 /// ```
 pub type FloorForces<'p, T> = Answers<'p, T, FloorForce<T>>;
 
-impl<'p, T: Algebra> Forces<'p, T> {
-    /// Iterates over the contact forces of a part of the pile in row order, in f₀. The contacts of a sphere are those
-    /// with its supports, so a sphere on the floor has none.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer does not fit in memory and
-    /// depends on too many spheres at the sign changes above it.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let mut total = 0.0;
-    /// for contact in pile.forces::<f64>().contacts(Selection::All)? {
-    ///     total += contact?.force;
-    /// }
-    /// assert_eq!(total, 1485.0);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T>, Error> {
-        let rows = self.pile.rows(part)?.off_the_floor();
-        let by_site = self.pile.dimension().directions().len();
-        let asked = (Quantity::ContactMultiples, by_site);
-        Answers::new(self, rows, asked, RowEngine::contacts_in)
-    }
-
-    /// Iterates over the forces of bottom spheres on the floor, in row order.
-    ///
-    /// # Errors
-    /// [`Error::NotOnFloor`] for a part outside the bottom layer; otherwise as for [`contacts`](Self::contacts).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let base = pile.forces::<f64>().base(Selection::Base)?;
-    /// let base: Result<Vec<_>, _> = base.collect();
-    /// assert!(base?.iter().all(|force| force.normal == 4.0));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn base(&self, part: Selection) -> Result<FloorForces<'p, T>, Error> {
-        let rows = self.pile.rows(part)?;
-        Answers::new(
-            self,
-            rows,
-            (Quantity::FloorMultiples, 1),
-            RowEngine::on_floor_in,
-        )
-    }
-}
-
 impl<'p, T: Algebra, A> Answers<'p, T, A> {
     pub(super) fn new(
         forces: &Forces<'p, T>,
@@ -254,16 +199,15 @@ impl<'p, T: Algebra, A> Answers<'p, T, A> {
         (quantity, by_site): (Quantity, usize),
         compute: Compute<'p, T, A>,
     ) -> Result<Self, Error> {
-        let plan = forces.plan(&rows, quantity)?;
+        let plan = forces.lines.plan(&rows, quantity, forces.method)?;
         Ok(Self {
-            walk: RowEngine::new(&plan, &rows, &forces.terms)?,
+            source: Source::new(forces, &rows, &plan)?,
             plan,
             rows,
             row: None,
             by_site,
             compute,
             computed: Vec::new().into_iter(),
-            meter: forces.meter,
         })
     }
 
@@ -286,8 +230,9 @@ impl<'p, T: Algebra, A> Answers<'p, T, A> {
 
     /// Returns the items of a piece of a row, or an error in place of each item.
     fn answers(&mut self, piece: &Row) -> Vec<Result<A, Error>> {
-        match self.walk.go_down_to(piece.k, self.meter) {
-            Ok(()) => (self.compute)(&self.walk, piece, self.meter),
+        let Source { engine, meter, .. } = &mut self.source;
+        match engine.go_down_to(piece.k, *meter) {
+            Ok(()) => (self.compute)(&self.source, piece),
             Err(error) => {
                 let refused = |_| (0..self.by_site).map(|_| Err(error.clone()));
                 piece.clone().into_iter().flat_map(refused).collect()
@@ -302,14 +247,14 @@ impl<T: Algebra, A> Iterator for Answers<'_, T, A> {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if let Some(answer) = self.computed.next() {
-                self.meter.answer(1);
+                self.source.meter.answer(1);
                 return Some(answer);
             }
             let mut row = match self.row.take() {
                 Some(row) => row,
                 None => self.rows.next()?,
             };
-            let end = row.i.end.min(row.i.start + self.walk.sites_at_once());
+            let end = row.i.end.min(row.i.start + self.source.sites_at_once());
             let i = row.i.start..end;
             row.i.start = end;
             self.computed = self.answers(&Row { i, ..row }).into_iter();

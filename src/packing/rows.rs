@@ -2,7 +2,7 @@
 
 use super::on_basis;
 use crate::each::Each;
-use crate::forces::{NearestLayers, Units};
+use crate::forces::{Layers, Nearest, Units};
 use crate::lattice::{ContactKind, Direction, HorizontalContact, Site};
 use crate::scalar::{CorrectlyRounded, Surd, product};
 use crate::shape::Selection;
@@ -72,7 +72,7 @@ impl<'p> Packing<'p> {
     pub fn layers<F: CorrectlyRounded>(
         &self,
         part: Selection,
-    ) -> Result<NearestLayers<'p, F>, Error> {
+    ) -> Result<Layers<'p, Nearest<F>>, Error> {
         let [x, y, z] = self.roots.forces();
         let basis = |unit: &BigRational| [x, y, z].each(|root| root.scaled(unit));
         let [along_x, along_y, downwards] = basis(&self.weight_per_sum);

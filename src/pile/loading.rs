@@ -135,11 +135,6 @@ impl Loading {
         self.spheres.get(&site)?.pushes.as_ref()
     }
 
-    /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
-    pub(crate) fn has_no_loads(&self) -> bool {
-        self.extras().next().is_none()
-    }
-
     /// Returns the weight of an ordinary sphere.
     pub(crate) fn ordinary_weight(&self) -> BigRational {
         if self.weightless {

@@ -1,35 +1,15 @@
-//! The data that determine the forces of a pile.
-
-use alloc::borrow::Cow;
+//! The system of equations of a pile (paper, (4) and (5)): what each sphere adds to its lines, as rationals.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::Loading;
+use super::Pile;
 use crate::each::Each;
 use crate::formula;
-use crate::geometry::{Load, Vector};
+use crate::geometry::Load;
 use crate::lattice::{Dimension, Sign, Site};
 use crate::scalar::{Ring, common_denominator, common_multiple};
-use crate::shape::Shape;
-
-/// The system of equations of a pile (paper, (4) and (5)): sites and steps, increments of an ordinary sphere,
-/// directions of the lines, weights and loads. This is all that an engine reads of a pile.
-#[derive(Clone, Debug)]
-pub(crate) struct System<'p> {
-    pub(crate) shape: &'p Shape,
-    pub(crate) sin_phi: &'p BigRational,
-    /// The increments of a sphere of weight mg under vertical gravity.
-    pub(crate) increments: [BigRational; 3],
-    /// W, their sum.
-    pub(crate) increment_sum: BigRational,
-    /// The directions under a + step.
-    pub(crate) directions: [Vector<BigRational>; 3],
-    pub(crate) loading: Cow<'p, Loading>,
-    /// Whether loads or a tilt in the scalar of the forces act on the pile as well.
-    pub(crate) has_scalar_loads: bool,
-}
 
 /// The force on a sphere, less gravity on an ordinary one.
 pub(crate) struct Extra {
@@ -39,19 +19,29 @@ pub(crate) struct Extra {
     pub(crate) lines: [BigRational; 3],
 }
 
-impl System<'_> {
+impl Pile {
+    /// Returns the increments of a sphere of weight mg under vertical gravity.
+    fn increments(&self) -> [BigRational; 3] {
+        formula::increments(&self.sin_phi)
+    }
+
+    /// Returns W, their sum.
+    pub(crate) fn increment_sum(&self) -> BigRational {
+        formula::weight(&self.increments())
+    }
+
     /// Returns what a sphere with a load adds to its lines above a step of the given sign.
     pub(crate) fn load_increments(&self, load: &Load, sign: Sign) -> [BigRational; 3] {
         if load.is_vertical() {
-            let own = |w| formula::force(load.down.clone(), w);
-            return self.increments.each_ref().each(own);
+            let own = |w| formula::force(w, &load.down);
+            return self.increments().each(own);
         }
-        self.load_increments_of(load, self.sin_phi, sign)
+        self.load_increments_of(load, &self.sin_phi, sign)
     }
 
     /// Returns what a sphere adds to its lines, in the ring of its load, which contains `s`, the value of sin φ.
     pub(crate) fn load_increments_of<N: Ring>(&self, load: &Load<N>, s: &N, sign: Sign) -> [N; 3] {
-        match self.shape.dimension() {
+        match self.dimension() {
             Dimension::Two => formula::disc_load_increments(load, sign),
             Dimension::Three => formula::load_increments(load, s, sign),
         }
@@ -85,7 +75,7 @@ impl System<'_> {
             let denominators = [&load.down, &load.x, &load.y].each(BigRational::denom);
             denominators.into_iter().fold(common, common_multiple)
         });
-        common_denominator(&self.increments) * given
+        common_denominator(&self.increments()) * given
     }
 
     /// Returns two magnitudes, times the common denominator. The first is the largest increment of an ordinary sphere.
@@ -103,30 +93,19 @@ impl System<'_> {
         [plus.max(minus), extras]
     }
 
-    /// Returns whether each of the three directions has contacts in a layer. In a pile of discs the third line carries
-    /// no force.
-    pub(crate) fn fills_its_layers(&self) -> bool {
-        self.shape.dimension() == Dimension::Three
-    }
-
-    /// Returns whether the stacking has no sign change.
-    pub(crate) fn is_straight(&self) -> bool {
-        self.shape.stacking().is_straight()
+    /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
+    pub(crate) fn has_no_loads(&self) -> bool {
+        self.loading.extras().next().is_none()
     }
 
     /// Returns whether every sphere has the weight mg and carries no load or horizontal contact force. Then a straight
     /// pile has few distinct forces.
     pub(crate) fn has_unit_weights(&self) -> bool {
-        !self.loading.is_weightless() && self.has_no_loads()
-    }
-
-    /// Returns whether every sphere has the ordinary weight and carries no load or horizontal contact force.
-    pub(crate) fn has_no_loads(&self) -> bool {
-        !self.has_scalar_loads && self.loading.has_no_loads()
+        !self.is_weightless() && self.has_no_loads()
     }
 
     /// Returns whether gravity on ordinary spheres is vertical.
     pub(crate) fn gravity_is_vertical(&self) -> bool {
-        !self.has_scalar_loads && self.loading.ordinary().is_vertical()
+        self.is_weightless() || self.tilt().iter().all(Zero::is_zero)
     }
 }

@@ -47,6 +47,10 @@ impl Numerators for BigRational {
         (numerators, common)
     }
 
+    fn from_integers(integers: [BigInt; 3], _: impl FnOnce() -> BigInt) -> [BigInt; 3] {
+        integers
+    }
+
     fn into_numerators<const N: usize>(
         values: [BigRational; N],
     ) -> Result<[BigInt; N], [BigRational; N]> {

@@ -76,8 +76,14 @@ impl Shape {
     #[must_use]
     #[inline]
     pub fn sign_below(&self, k: i128) -> Option<Sign> {
+        self.run_below(k).map(|run| run.sign)
+    }
+
+    /// Returns the run of the step down from layer k, or `None` for the bottom layer.
+    #[inline]
+    pub(crate) fn run_below(&self, k: i128) -> Option<&RunLayers> {
         let inside = (0..self.layers() - 1).contains(&k);
         let run = inside.then(|| self.run_to(k + 1))??;
-        self.stretch(run).map(|run| run.sign)
+        self.stretches.get(run)
     }
 }

@@ -34,20 +34,13 @@ fn words() {
     assert_eq!(back(&verdicts), r#"["yes","no","undetermined"]"#);
     let methods = [Method::Closed, Method::Tree, Method::Sweep];
     assert_eq!(back(&methods), r#"["closed","tree","sweep"]"#);
-    back(&[
-        Quantity::ContactMultiples,
-        Quantity::ContactForces,
-        Quantity::ContactVectors,
-        Quantity::FloorMultiples,
-        Quantity::FloorForces,
-        Quantity::Positions,
-    ]);
+    back(&[Quantity::Contacts, Quantity::Floor]);
     assert_eq!(back(&[Dimension::Two, Dimension::Three]), "[2,3]");
     assert!(refusal::<Direction>("\"delta\"").contains("alpha, beta or gamma"));
     assert!(refusal::<Sign>("\"\"").contains("+ or -"));
     assert!(refusal::<Verdict>("\"maybe\"").contains("undetermined"));
     assert!(refusal::<Method>("\"guess\"").contains("closed, tree or sweep"));
-    assert!(refusal::<Quantity>("\"mood\"").contains("contact multiples"));
+    assert!(refusal::<Quantity>("\"mood\"").contains("contacts or floor"));
     assert!(refusal::<Dimension>("4").contains("2 (discs) or 3 (spheres)"));
     assert!(refusal::<Direction>("1").contains("a string"));
 }
@@ -294,7 +287,7 @@ fn answers() {
     back(&standing);
     let extremes: BaseExtremes = pile.base_extremes().unwrap();
     back(&extremes);
-    let question = Question::new(Selection::Layer(3), Quantity::ContactVectors);
+    let question = Question::new(Selection::Layer(3), Quantity::Contacts);
     let question = question.with_method(Method::Tree);
     back(&question);
     let plan: Plan = pile.plan(question).unwrap();

@@ -10,7 +10,7 @@ use crate::table::{columns, slices};
 use crate::{Each, Error};
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::shape::{Numbering, Selection};
-use cannonpile::{Interrupt, PackedContact, Packing, Pile, Quantity};
+use cannonpile::{Interrupt, PackedContact, Packing, Pile};
 use places::{check_length, pieces, put, put_vectors};
 
 /// The spheres and contacts of a pile as numbers in slices, in the order of the exported files.
@@ -184,7 +184,7 @@ impl<'p> PileArrays<'p> {
     /// ```
     pub fn fill_centres(&self, centres: &mut [[f64; 3]]) -> Result<(), Error> {
         check_length(self.spheres, centres)?;
-        let places = self.packing(Quantity::Positions)?.places::<f64>();
+        let places = self.packing("positions")?.places::<f64>();
         let mut left = centres.iter_mut();
         for piece in pieces(self.pile.rows(Selection::All)?) {
             let mut found = columns(&piece)?;
@@ -249,7 +249,7 @@ impl<'p> PileArrays<'p> {
     /// ```
     pub fn fill_points(&self, points: &mut [[f64; 3]]) -> Result<(), Error> {
         check_length(self.contacts, points)?;
-        let packing = self.packing(Quantity::Positions)?;
+        let packing = self.packing("positions")?;
         let places = packing.places::<f64>();
         let directions = self.directions();
         let mut left = points.iter_mut();
@@ -284,7 +284,7 @@ impl<'p> PileArrays<'p> {
     /// ```
     pub fn fill_stresses(&self, places: &mut [[f64; 6]]) -> Result<(), Error> {
         check_length(self.spheres, places)?;
-        let packing = self.packing(Quantity::ContactVectors)?;
+        let packing = self.packing("contact vectors")?;
         for (place, stress) in places.iter_mut().zip(stresses(packing)?) {
             Interrupt::check()?;
             *place = stress?;
@@ -292,7 +292,7 @@ impl<'p> PileArrays<'p> {
         Ok(())
     }
 
-    fn packing(&self, quantity: Quantity) -> Result<&Packing<'p>, Error> {
+    fn packing(&self, quantity: &'static str) -> Result<&Packing<'p>, Error> {
         let packing = self.packing.as_ref();
         packing.ok_or(Error::NeedsUnits { quantity })
     }
@@ -306,7 +306,7 @@ impl<'p> PileArrays<'p> {
         left: core::slice::IterMut<'_, [f64; 3]>,
         of: impl Fn(&PackedContact) -> Result<[f64; 3], Error>,
     ) -> Result<(), Error> {
-        let packing = self.packing(Quantity::ContactVectors)?;
+        let packing = self.packing("contact vectors")?;
         let contacts = self.pile.horizontal_forces();
         for (place, (contact, force)) in left.zip(contacts) {
             *place = of(&packing.horizontal_contact_in_si(contact, force)?)?;

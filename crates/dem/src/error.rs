@@ -5,7 +5,6 @@ use core::fmt;
 
 use num_bigint::BigUint;
 
-use cannonpile::Quantity;
 use cannonpile::lattice::Site;
 
 use crate::Key;
@@ -78,7 +77,7 @@ pub enum Error {
     /// A quantity in SI units was requested for a pile without sizes and weights.
     NeedsUnits {
         /// The quantity.
-        quantity: Quantity,
+        quantity: &'static str,
     },
     /// A test for the suite of another code needs a state at rest, but some contact of the pile needs a tensile force.
     MustPull {

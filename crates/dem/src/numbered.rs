@@ -8,7 +8,7 @@ use crate::{Each, Error};
 use cannonpile::lattice::{ContactKind, Direction, Row, Site};
 use cannonpile::scalar::{Surd, SurdSum};
 use cannonpile::shape::{Numbering, Rows, Selection};
-use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
+use cannonpile::{FloorForce, Layers, Nearest, Packing, Pile};
 use cannonpile_stability::RoughPacking;
 
 /// A packing with numbered spheres.
@@ -239,7 +239,7 @@ impl<'p> NumberedPile<'p> {
 
     fn forces_of(
         &self,
-        mut layers: NearestLayers<'p, f64>,
+        mut layers: Layers<'p, Nearest<f64>>,
     ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
         Ok(in_pieces(self.rows_above_the_floor()?, move |piece| {
             let mut forces = columns(piece)?;

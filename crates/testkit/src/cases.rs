@@ -8,6 +8,11 @@ use num_traits::{One, Zero};
 
 use crate::oracles::balance::{Balance, Place, Sites, ratio, site};
 
+/// The number of limbs of a number: 62 bits in the top one, 55 in each of the others.
+pub fn limbs(bits: u64) -> u64 {
+    1 + bits.saturating_sub(62).div_ceil(55)
+}
+
 /// The sites with x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁ and s₀ ≤ i+j ≤ s₁.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {

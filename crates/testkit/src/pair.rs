@@ -188,7 +188,7 @@ impl<A: Real, B: Real> Ring for Pair<A, B> {
 
 impl<A: Real, B: Real> Algebra for Pair<A, B> {
     /// The weaker of the two scalars.
-    const EXACTNESS: Exactness = A::EXACTNESS.weaker(B::EXACTNESS);
+    const EXACTNESS: Exactness = weaker(A::EXACTNESS, B::EXACTNESS);
     const NAME: &'static str = "Pair";
 
     fn from_rational(r: &BigRational) -> Self {
@@ -247,5 +247,17 @@ impl<A: Real, B: Real> RealEmbeddable for Pair<A, B> {
     /// The enclosure of the first scalar, because this type checks the second. `None` if either value is undefined.
     fn enclosure(&self) -> Option<Enclosure> {
         self.is_defined().then(|| self.first.enclosure())?
+    }
+}
+
+/// Returns the exactness of a computation that uses two scalar types.
+pub const fn weaker(one: Exactness, other: Exactness) -> Exactness {
+    use Exactness::{Enclosure, Exact, Rounded};
+    match (one, other) {
+        (Rounded { bits: a }, Rounded { bits: b }) if b < a => other,
+        (Rounded { .. }, _) => one,
+        (_, Rounded { .. }) => other,
+        (Enclosure, _) | (_, Exact) => one,
+        _ => other,
     }
 }

@@ -1,32 +1,27 @@
 //! One layer of a pile and its forces.
 
-use alloc::vec::Vec;
 use core::fmt;
-use core::sync::atomic::{AtomicBool, Ordering};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
-use super::below::Below;
-use super::{Layers, check_lengths};
-use crate::engine::{Cells, Engine, Meter, Sweep, Table, check_interrupt, fill_rows, split_front};
-use crate::error::bug;
-use crate::forces::walk::RowEngine;
-use crate::lattice::{Region, Row, Site};
+use super::{Layers, Output, Quantities, check_lengths};
+use crate::engine::{Engine, fill_rows};
+use crate::lattice::{Region, Site};
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::Shape;
 use crate::{Error, FloorForce};
 
 /// One layer of a pile and its forces, from [`Layers::next_layer`].
-pub struct Layer<'l, 'p, T: Algebra> {
-    pub(in crate::forces) layers: &'l Layers<'p, T>,
+pub struct Layer<'l, 'p, O: Output> {
+    pub(super) layers: &'l Layers<'p, O>,
     pub(super) k: i128,
-    pub(in crate::forces) region: Region,
-    pub(in crate::forces) spheres: usize,
+    pub(super) region: Region,
+    pub(super) spheres: usize,
 }
 
-impl<'p, T: Algebra> Layers<'p, T> {
+impl<'p, O: Output> Layers<'p, O> {
     /// Advances to the next layer of the part and returns it, or `None` after the last layer.
     ///
     /// # Errors
@@ -46,7 +41,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
     /// assert_eq!(spheres, 20);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, T>>, Error> {
+    pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, O>>, Error> {
         let Some(k) = self.ahead.clone().next() else {
             return Ok(None);
         };
@@ -68,53 +63,9 @@ impl<'p, T: Algebra> Layers<'p, T> {
             spheres,
         }))
     }
-
-    /// Calls `fill` for each remaining layer above the floor, with its part of the slices.
-    pub(in crate::forces) fn fill_each<V>(
-        &mut self,
-        slices: [&mut [V]; 3],
-        fill: impl Fn(&Layer<'_, 'p, T>, [&mut [V]; 3]) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        check_lengths(self.slice_len()?, &slices)?;
-        let mut rest = slices;
-        self.ahead = self.above_the_floor();
-        while let Some(layer) = self.next_layer()? {
-            let front = split_front(&mut rest, layer.sphere_count())?;
-            fill(&layer, front)?;
-        }
-        Ok(())
-    }
 }
 
-impl Layer<'_, '_, BigRational> {
-    /// Returns the denominator of the forces below the layer.
-    pub(in crate::forces) fn denominator(&self) -> BigInt {
-        self.layers
-            .denominator(self.shape().changes_above(self.k + 1))
-    }
-
-    /// Applies `value` to the numerators of the forces below each sphere, and writes the results into slices.
-    pub(in crate::forces) fn fill_numerators<V>(
-        &self,
-        slices: [&mut [V]; 3],
-        value: impl Fn([BigInt; 3]) -> Result<[V; 3], Error>,
-    ) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        let mut rest = slices;
-        for row in self.region.rows(self.k) {
-            check_interrupt()?;
-            let below = self.layers.transmitted_in(&row)?;
-            let [a, b, c] = split_front(&mut rest, below.len())?;
-            for (forces, ((a, b), c)) in below.into_iter().zip(a.iter_mut().zip(b).zip(c)) {
-                [*a, *b, *c] = value(forces.forces)?;
-            }
-        }
-        Ok(())
-    }
-}
-
-impl<T: Algebra> Layer<'_, '_, T> {
+impl<O: Output> Layer<'_, '_, O> {
     /// Returns the number of the layer, counted from 0 at the top.
     #[must_use]
     pub fn k(&self) -> i128 {
@@ -154,39 +105,8 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// assert_eq!(forces.map(|force| force.to_string()), ["5/3"; 3]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn to_below(&self, site: Site) -> Result<[T; 3], Error> {
-        self.check(site)?;
-        if self.is_floor() {
-            return Err(Error::OnFloor { site });
-        }
-        self.transmitted(site)
-    }
-
-    /// Returns the force on the floor of a sphere of this layer, which must be the bottom layer.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::NotOnFloor`]; [`Error::Overflow`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Site;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// let floor = layers.next_layer()?.expect("every pile has a floor");
-    /// assert_eq!(floor.on_floor(Site { i: 0, j: 0, k: 9 })?.normal, 4.0);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
-        self.check(site)?;
-        if !self.is_floor() {
-            let floor = self.shape().layers() - 1;
-            return Err(Error::NotOnFloor { site, floor });
-        }
-        let Layers { walk, meter, .. } = self.layers;
-        one(walk.on_floor_in(&row_of(site), *meter))
+    pub fn to_below(&self, site: Site) -> Result<[O::Value; 3], Error> {
+        self.at(Quantities::Contacts, site)
     }
 
     /// Writes the forces below the layer into slices, one slice for each direction, row after row, in f₀. The forces
@@ -212,63 +132,92 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// assert!((alpha[0] - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn fill(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        let Layers {
-            table, walk, meter, ..
-        } = self.layers;
-        if let Some(table) = table {
-            return table.fill(self.k..self.k + 1, slices);
-        }
-        if let RowEngine::Plain(_, Engine::Sweep(sweep)) = walk {
-            return self.fill_from(sweep, slices);
-        }
-        self.fill_by_rows(slices, |row| walk.transmitted_in(row, *meter))
+    pub fn fill(&self, slices: [&mut [O::Value]; 3]) -> Result<(), Error> {
+        self.fill_with(Quantities::Contacts, slices)
     }
 
-    /// Writes the forces of each row, from `answers`, into slices.
-    fn fill_by_rows(
-        &self,
-        [a, b, c]: [&mut [T]; 3],
-        answers: impl Fn(&Row) -> Vec<Result<[T; 3], Error>>,
-    ) -> Result<(), Error> {
-        let mut out = a.iter_mut().zip(b).zip(c);
-        for row in self.region.rows(self.k) {
-            check_interrupt()?;
-            for (values, ((a, b), c)) in answers(&row).into_iter().zip(&mut out) {
-                [*a, *b, *c] = values?;
-            }
+    /// Writes a quantity into slices over the layer, row after row.
+    fn fill_with(&self, asked: Quantities, slices: [&mut [O::Value]; 3]) -> Result<(), Error> {
+        let (layers, k) = (self.layers, self.k);
+        check_lengths(self.spheres, &slices)?;
+        layers.check_part(asked, self.first())?;
+        if let (Quantities::Contacts, Some(table)) = (asked, &layers.table) {
+            return table.fill(k..k + 1, slices);
+        }
+        let conversion = O::conversion(layers, asked, k)?;
+        let [a, b, c] = slices;
+        let out = [&mut *a, &mut *b, &mut *c];
+        // The images of a contact force are equal to it, so the spheres that a sweep stores are enough.
+        let Engine::Limbs(sweep) = &layers.source.engine else {
+            return fill_rows(&self.region, k, out, |row, out| {
+                layers.write_row((asked, &conversion), row, out)
+            });
+        };
+        let by_images = asked == Quantities::Contacts;
+        fill_rows(&self.region, k, out, |row, out| {
+            let (row, out) = if by_images {
+                sweep.stored_piece(row, out)?
+            } else {
+                (row.clone(), out)
+            };
+            layers.write_row((asked, &conversion), &row, out)
+        })?;
+        if by_images {
+            sweep.copy_to_images(&mut [a, b, c])?;
         }
         Ok(())
     }
 
-    /// Writes the values of one sphere into slices that hold the whole layer.
-    pub(in crate::forces) fn put_at<V>(
-        &self,
-        site: Site,
-        values: [V; 3],
-        slices: [&mut [V]; 3],
-    ) -> Result<(), Error> {
-        let place = self.region.sites_before(site.i, site.j).to_usize();
-        let place = place.filter(|place| *place < self.spheres);
-        let place = place.ok_or_else(|| bug("a loaded sphere has a place in its layer"))?;
-        for (slice, value) in slices.into_iter().zip(values) {
-            // In bounds, because the slices are as long as the layer.
-            slice[place] = value;
+    /// Returns a quantity of one sphere of the layer.
+    fn at(&self, asked: Quantities, site: Site) -> Result<[O::Value; 3], Error> {
+        self.shape().check(site)?;
+        if site.k != self.k {
+            return Err(Error::OtherLayer {
+                layer: site.k,
+                at: self.k,
+            });
         }
-        Ok(())
+        self.layers.check_part(asked, site)?;
+        let conversion = O::conversion(self.layers, asked, self.k)?;
+        self.layers.at((asked, &conversion), site)
     }
 
-    /// Writes the forces of the layer into slices, from a table.
-    pub(in crate::forces) fn fill_from_table<V: Clone + Send + Sync>(
-        &self,
-        table: &Table<V>,
-        slices: [&mut [V]; 3],
-    ) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        table.fill(self.k..self.k + 1, slices)
+    pub(super) fn shape(&self) -> &Shape {
+        self.layers.shape()
+    }
+
+    fn first(&self) -> Site {
+        let [[i, j], ..] = self.region.corners();
+        Site { i, j, k: self.k }
+    }
+}
+
+impl<O: Output<Whole = ()>> Layer<'_, '_, O> {
+    /// Returns the force on the floor of a sphere of this layer, which must be the bottom layer.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::NotOnFloor`]; [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
+    /// let floor = layers.next_layer()?.expect("every pile has a floor");
+    /// assert_eq!(floor.on_floor(Site { i: 0, j: 0, k: 9 })?.normal, 4.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn on_floor(&self, site: Site) -> Result<FloorForce<O::Value>, Error> {
+        let [normal, shear_x, shear_y] = self.at(Quantities::Floor, site)?;
+        Ok(FloorForce {
+            site,
+            normal,
+            shear_x,
+            shear_y,
+        })
     }
 
     /// Writes the forces of the bottom layer on the floor into slices, row after row: normal in mg, shear_x in mg·tanθ
@@ -290,20 +239,12 @@ impl<T: Algebra> Layer<'_, '_, T> {
     /// assert_eq!((normal, shear_x[0], shear_y[0]), ([4.0; 55], -1.5, -1.5));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn fill_base(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_on_the_floor()?;
-        let Layers { walk, meter, .. } = self.layers;
-        self.fill_by_rows(slices, |row| {
-            let forces = walk.on_floor_in(row, *meter).into_iter();
-            let components = |force: Result<FloorForce<T>, Error>| {
-                let force = force?;
-                Ok([force.normal, force.shear_x, force.shear_y])
-            };
-            forces.map(components).collect()
-        })
+    pub fn fill_base(&self, slices: [&mut [O::Value]; 3]) -> Result<(), Error> {
+        self.fill_with(Quantities::Floor, slices)
     }
+}
 
+impl<T: Algebra> Layer<'_, '_, T> {
     /// Returns a bound on the rounding error of the contact forces below the layer, in f₀. The bound is 0 in an exact
     /// scalar.
     ///
@@ -338,121 +279,26 @@ impl<T: Algebra> Layer<'_, '_, T> {
             Exactness::Rounded { bits } => bits,
             _ => return None,
         };
-        let system = &self.layers.terms.system;
-        if system.has_scalar_loads {
+        let lines = &self.layers.source.lines;
+        if lines.has_scalar_loads {
             return None;
         }
         let changes = self.shape().changes_above(self.k + 1) + 1;
-        let extras = self.layers.terms.lines.extras_in(0..self.k + 1).count();
+        let extras = lines.extras_in(0..self.k + 1).count();
         // The passes of the runs, the stops and the extras, and one more for the increments of the sphere itself.
         let steps = BigInt::from(self.layers.stops + changes + extras + 1);
         let unit = BigRational::new(steps * 13, BigInt::one() << bits);
+        let pile = &lines.pile;
         // `bound_of_sweep` is at least 2√3·B·D, and so at least 3·B·D.
-        let greatest = BigRational::new(system.bound_of_sweep(self.k), system.denominator() * 3);
+        let greatest = BigRational::new(pile.bound_of_sweep(self.k), pile.denominator() * 3);
         let little = unit < BigRational::new(1.into(), 100.into());
         let below = &greatest / (BigInt::one() << (bits + 16));
         let underflows = !greatest.is_zero() && T::from_rational(&below).is_zero();
         (little && !underflows).then(|| unit * greatest * BigRational::new(65.into(), 64.into()))
     }
-
-    fn shape(&self) -> &Shape {
-        self.layers.shape()
-    }
-
-    /// Returns an error for the bottom layer.
-    pub(in crate::forces) fn check_above_the_floor(&self) -> Result<(), Error> {
-        if self.is_floor() {
-            return Err(Error::OnFloor { site: self.first() });
-        }
-        Ok(())
-    }
-
-    /// Returns an error for a layer above the bottom layer.
-    pub(in crate::forces) fn check_on_the_floor(&self) -> Result<(), Error> {
-        if self.is_floor() {
-            return Ok(());
-        }
-        let floor = self.shape().layers() - 1;
-        Err(Error::NotOnFloor {
-            site: self.first(),
-            floor,
-        })
-    }
-
-    fn first(&self) -> Site {
-        let [[i, j], ..] = self.region.corners();
-        Site { i, j, k: self.k }
-    }
-
-    fn check(&self, site: Site) -> Result<(), Error> {
-        self.shape().check(site)?;
-        if site.k == self.k {
-            Ok(())
-        } else {
-            Err(Error::OtherLayer {
-                layer: site.k,
-                at: self.k,
-            })
-        }
-    }
-
-    /// Returns the forces that a sphere of this layer, above the floor, transmits to the spheres below.
-    fn transmitted(&self, site: Site) -> Result<[T; 3], Error> {
-        let Layers { walk, meter, .. } = self.layers;
-        one(walk.transmitted_in(&row_of(site), *meter))
-    }
-
-    /// Fills slices row by row from the cells of a sweep.
-    fn fill_from(
-        &self,
-        sweep: &Sweep<'_, T, Cells<T::Numerator>>,
-        slices: [&mut [T]; 3],
-    ) -> Result<(), Error> {
-        let lines = &self.layers.terms.lines;
-        let changes = self.shape().changes_above(self.k + 1);
-        let below = Below::<T> {
-            own: lines.increments_after(changes),
-            scale: lines.scale(changes),
-            turns: sweep.turned_already() < changes,
-            may_overflow: self.layers.may_overflow,
-        };
-        let [alpha, beta, gamma] = slices;
-        let defined = AtomicBool::new(true);
-        let carried = sweep.carried_by_rows();
-        let out = [&mut *alpha, &mut *beta, &mut *gamma];
-        fill_rows(&self.region, self.k, out, |row, out| {
-            if !below.write(carried(row)?, out) {
-                defined.store(false, Ordering::Relaxed);
-            }
-            Ok(())
-        })?;
-        // Spheres with loads or with a weight of their own are written once more.
-        for site in lines.extras_in(self.k..self.k + 1) {
-            check_interrupt()?;
-            let below = sweep.transmitted(&below.own, site, Meter::NONE)?;
-            let forces = self.layers.terms.contacts(below)?;
-            self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
-        }
-        if defined.into_inner() {
-            Ok(())
-        } else {
-            Err(Error::overflow("a contact force", T::NAME))
-        }
-    }
 }
 
-/// Returns the row of one sphere.
-fn row_of(Site { i, j, k }: Site) -> Row {
-    Row { k, j, i: i..i + 1 }
-}
-
-/// Returns the single result of a row of one sphere.
-fn one<A>(mut answers: Vec<Result<A, Error>>) -> Result<A, Error> {
-    let answer = answers.pop();
-    answer.unwrap_or_else(|| Err(bug("a row of one sphere has an answer")))
-}
-
-impl<T: Algebra> fmt::Debug for Layer<'_, '_, T> {
+impl<O: Output> fmt::Debug for Layer<'_, '_, O> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Layer")
             .field("k", &self.k)

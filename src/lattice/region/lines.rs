@@ -5,7 +5,6 @@ use core::ops::Range;
 
 use super::Region;
 use crate::Error;
-use crate::each::Each;
 use crate::error::bug;
 use crate::lattice::{Sign, count};
 
@@ -31,8 +30,9 @@ impl Region {
         if steps < 1 || !self.contains(i, j) {
             return [0; 3];
         }
-        let bounds = count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
-        bounds.each(|[m, a, b, c]| m.min(a).min(b).min(c))
+        let [a, b, c] = count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
+        let least = |[m, a, b, c]: [i128; 4]| m.min(a).min(b).min(c);
+        [least(a), least(b), least(c)]
     }
 
     /// Returns [`spheres_above`](Self::spheres_above) as a function of the position along row `j`, from the site (i, j)

@@ -33,16 +33,12 @@ fn a_sweep_to_the_floor_of_six_layers() {
     let pile = under_one_sphere("+-+-+");
     let plan = pile.plan(Selection::Base).unwrap();
     assert_eq!(plan.method, Method::Sweep);
-    // A pass for each of five runs, and one for the layer where the sweep stops, with 3·27 values.
-    assert_eq!(plan.runs, 5);
-    assert_eq!(plan.passes, 6_u32.into());
-    assert_eq!(plan.numbers, 81_u32.into());
     assert_eq!(plan.visited, 27_u32.into());
     assert_eq!(plan.rows, 27_u32.into());
-    assert_eq!(plan.turned, (3_u32 + 7 + 12 + 19).into());
+    // 3·27 values.
     assert_eq!(plan.bytes, (81_u32 * 8).into());
     // ⌊√(36·6·69)⌋ + 1 = 123, tripled for each sign change but the first: 123·27 = 3321 < 2¹².
-    assert_eq!((plan.bits, plan.planes, plan.reserved), (12, 1, 62));
+    assert_eq!(plan.bits, 12);
 
     let counters = Counters::default();
     let forces = pile.forces::<BigRational>().with_counters(&counters);
@@ -65,9 +61,6 @@ fn the_bit_width_includes_the_last_sign_change() {
     // For loads only: six times 7/2, over the denominator 2, tripled: 126 < 2⁷.
     let response = pile.weightless().with_load(Site::APEX, ratio(7, 2));
     assert_eq!(bits(&response.unwrap()), 7);
-    let straight = under_one_sphere("++");
-    assert_eq!(straight.plan(Selection::Layer(0)).unwrap().runs, 0);
-    assert_eq!(straight.plan(Selection::Layer(1)).unwrap().runs, 1);
 }
 
 /// The pile has 11 spheres above the bottom layer, in 3 layers of at most 3 rows. This gives 9 pieces, each below at most 3
@@ -76,17 +69,15 @@ fn the_bit_width_includes_the_last_sign_change() {
 fn trees_are_planned_piece_by_piece() {
     let pile = under_one_sphere("+-+");
     let plan = pile.plan(by(Method::Tree, Selection::All)).unwrap();
-    assert_eq!(plan.turned, (9_u32 * 3 + 11).into());
     assert_eq!(plan.visited, (9_u32 * 3 + 11).into());
     // One layer has 3 pieces.
     let layer = pile.plan(by(Method::Tree, Selection::Layer(2))).unwrap();
-    assert_eq!(layer.turned, (3_u32 * 3 + 7).into());
+    assert_eq!(layer.visited, (3_u32 * 3 + 7).into());
     // One sphere depends on three at the last sign change and on nine of ten at the first.
     let pile = under_one_sphere("+++---+++");
     let one = Selection::One(Site { i: 0, j: 0, k: 8 });
     let plan = pile.plan(one).unwrap();
-    assert_eq!((plan.method, plan.runs), (Method::Tree, 3));
-    assert_eq!(plan.turned, (9_u32 + 3 + 1).into());
+    assert_eq!(plan.method, Method::Tree);
     assert_eq!(plan.visited, (9_u32 + 3 + 1).into());
 }
 
@@ -97,21 +88,24 @@ fn a_plan_prints_as_one_line() {
         plan.to_string()
     };
     let one = Selection::One(Site::APEX);
-    assert_eq!(printed("+++", Selection::All.into()), "closed");
-    let swept = "sweep: 5 runs, 81 numbers of 1 x 64 bits";
+    let closed = "closed: 10 spheres visited";
+    assert_eq!(printed("+++", Selection::All.into()), closed);
+    let swept = "sweep: 27 spheres visited, 648 bytes for numbers of 12 bits";
     assert_eq!(printed("+-+-+", Selection::Base.into()), swept);
-    assert_eq!(
-        printed("+-+", by(Method::Tree, Selection::All)),
-        "tree: 2 runs"
-    );
-    assert_eq!(printed("+-+", one.into()), "tree: 0 runs");
+    assert_eq!(printed("+-+", one.into()), "tree: 1 spheres visited");
 }
 
 #[test]
 fn a_sphere_inside_a_run_depends_on_three_at_the_change() {
     let pile = under_one_sphere("+--");
-    let nodes =
-        |i, j, k| Direction::ALL.map(|line| pile.tree_size(Site { i, j, k }, line).unwrap());
+    let nodes = |i, j, k| {
+        Direction::ALL.map(|line| {
+            let counters = Counters::default();
+            let forces = pile.forces::<BigRational>().with_counters(&counters);
+            forces.contact(Site { i, j, k }, line).unwrap();
+            counters.turned()
+        })
+    };
     assert_eq!(nodes(0, 0, 0), [0; 3]);
     // At the sign change: the sphere itself.
     assert_eq!(nodes(0, 0, 1), [1; 3]);
@@ -125,15 +119,15 @@ fn a_sphere_inside_a_run_depends_on_three_at_the_change() {
 }
 
 #[test]
-fn a_bare_selection_queries_multiples() {
+fn a_bare_selection_is_a_question_about_contacts_or_the_floor() {
     let quantity = |part| Question::from(part).quantity;
-    assert_eq!(quantity(Selection::Base), Quantity::FloorMultiples);
+    assert_eq!(quantity(Selection::Base), Quantity::Floor);
     for part in [
         Selection::All,
         Selection::Layer(1),
         Selection::One(Site::APEX),
     ] {
-        assert_eq!(quantity(part), Quantity::ContactMultiples);
+        assert_eq!(quantity(part), Quantity::Contacts);
     }
 }
 
@@ -150,7 +144,7 @@ fn a_sweep_has_at_most_2_to_the_27_values() {
         Err(Error::TooLarge { needed, limit, .. }) if cfg!(target_pointer_width = "32") => {
             assert!(needed == most && limit < MAX_NUMBERS - 5);
         }
-        plan => assert_eq!(plan.unwrap().numbers, most),
+        plan => assert_eq!(plan.unwrap().bytes, most * 8_u32),
     }
     let refused = Error::TooLarge {
         quantity: "a sweep down to this layer",

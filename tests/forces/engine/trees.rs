@@ -1,11 +1,11 @@
-//! The number of spheres that the tree of a contact visits.
+//! The number of spheres at sign changes that the tree of a contact visits.
 
 use std::collections::BTreeSet;
 
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{Error, Method, Pile};
+use cannonpile::{Counters, Error, Method, Pile};
 
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
 use cannonpile_testkit::oracles::balance::{Balance, Place, direction, site};
@@ -47,6 +47,14 @@ fn cone(balance: &Balance, at: Place) -> BTreeSet<Place> {
     cone
 }
 
+/// The number of spheres at sign changes that a contact force visits.
+fn turned(pile: &Pile, site: Site, direction: Direction) -> usize {
+    let counters = Counters::default();
+    let forces = pile.forces::<f64>().with_counters(&counters);
+    forces.contact(site, direction).unwrap();
+    counters.turned().try_into().unwrap()
+}
+
 fn tree_size_is_exact(case: &Case) {
     let balance = &case.balance;
     for at in balance.places().filter(|at| balance.sign(at.0).is_some()) {
@@ -55,7 +63,7 @@ fn tree_size_is_exact(case: &Case) {
         let at_changes = cone.iter().filter(|at| at_a_change(balance, at.0)).count();
         let most = (3_usize.pow(u32::try_from(changes).unwrap()) - 1) / 2;
         for m in 0..3 {
-            let nodes = case.pile.tree_size(site(at), direction(m)).unwrap();
+            let nodes = turned(&case.pile, site(at), direction(m));
             assert_eq!(nodes, visited(balance, (at, m)).len(), "{at:?} {m}");
             assert!(nodes <= most.min(at_changes), "{at:?} {m}");
         }
@@ -79,20 +87,9 @@ fn a_tree_visits_each_dependency_once() {
 }
 
 #[test]
-fn a_bottom_sphere_has_no_tree_of_a_contact() {
-    let case = Case::under(&Bounds::SITE, "+-");
-    let bottom = Site { i: 0, j: 0, k: 2 };
-    assert!(case.pile.tree_size(bottom, Direction::Alpha).is_err());
-}
-
-#[test]
 fn a_sweep_replaces_a_tree_that_is_too_large() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(400).unwrap()).unwrap();
     let middle = Site { i: 0, j: 0, k: 398 };
-    assert!(matches!(
-        pile.tree_size(middle, Direction::Alpha),
-        Err(Error::TooLarge { .. })
-    ));
     let forces = pile.forces::<f64>();
     // An explicit tree is still rejected.
     let by_tree = forces.clone().with_method(Method::Tree).unwrap();

@@ -7,7 +7,7 @@ use cannonpile::{Error, Pile, Standing};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
-use cannonpile_testkit::cases::{Bounds, Case, Random, repeated, stacking};
+use cannonpile_testkit::cases::{Bounds, Case, Random, limbs, repeated, stacking};
 use cannonpile_testkit::compare::{agrees, standing};
 use cannonpile_testkit::oracles::balance::ratio;
 use cannonpile_testkit::oracles::brute;
@@ -99,7 +99,7 @@ fn extremes_agree_with_the_oracle(case: &Case) {
 #[test]
 fn the_least_value_of_two_limbs_equals_brute_force() {
     let case = Case::under(&Bounds::SITE, &repeated("+-", 40));
-    assert_eq!(case.pile.plan(Selection::Base).unwrap().planes, 2);
+    assert_eq!(limbs(case.pile.plan(Selection::Base).unwrap().bits), 2);
     let passed = brute::all(&case.balance);
     let contacts = (0..).zip(&passed).flat_map(|(k, passed)| {
         let over = BigInt::from(3).pow(u32::try_from(passed.below.changes).unwrap());

@@ -1,30 +1,24 @@
 //! `explain`: the plan of a computation, and its counted cost.
 
+use cannonpile::Pile;
 use cannonpile::shape::Selection;
-use cannonpile::{Pile, Quantity};
 use cannonpile_dem::table::{NumberFormat, Table, WriteError};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::args::{Format, MethodOption, Output, Part, SceneOptions, UnitSystem};
 use crate::output::{Failure, InputError};
 use crate::progress::Progress;
-use crate::tables::Explanation;
+use crate::tables::{Explanation, Wanted};
 use crate::{Culprit, Error};
 
 const HELP: &str = "\
 The plan. All numbers are upper bounds:
-  quantity  computed quantity
   method    closed, tree or sweep
-  runs      runs of equal Hägg signs above the selected spheres
   visited   spheres whose forces are computed
-  turned    visited spheres at sign changes
-  passes    steps from a layer to the next
-  numbers   numbers in memory at a time
-  bits      bits of the widest number
-  planes    machine words of each number
-  roots     square roots
   rows      rows of the result
-  bytes     memory for the numbers
+  bits      bits of the widest number of a sweep
+  bytes     memory for the numbers of a sweep
+  roots     square roots
 The rows counted_visited, counted_turned, counted_passes and counted_rows give the counts of a run.
 
 Examples:
@@ -38,7 +32,7 @@ pub(crate) struct Explain {
     pub(crate) scene: SceneOptions,
     /// Quantity to compute
     #[arg(long, value_enum, default_value = "contacts", help_heading = "Output")]
-    of: QuantityName,
+    of: Wanted,
     #[command(flatten)]
     part: Part,
     /// Units of forces
@@ -53,49 +47,26 @@ pub(crate) struct Explain {
     output: Output,
 }
 
-/// The quantity to explain.
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum QuantityName {
-    /// Contact forces, as of the command contacts
-    Contacts,
-    /// Magnitudes of the contact forces, in SI
-    Magnitudes,
-    /// Base forces, as of the command base
-    Base,
-    /// Positions, as of the command spheres, in SI
-    Spheres,
-}
-
-impl QuantityName {
-    /// Returns the quantity and its units. Magnitudes and positions are in SI.
-    const fn quantity(self, units: UnitSystem) -> (Quantity, UnitSystem) {
-        match (self, units) {
-            (Self::Contacts, UnitSystem::Pile) => (Quantity::ContactMultiples, units),
-            (Self::Contacts, UnitSystem::Si) => (Quantity::ContactVectors, units),
-            (Self::Magnitudes, _) => (Quantity::ContactForces, UnitSystem::Si),
-            (Self::Base, UnitSystem::Pile) => (Quantity::FloorMultiples, units),
-            (Self::Base, UnitSystem::Si) => (Quantity::FloorForces, units),
-            (Self::Spheres, _) => (Quantity::Positions, UnitSystem::Si),
-        }
-    }
-
-    /// Returns the selected part. For base forces the whole pile means the base.
-    fn part(self, part: Selection, pile: &Pile) -> Selection {
-        match part {
-            Selection::All if self == Self::Base => Selection::Base,
-            Selection::Layer(k) if self == Self::Base && k == pile.layers() - 1 => Selection::Base,
-            part => part,
-        }
+/// Returns the selected part. For base forces the whole pile means the base.
+fn part_of(wanted: Wanted, part: Selection, pile: &Pile) -> Selection {
+    match part {
+        Selection::All if wanted == Wanted::Base => Selection::Base,
+        Selection::Layer(k) if wanted == Wanted::Base && k == pile.layers() - 1 => Selection::Base,
+        part => part,
     }
 }
 
 impl Explain {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read()?;
-        let part = self.of.part(self.part.selection(&pile)?, &pile);
-        let (quantity, system) = self.of.quantity(self.units);
+        let part = part_of(self.of, self.part.selection(&pile)?, &pile);
+        let system = match self.of {
+            // Magnitudes and positions are in SI.
+            Wanted::Magnitudes | Wanted::Spheres => UnitSystem::Si,
+            Wanted::Contacts | Wanted::Base => self.units,
+        };
         let units = self.method.apply(system.of(&scene, &pile)?)?;
-        let explanation = Explanation::new(&units, quantity, part);
+        let explanation = Explanation::new(&units, self.of, part);
         // The user gave --layer, so the message must not name a sphere.
         self.write(&explanation.map_err(|error| match (part, error.into()) {
             (Selection::Layer(_), error @ Error::Core(cannonpile::Error::NotOnFloor { .. })) => {

@@ -2,18 +2,57 @@
 
 use cannonpile::engine::bug;
 use cannonpile::shape::Selection;
-use cannonpile::{Counters, Forces, Plan, Quantity, Question};
+use cannonpile::{Counters, Plan, Quantity, Question};
 use cannonpile_dem::Error;
 use cannonpile_dem::table::{Cell, Column, Table, Units, refuse_beyond};
+use clap::ValueEnum;
 use num_bigint::{BigInt, BigUint};
-use num_rational::BigRational;
+
+/// A quantity of each sphere or contact.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum Wanted {
+    /// Contact forces, as of the command contacts
+    Contacts,
+    /// Magnitudes of the contact forces, in SI
+    Magnitudes,
+    /// Base forces, as of the command base
+    Base,
+    /// Positions, as of the command spheres, in SI
+    Spheres,
+}
+
+impl Wanted {
+    /// Returns the quantity of the forces, if any are computed.
+    const fn forces(self) -> Option<Quantity> {
+        match self {
+            Self::Contacts | Self::Magnitudes => Some(Quantity::Contacts),
+            Self::Base => Some(Quantity::Floor),
+            Self::Spheres => None,
+        }
+    }
+
+    /// Returns the number of square roots. The radicands are 1/cos²θ, tan²θ, sin²θ and cos²θ. Components along y add
+    /// 4cos²φ.
+    const fn roots(self, units: &Units<'_>) -> u32 {
+        match (units, self) {
+            (Units::Si(_), Self::Contacts) => 5,
+            (Units::Si(_), Self::Magnitudes) => 1,
+            (Units::Si(_), Self::Base) => 2,
+            (Units::Si(_), Self::Spheres) => 3,
+            _ => 0,
+        }
+    }
+}
 
 /// A query about a pile in some units, with its plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Explanation<'p> {
     units: Units<'p>,
-    question: Question,
-    plan: Plan,
+    wanted: Wanted,
+    part: Selection,
+    rows: BigUint,
+    /// The plan of the forces, if any are computed.
+    plan: Option<Plan>,
 }
 
 impl<'p> Explanation<'p> {
@@ -21,17 +60,24 @@ impl<'p> Explanation<'p> {
     ///
     /// # Errors
     /// As for [`Pile::plan`](cannonpile::Pile::plan).
-    pub(crate) fn new(
-        units: &Units<'p>,
-        quantity: Quantity,
-        part: Selection,
-    ) -> Result<Self, Error> {
-        let mut question = Question::new(part, quantity);
-        question.method = units.method();
+    pub(crate) fn new(units: &Units<'p>, wanted: Wanted, part: Selection) -> Result<Self, Error> {
+        let pile = units.pile();
+        let plan = wanted.forces().map(|quantity| {
+            let mut question = Question::new(part, quantity);
+            question.method = units.method();
+            pile.plan(question)
+        });
+        let plan = plan.transpose()?;
+        let rows = match &plan {
+            Some(plan) => plan.rows.clone(),
+            None => pile.rows(part)?.site_count(),
+        };
         Ok(Self {
             units: units.clone(),
-            plan: units.pile().plan(question)?,
-            question,
+            wanted,
+            part,
+            rows,
+            plan,
         })
     }
 
@@ -41,7 +87,7 @@ impl<'p> Explanation<'p> {
     /// [`TooManyRows`](cannonpile::Error::TooManyRows), with the limit of a table.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let remedy = "ask for one layer, one sphere, or the plan only";
-        refuse_beyond(&self.plan.rows, remedy)
+        refuse_beyond(&self.rows, remedy)
     }
 
     /// Computes all values of the query, and counts the work.
@@ -50,25 +96,25 @@ impl<'p> Explanation<'p> {
     /// As for [`check`](Self::check), and the errors of the computation.
     pub(crate) fn run(&self) -> Result<Counters, Error> {
         self.check()?;
-        let counters = Counters::default();
-        let part = self.question.part;
-        let quantity = self.question.quantity;
+        let (counters, part) = (Counters::default(), self.part);
         match &self.units {
             Units::Pile(forces) => {
-                multiples(
-                    &forces.as_ref().clone().with_counters(&counters),
-                    quantity,
-                    part,
-                )?;
+                let forces = forces.as_ref().clone().with_counters(&counters);
+                match self.wanted {
+                    Wanted::Contacts => all(forces.contacts(part)?)?,
+                    Wanted::Base => all(forces.base(part)?)?,
+                    Wanted::Magnitudes | Wanted::Spheres => {
+                        return Err(bug("a quantity in SI has units in SI").into());
+                    }
+                }
             }
             Units::Si(packing) => {
                 let packing = packing.as_ref().clone().with_counters(&counters);
-                match quantity {
-                    Quantity::ContactForces => all(packing.contact_forces(part)?)?,
-                    Quantity::ContactVectors => all(packing.contacts(part)?)?,
-                    Quantity::FloorForces => all(packing.base(part)?)?,
-                    Quantity::Positions => all(packing.positions(part)?)?,
-                    _ => multiples(packing.forces(), quantity, part)?,
+                match self.wanted {
+                    Wanted::Contacts => all(packing.contacts(part)?)?,
+                    Wanted::Magnitudes => all(packing.contact_forces(part)?)?,
+                    Wanted::Base => all(packing.base(part)?)?,
+                    Wanted::Spheres => all(packing.positions(part)?)?,
                 }
             }
             _ => return Err(bug("units are pile units or SI").into()),
@@ -78,27 +124,20 @@ impl<'p> Explanation<'p> {
 
     /// Returns one row with the plan, and with the counters if they are given.
     ///
-    /// The columns of the plan are upper bounds: `quantity, method, runs, visited, turned, passes, numbers, bits, planes, roots,
-    /// rows, bytes`. Those of the counters are `counted_visited, counted_turned, counted_passes, counted_rows`.
+    /// The columns of the plan are upper bounds: `method, visited, rows, bits, bytes, roots`. Those of the counters are
+    /// `counted_visited, counted_turned, counted_passes, counted_rows`.
     #[must_use]
     pub(crate) fn table(&self, counters: Option<&Counters>) -> Table<'static> {
-        let plan = &self.plan;
+        let plan = self.plan.as_ref();
+        let method = plan.map_or("closed".into(), |plan| plan.method.to_string());
+        let big = |n: Option<&BigUint>| count(n.cloned().unwrap_or_default());
         let mut entries: Vec<(&'static str, Cell)> = vec![
-            (
-                "quantity",
-                Cell::Word(self.question.quantity.to_string().into()),
-            ),
-            ("method", Cell::Word(plan.method.to_string().into())),
-            ("runs", count(plan.runs)),
-            ("visited", big(&plan.visited)),
-            ("turned", big(&plan.turned)),
-            ("passes", big(&plan.passes)),
-            ("numbers", big(&plan.numbers)),
-            ("bits", count(plan.bits)),
-            ("planes", count(plan.planes)),
-            ("roots", count(plan.roots)),
-            ("rows", big(&plan.rows)),
-            ("bytes", big(&plan.bytes)),
+            ("method", Cell::Word(method.into())),
+            ("visited", big(plan.map(|plan| &plan.visited))),
+            ("rows", count(self.rows.clone())),
+            ("bits", count(plan.map_or(0, |plan| plan.bits))),
+            ("bytes", big(plan.map(|plan| &plan.bytes))),
+            ("roots", count(self.wanted.roots(&self.units))),
         ];
         entries.extend(counters.map(counted).into_iter().flatten());
         record(entries)
@@ -108,19 +147,6 @@ impl<'p> Explanation<'p> {
     #[must_use]
     pub(crate) fn counted(counters: &Counters) -> Table<'static> {
         record(counted(counters).into())
-    }
-}
-
-/// Computes the values of a query in pile units.
-fn multiples(
-    forces: &Forces<'_, BigRational>,
-    quantity: Quantity,
-    part: Selection,
-) -> Result<(), cannonpile::Error> {
-    match quantity {
-        Quantity::ContactMultiples => all(forces.contacts(part)?),
-        Quantity::FloorMultiples => all(forces.base(part)?),
-        _ => Err(bug("a quantity in SI has units in SI")),
     }
 }
 
@@ -142,10 +168,6 @@ fn count(n: impl Into<BigInt>) -> Cell {
     Cell::Integer(n.into())
 }
 
-fn big(n: &BigUint) -> Cell {
-    Cell::Integer(n.clone().into())
-}
-
 fn all<A>(
     answers: impl Iterator<Item = Result<A, cannonpile::Error>>,
 ) -> Result<(), cannonpile::Error> {
@@ -157,17 +179,15 @@ fn all<A>(
 
 #[cfg(test)]
 mod tests {
-    use cannonpile::geometry::Spacing;
-    use cannonpile::lattice::Region;
-    use cannonpile::{Packing, Pile};
+    use cannonpile::Pile;
 
     use super::super::test::csv;
     use super::*;
 
-    fn explained(layers: i128, quantity: Quantity, part: Selection) -> Vec<String> {
+    fn explained(layers: i128, wanted: Wanted, part: Selection) -> Vec<String> {
         let pile = Pile::triangular(layers).unwrap();
         let units = Units::of_pile(&pile);
-        let explanation = Explanation::new(&units, quantity, part).unwrap();
+        let explanation = Explanation::new(&units, wanted, part).unwrap();
         let counted = explanation.run().unwrap();
         let csv = csv(explanation.table(Some(&counted)));
         csv.lines().map(str::to_owned).collect()
@@ -175,14 +195,14 @@ mod tests {
 
     #[test]
     fn counters_follow_the_plan() {
-        let rows = explained(10, Quantity::FloorMultiples, Selection::Base);
-        assert!(rows[0].starts_with("quantity,method,runs,visited,"));
+        let rows = explained(10, Wanted::Base, Selection::Base);
+        assert!(rows[0].starts_with("method,visited,rows,bits,"));
         assert!(
-            rows[0].ends_with(",bytes,counted_visited,counted_turned,counted_passes,counted_rows")
+            rows[0].ends_with(",roots,counted_visited,counted_turned,counted_passes,counted_rows")
         );
-        assert!(rows[1].starts_with("floor multiples,closed,1,55,"));
+        assert!(rows[1].starts_with("closed,55,55,"));
         // Three contacts of each of ten spheres.
-        let rows = explained(10, Quantity::ContactMultiples, Selection::Layer(3));
+        let rows = explained(10, Wanted::Contacts, Selection::Layer(3));
         assert!(rows[1].ends_with(",10,0,0,30"), "{rows:?}");
     }
 
@@ -192,11 +212,11 @@ mod tests {
         assert!(counted.ends_with("\n0,0,0,0\n"));
         let pile = Pile::triangular(10).unwrap();
         let units = Units::of_pile(&pile);
-        let explanation = Explanation::new(&units, Quantity::FloorMultiples, Selection::Base);
+        let explanation = Explanation::new(&units, Wanted::Base, Selection::Base);
         let table = explanation.unwrap().table(None);
         assert_eq!(
             table.columns().last().map(|column| column.name),
-            Some("bytes")
+            Some("roots")
         );
     }
 
@@ -211,30 +231,9 @@ mod tests {
                 Err(Error::Core(cannonpile::Error::TooManyRows { .. }))
             )
         };
-        let contacts = Quantity::ContactMultiples;
+        let contacts = Wanted::Contacts;
         assert!(!refused(10_000, contacts, Selection::Layer(9)));
         assert!(refused(10_000, contacts, Selection::All));
-        assert!(refused(
-            10_i128.pow(30),
-            Quantity::FloorMultiples,
-            Selection::Base
-        ));
-    }
-
-    /// A packing computes multiples of the unit force without a square root.
-    #[test]
-    fn multiples_of_a_packing_are_counted() {
-        let pile = Pile::under(Region::SITE, "+-++-".parse().unwrap()).unwrap();
-        let ratio = BigRational::new(6.into(), 5.into());
-        let packing = Packing::new(&pile, &Spacing::new(ratio).unwrap()).unwrap();
-        let units = Units::of_packing(packing);
-        for (quantity, part) in [
-            (Quantity::ContactMultiples, Selection::All),
-            (Quantity::FloorMultiples, Selection::Base),
-        ] {
-            let explanation = Explanation::new(&units, quantity, part).unwrap();
-            let counters = explanation.run().unwrap();
-            assert_eq!(explanation.plan.rows, counters.rows().into(), "{quantity}");
-        }
+        assert!(refused(10_i128.pow(30), Wanted::Base, Selection::Base));
     }
 }

@@ -11,7 +11,7 @@ use crate::{Each, Error};
 use cannonpile::engine::common_multiple;
 use cannonpile::engine::copies;
 use cannonpile::shape::Selection;
-use cannonpile::{NearestLayers, Packing, Quantity};
+use cannonpile::{Layers, Nearest, Packing};
 
 impl<'p> PileArrays<'p> {
     /// Writes the forces of all contacts, in N for a packing and in f₀ for a pile. A positive force is a push.
@@ -133,7 +133,7 @@ impl<'p> PileArrays<'p> {
     pub fn fill_vectors(&self, vectors: &mut [[f64; 3]]) -> Result<(), Error> {
         check_length(self.contacts, vectors)?;
         let mut layers = self
-            .packing(Quantity::ContactVectors)?
+            .packing("contact vectors")?
             .layers::<f64>(Selection::All)?;
         let lines = self.directions().len();
         let mut left = vectors.iter_mut();
@@ -177,7 +177,7 @@ impl<'p> PileArrays<'p> {
         Ok(())
     }
 
-    fn layers(&self, part: Selection) -> Result<NearestLayers<'p, f64>, Error> {
+    fn layers(&self, part: Selection) -> Result<Layers<'p, Nearest<f64>>, Error> {
         match &self.packing {
             Some(packing) => Ok(packing.layers(part)?),
             None => Ok(self.pile.forces::<BigRational>().layers(part)?.nearest()?),

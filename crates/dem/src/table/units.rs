@@ -8,7 +8,7 @@ use crate::Error;
 use cannonpile::lattice::Dimension;
 use cannonpile::scalar::{CorrectlyRounded, Ring, Surd};
 use cannonpile::shape::Selection;
-use cannonpile::{FloorForce, Forces, Method, NearestLayers, Packing, Pile, Places};
+use cannonpile::{FloorForce, Forces, Layers, Method, Nearest, Packing, Pile, Places};
 
 /// The units of a table.
 #[derive(Clone, Debug)]
@@ -81,7 +81,7 @@ impl<'p> Units<'p> {
     pub(super) fn layers<F: CorrectlyRounded>(
         &self,
         part: Selection,
-    ) -> Result<NearestLayers<'p, F>, Error> {
+    ) -> Result<Layers<'p, Nearest<F>>, Error> {
         match self {
             Self::Pile(forces) => Ok(forces.layers(part)?.nearest()?),
             Self::Si(packing) => Ok(packing.layers(part)?),

@@ -14,27 +14,25 @@ fn value<'t>(table: &'t str, name: &str) -> &'t str {
 #[test]
 fn counters_are_below_the_plan() {
     let table = stdout("explain --layers 10");
-    assert_eq!(value(&table, "quantity"), "contact multiples");
     assert_eq!(value(&table, "method"), "closed");
-    for (name, count) in [("visited", "165"), ("turned", "0"), ("rows", "495")] {
+    for (name, count) in [("visited", "165"), ("rows", "495")] {
         assert_eq!(value(&table, name), count);
         assert_eq!(value(&table, &format!("counted_{name}")), count);
     }
     let table = stdout("explain --stacking hcp --layers 30 --of base --units si");
     assert_eq!(value(&table, "method"), "sweep");
     assert_eq!(value(&table, "bytes"), "16200");
-    let counted = value(&table, "counted_turned").parse::<u32>().unwrap();
-    assert!(counted > 0 && counted <= value(&table, "turned").parse().unwrap());
+    assert_ne!(value(&table, "counted_turned"), "0");
 }
 
 #[test]
 fn csv_and_json_have_one_row() {
     let csv = stdout("explain --stacking hcp --layers 12 --at 5,1,1 --format csv");
     let [head, row] = [0, 1].map(|n| csv.lines().nth(n).unwrap());
-    assert!(head.starts_with("quantity,method,runs,visited,turned,passes,"));
+    assert!(head.starts_with("method,visited,rows,bits,bytes,roots,"));
     assert!(head.ends_with("counted_passes,counted_rows"));
     assert_eq!(head.split(',').count(), row.split(',').count());
-    assert!(row.starts_with("contact multiples,tree,5,"));
+    assert!(row.starts_with("tree,"));
     let json = stdout("explain --layers 4 --of spheres --format json");
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json[0]["counted_rows"], 20);

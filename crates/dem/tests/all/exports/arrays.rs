@@ -1,8 +1,8 @@
 //! The numbers in slices equal those of the files and tables bit by bit, in the same order.
 
+use cannonpile::Pile;
 use cannonpile::lattice::{ContactKind, HorizontalContact};
 use cannonpile::shape::Selection;
-use cannonpile::{Pile, Quantity};
 use cannonpile_dem::table::{self, FileFormat, NumberFormat, Units};
 use cannonpile_dem::{Error, PileArrays, PileFile};
 use cannonpile_testkit::scenes::{columns, for_each_pile, packing, text};
@@ -145,7 +145,7 @@ fn slices_that_do_not_fit_are_refused() {
             matches!(
                 refused,
                 Err(Error::NeedsUnits {
-                    quantity: Quantity::Positions,
+                    quantity: "positions",
                     ..
                 })
             ),
