@@ -59,7 +59,7 @@ fn time_contact<T: Algebra>(pile: &Pile) -> Duration {
         k,
     };
     // Site (1, 1, 5) of the small pile has three spheres above on the line, so its force is 4.
-    let want = T::from_i128(k - site.i - site.j + 1);
+    let want = T::from_integer(k - site.i - site.j + 1);
     assert_eq!(
         forces.contact(site, Direction::Alpha).expect("a contact"),
         want
@@ -79,7 +79,7 @@ fn time_floor<T: Field>(pile: &Pile) -> Duration {
         k: pile.layers() - 1,
     };
     let third = 3.try_into().expect("not zero");
-    let want = T::from_i128(pile.layers() + 2).div_int(third);
+    let want = T::from_integer(pile.layers() + 2).div_int(third);
     // In floats L + 2 and the sum of the counts may round differently.
     let normal = forces.on_floor(site).expect("a base sphere").normal;
     let off = (normal.clone() - &want)

@@ -9,9 +9,7 @@ use core::array;
 use cannonpile::formula::{force, increments, support_load, weight};
 use cannonpile::geometry::directions;
 use cannonpile::lattice::{Site, count};
-use cannonpile::scalar::{
-    Algebra, DoubleDouble, FixedRational, Interval, Polynomial, RealEmbeddable, Symbol,
-};
+use cannonpile::scalar::{Algebra, DoubleDouble, FixedRational, Interval, Polynomial, Symbol};
 use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -53,7 +51,7 @@ fn main() -> Result<(), Error> {
         twice.high(),
         twice.low()
     );
-    let miss = twice.enclosure().map(|point| (point.lower - &exact).abs());
+    let miss = twice.to_rational().map(|value| (value - &exact).abs());
     assert!(miss.is_some_and(|miss| miss < BigRational::new(1.into(), 10_i128.pow(30).into())));
 
     let bounds: Interval = answer(&numbers);

@@ -1,100 +1,72 @@
 //! A scalar of one's own: dual numbers, which carry a derivative through every formula.
 //!
-//! A dual number a + a′ε has ε² = 0. The thirty lines of operators below are all that the library needs. Every query
-//! then returns a force and its derivative, here by a load and by the tilt of gravity. Run it with `cargo run --example
-//! own_scalar`.
+//! A dual number a + a′ε has ε² = 0. The forty lines below are all that the library needs. Every query then returns a force
+//! and its derivative, here by a load and by the tilt of gravity. Run it with `cargo run --example own_scalar`.
 
 use core::num::NonZeroI64;
-use core::ops::{Add, Mul, Neg, Sub};
+use core::ops::{Add, Mul, Sub};
 
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::num_rational::BigRational;
-use cannonpile::num_traits::{One, Zero};
-use cannonpile::scalar::{Algebra, Exactness, OwnNumerators, Ring, laws};
+use cannonpile::num_traits::Zero;
+use cannonpile::scalar::{Algebra, Exactness, Ring, laws};
 use cannonpile::{Error, Pile, ratio};
 
 /// A value and its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Dual(f64, f64);
 
-/// Implements an operator by value and by reference, as [`Ring`] requires.
-macro_rules! operator {
-    ($name:ident, $method:ident, |$a:ident, $b:ident| $result:expr) => {
-        impl $name<&Dual> for Dual {
-            type Output = Dual;
-
-            fn $method(self, other: &Dual) -> Dual {
-                let ($a, $b) = (self, *other);
-                $result
-            }
-        }
-
-        impl $name for Dual {
-            type Output = Dual;
-
-            fn $method(self, other: Dual) -> Dual {
-                $name::$method(self, &other)
-            }
-        }
-    };
-}
-
-operator!(Add, add, |a, b| Dual(a.0 + b.0, a.1 + b.1));
-operator!(Sub, sub, |a, b| Dual(a.0 - b.0, a.1 - b.1));
-operator!(Mul, mul, |a, b| Dual(a.0 * b.0, a.1 * b.0 + a.0 * b.1));
-
-impl Neg for Dual {
-    type Output = Dual;
-
-    fn neg(self) -> Dual {
-        Dual(-self.0, -self.1)
+impl Add<&Self> for Dual {
+    type Output = Self;
+    fn add(self, other: &Self) -> Self {
+        Self(self.0 + other.0, self.1 + other.1)
     }
 }
 
-impl Zero for Dual {
-    fn zero() -> Dual {
-        Dual(0.0, 0.0)
-    }
-
-    fn is_zero(&self) -> bool {
-        *self == Dual::zero()
+impl Sub<&Self> for Dual {
+    type Output = Self;
+    fn sub(self, other: &Self) -> Self {
+        Self(self.0 - other.0, self.1 - other.1)
     }
 }
 
-impl One for Dual {
-    fn one() -> Dual {
-        Dual(1.0, 0.0)
+impl Mul<&Self> for Dual {
+    type Output = Self;
+    fn mul(self, other: &Self) -> Self {
+        Self(self.0 * other.0, self.1 * other.0 + self.0 * other.1)
     }
 }
+
+// The operators by value, `-a`, zero and one follow.
+cannonpile::ring!(Dual);
 
 impl Ring for Dual {
-    fn from_i128(n: i128) -> Dual {
-        Dual(f64::from_i128(n), 0.0)
+    fn from_integer(n: i128) -> Self {
+        Self(f64::from_integer(n), 0.0)
     }
 }
 
 impl Algebra for Dual {
     const EXACTNESS: Exactness = f64::EXACTNESS;
     const NAME: &'static str = "Dual";
+    type Numerator = Self;
 
-    fn from_rational(r: &BigRational) -> Dual {
-        Dual(f64::from_rational(r), 0.0)
+    fn from_rational(r: &BigRational) -> Self {
+        Self(f64::from_rational(r), 0.0)
     }
 
-    fn div_int(self, n: NonZeroI64) -> Dual {
-        Dual(self.0.div_int(n), self.1.div_int(n))
+    fn div_int(self, n: NonZeroI64) -> Self {
+        Self(self.0.div_int(n), self.1.div_int(n))
+    }
+
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        let value = self.0.checked_div(&divisor.0)?;
+        let slope = (self.1 - value * divisor.1).checked_div(&divisor.0)?;
+        Some(Self(value, slope))
     }
 
     fn is_defined(&self) -> bool {
         self.0.is_finite() && self.1.is_finite()
-    }
-}
-
-impl OwnNumerators for Dual {
-    fn ratio(n: Dual, d: &Dual) -> Option<Dual> {
-        let value = f64::ratio(n.0, &d.0)?;
-        let slope = f64::ratio(n.1 - value * d.1, &d.0)?;
-        Some(Dual(value, slope))
     }
 }
 

@@ -35,13 +35,13 @@ fn energy() -> P {
     let zero = P::zero();
     let row = squares.sum(Symbol("i"), &zero, &(k.clone() - &j));
     let layer = row.sum(Symbol("j"), &zero, &k);
-    layer.sum(Symbol("k"), &zero, &(layers - &P::from_i128(2)))
+    layer.sum(Symbol("k"), &zero, &(layers - &P::from_integer(2)))
 }
 
 /// Returns (L−1) L (L+1) (L+2) (2L+1), which is 40 times the energy.
 fn claimed() -> P {
     let layers = symbol("L");
-    let plus = |n| layers.clone() + &P::from_i128(n);
+    let plus = |n| layers.clone() + &P::from_integer(n);
     plus(-1) * &plus(0) * &plus(1) * &plus(2) * &(layers.clone() + &plus(1))
 }
 
@@ -51,12 +51,12 @@ fn main() -> Result<(), Error> {
     println!("(L-1) L (L+1) (L+2) (2L+1) / 40 in units of (mg/(3 cosθ))^2.\n");
     println!("Proof. Summed over the pile, the formulas give\n  {energy}");
     // Polynomials that are equal are equal for every L, so this line is the proof.
-    assert_eq!(energy.clone() * &P::from_i128(40), claimed());
+    assert_eq!(energy.clone() * &P::from_integer(40), claimed());
     println!("which, times 40, is\n  {}\nas claimed.\n", claimed());
 
     // The comparison rejects a slightly different polynomial.
     let nearly = claimed() + &(symbol("L") - &P::one());
-    assert_ne!(energy.clone() * &P::from_i128(40), nearly);
+    assert_ne!(energy.clone() * &P::from_integer(40), nearly);
 
     // Numerical piles agree with the theorem.
     println!("   L   sum of squares");

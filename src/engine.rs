@@ -67,5 +67,5 @@ pub(crate) use tree::{LineSelection, MAX_NODES, size_of_tree};
 // Re-exports for the other crates of the workspace.
 pub use crate::error::{bug, copies, not_negative, positive, refuse_beyond, refuse_beyond_memory};
 pub use exact_surd::equality;
-pub use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};
+pub use exact_surd::rational::{common_denominator, common_multiple, product, quotient, sum_of};
 pub use exact_surd::short::{numbers as shortened, quoted};

@@ -605,8 +605,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
     pub(crate) fn position_numerators(&self, site: Site) -> Result<Vector<T::Numerator>, Error> {
         let Site { i, j, k } = self.pile.shape().check(site)?;
         let across = self.pile.shape().shift_from_origin(k);
-        let counts = count::above(&i, &j, &across).each(T::Numerator::from_i128);
-        let z = T::Numerator::from_i128(k) * self.direction_scale();
+        let counts = count::above(&i, &j, &across).each(T::Numerator::from_integer);
+        let z = T::Numerator::from_integer(k) * self.direction_scale();
         Ok(Vector {
             z,
             ..position(&counts, &self.lines.directions)

@@ -37,8 +37,9 @@ mod turn;
 
 pub use horizontal::{beside, pushed};
 pub use load::{disc_load_increments, load_increments};
-pub(crate) use turn::triples;
-pub use turn::{half_turn, tripled_apart, tripled_half_turn};
+pub use turn::half_turn;
+
+pub use crate::scalar::{tripled_apart, tripled_half_turn};
 
 use core::ops::Add;
 

@@ -26,9 +26,9 @@ use alloc::boxed::Box;
 use num_rational::BigRational;
 use num_traits::One;
 
-use crate::Error;
 use crate::lattice::Dimension;
 use crate::scalar::{Algebra, ByValue, Ring, Surd, TWO};
+use crate::{Error, ratio};
 
 /// Returns the contact directions ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
 ///
@@ -138,7 +138,7 @@ pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<
 /// ```
 #[must_use]
 pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
-    let two = T::from_i128(2);
+    let two = T::from_integer(2);
     let cos2 = T::one() - sin2;
     let ab = cos2.clone() + &((two.clone() * s * s - &T::one()) * sin2);
     let ac = cos2 - &(s.clone() * sin2);
@@ -302,10 +302,10 @@ impl Inclination {
 
 /// Returns q / sin²θ = 2d/(d−1): 4 for discs, 3 for spheres.
 pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
-    BigRational::from_i128(match dimension {
-        Dimension::Two => 4,
-        Dimension::Three => 3,
-    })
+    match dimension {
+        Dimension::Two => ratio!(4),
+        Dimension::Three => ratio!(3),
+    }
 }
 
 /// Returns 4cos²φ, the squared length of the unit along y in the symbolic basis over sin²θ.
@@ -319,5 +319,5 @@ pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
 /// ```
 #[must_use]
 pub fn square_across(sin_phi: &BigRational) -> BigRational {
-    BigRational::from_i128(4) * (BigRational::one() - sin_phi * sin_phi)
+    ratio!(4) * (BigRational::one() - sin_phi * sin_phi)
 }

@@ -63,7 +63,7 @@
 //! | to cancel a long computation | `Interrupt` |
 //! | the work of a query, estimated and counted | [`Pile::plan`], [`Counters`] |
 //! | random piles for my own tests | `testing::piles` (feature `proptest`), `arbitrary` for fuzz targets |
-//! | a scalar of my own | [`scalar::Ring`], [`scalar::Algebra`], [`scalar::OwnNumerators`], checked by [`scalar::laws`] |
+//! | a scalar of my own | [`ring!`], [`scalar::Ring`], [`scalar::Algebra`], checked by [`scalar::laws`] |
 //!
 //! Further crates of the same project build on this one:
 //!

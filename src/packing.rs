@@ -17,7 +17,7 @@ use crate::engine::{Counters, Method};
 use crate::error::positive;
 use crate::geometry::{Inclination, LayerGap, Spacing, Vector, square_across};
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Ring, Surd, product};
+use crate::scalar::{Surd, product};
 use crate::{Error, FloorForce, Forces, Pile};
 
 /// A pile whose spheres have a spacing, a radius and a mass, under a given gravity.
@@ -620,7 +620,7 @@ impl<'p> Packing<'p> {
     /// Returns the centre of a sphere, in 2R and the symbolic basis, with z up from the bottom layer.
     fn centre(&self, site: Site) -> Result<Vector<BigRational>, Error> {
         let mut centre = upwards(self.forces.position(site)?);
-        centre.z += BigRational::from_i128(self.pile().layers() - 1);
+        centre.z += BigRational::from_integer((self.pile().layers() - 1).into());
         Ok(centre)
     }
 

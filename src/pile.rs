@@ -444,13 +444,13 @@ impl Pile {
         if !(1..self.layers()).contains(&n) || !self.is_paper_pile() {
             return BigUint::zero();
         }
-        let n = BigRational::from_i128(n);
+        let n = BigRational::from_integer(n.into());
         self.count(|layers, d| count::contacts_of_strength(&layers, &n, d))
     }
 
     fn count(&self, formula: impl FnOnce(BigRational, u32) -> BigRational) -> BigUint {
         // The formula counts objects, so its value is a non-negative integer.
-        let layers = BigRational::from_i128(self.layers());
+        let layers = BigRational::from_integer(self.layers().into());
         formula(layers, self.dimension().number())
             .to_integer()
             .into_parts()

@@ -5,11 +5,10 @@
 //! | trait | operations | implemented by |
 //! |---|---|---|
 //! | [`Ring`] | `+ − ×` and conversion from integers | all scalar types, and `BigInt` |
-//! | [`Algebra`] | conversion from rationals, division by a nonzero machine integer | all scalar types |
+//! | [`Algebra`] | conversion from rationals, division by a nonzero machine integer, other divisions if they exist | all scalar types |
 //! | [`Field`] | division by any nonzero value | all but [`Polynomial`] |
-//! | [`RealEmbeddable`] | comparison with rationals: a sign and rational bounds | all but [`Polynomial`] |
 //!
-//! [`Field`] and [`RealEmbeddable`] are independent: the first is algebraic structure, the second is order. The traits
+//! Signs and bounds are not theirs: `<` is asked of the types that have it. The traits
 //! do not require `num_traits::{Num, Float}` or `Copy`, and the formulas contain no float literal. So a polynomial and
 //! an `f64` use the same function bodies.
 //!
@@ -25,32 +24,106 @@
 //! The functions in [`laws`] test a scalar type. All scalars above pass, and a scalar of your own should too. [`Surd`]
 //! does not implement these traits: it is the exact value c·√r of results that contain a root.
 
-/// Implements `+`, `-` and `*` with the right operand by value, through the operators that take it by reference.
+/// Implements `+`, `-` and `*` with the right operand by value, through the operators that take it by reference. A type
+/// with parameters has them in front, in brackets: `by_value!([T: Ring] Dual<T>)`.
+///
+/// # Examples
+/// See [`ring!`](crate::ring), which calls it.
+#[macro_export]
 macro_rules! by_value {
-    ($scalar:ty $(, $generic:ident: $bound:path)?) => {
-        impl$(<$generic: $bound>)? Add for $scalar {
+    ([$($generics:tt)*] $scalar:ty: $name:ident $method:ident) => {
+        impl<$($generics)*> ::core::ops::$name for $scalar {
             type Output = Self;
 
-            fn add(self, rhs: Self) -> Self {
-                self + &rhs
+            fn $method(self, rhs: Self) -> Self {
+                ::core::ops::$name::<&Self>::$method(self, &rhs)
+            }
+        }
+    };
+    ([$($generics:tt)*] $scalar:ty) => {
+        $crate::by_value!([$($generics)*] $scalar: Add add);
+        $crate::by_value!([$($generics)*] $scalar: Sub sub);
+        $crate::by_value!([$($generics)*] $scalar: Mul mul);
+    };
+    ($scalar:ty) => {
+        $crate::by_value!([] $scalar);
+    };
+}
+
+/// Implements what a scalar of your own needs for [`Ring`](crate::scalar::Ring) and what follows from it: zero, one, `-a`,
+/// and `+`, `-` and `*` with the right operand by value.
+///
+/// The type has `+`, `-` and `*` with the right operand by reference, `==`, and
+/// [`Ring::from_integer`](crate::scalar::Ring::from_integer). A type with parameters has them in front, in brackets.
+///
+/// # Examples
+/// ```
+/// use core::ops::{Add, Mul, Sub};
+///
+/// use cannonpile::num_traits::{One, Zero};
+/// use cannonpile::scalar::Ring;
+///
+/// /// An integer modulo 7.
+/// #[derive(Clone, Debug, PartialEq)]
+/// struct Residue(i128);
+///
+/// macro_rules! operator {
+///     ($name:ident, $method:ident) => {
+///         impl $name<&Self> for Residue {
+///             type Output = Self;
+///
+///             fn $method(self, other: &Self) -> Self {
+///                 Self::from_integer(self.0.$method(other.0))
+///             }
+///         }
+///     };
+/// }
+/// operator!(Add, add);
+/// operator!(Sub, sub);
+/// operator!(Mul, mul);
+///
+/// impl Ring for Residue {
+///     fn from_integer(n: i128) -> Self {
+///         Self(n.rem_euclid(7))
+///     }
+/// }
+///
+/// cannonpile::ring!(Residue);
+///
+/// assert_eq!(-Residue::one() + Residue(5), Residue(4));
+/// assert!((Residue(3) + Residue(4)).is_zero());
+/// ```
+#[macro_export]
+macro_rules! ring {
+    ([$($generics:tt)*] $scalar:ty) => {
+        $crate::by_value!([$($generics)*] $scalar);
+
+        impl<$($generics)*> ::core::ops::Neg for $scalar {
+            type Output = Self;
+
+            fn neg(self) -> Self {
+                <Self as $crate::num_traits::Zero>::zero() - &self
             }
         }
 
-        impl$(<$generic: $bound>)? Sub for $scalar {
-            type Output = Self;
+        impl<$($generics)*> $crate::num_traits::Zero for $scalar {
+            fn zero() -> Self {
+                $crate::scalar::Ring::from_integer(0)
+            }
 
-            fn sub(self, rhs: Self) -> Self {
-                self - &rhs
+            fn is_zero(&self) -> bool {
+                *self == <Self as $crate::num_traits::Zero>::zero()
             }
         }
 
-        impl$(<$generic: $bound>)? Mul for $scalar {
-            type Output = Self;
-
-            fn mul(self, rhs: Self) -> Self {
-                self * &rhs
+        impl<$($generics)*> $crate::num_traits::One for $scalar {
+            fn one() -> Self {
+                $crate::scalar::Ring::from_integer(1)
             }
         }
+    };
+    ($scalar:ty) => {
+        $crate::ring!([] $scalar);
     };
 }
 
@@ -62,6 +135,7 @@ pub mod laws;
 mod polynomial;
 mod ratio;
 mod rational;
+mod turn;
 
 pub use exact_surd::rational::{ByValue, reduced};
 pub use exact_surd::{CorrectlyRounded, DoubleDouble, Surd, SurdSum, parse};
@@ -71,15 +145,17 @@ pub use polynomial::{Polynomial, Symbol};
 #[doc(hidden)]
 pub use ratio::quotient;
 
+pub use turn::{tripled_apart, tripled_half_turn};
+
 pub(crate) use exact_surd::float_between;
 pub(crate) use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};
+pub(crate) use numerators::Numerators;
 
 use crate::each::Each;
-use core::fmt::{self, Debug};
+use core::fmt::Debug;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use exact_surd::layout::{padded, part};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -140,10 +216,10 @@ pub enum Exactness {
 /// The laws hold for exact scalars, and for rounded ones up to their precision. The module [`laws`] checks them.
 /// * `+` and `*` are commutative and associative, and `*` distributes over `+`.
 /// * [`Zero::zero`] and [`One::one`] are their neutral elements, and `a + &(-a)` is zero.
-/// * [`from_i128`](Self::from_i128) respects `+`, `*` and 1.
+/// * [`from_integer`](Self::from_integer) respects `+`, `*` and 1.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a ring of cannonpile",
-    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring`, `Algebra` and `OwnNumerators`"
+    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring` and `Algebra`"
 )]
 pub trait Ring:
     Clone
@@ -159,7 +235,7 @@ pub trait Ring:
     + Sync
 {
     /// Returns the integer `n` as a value of this type: exact, or correctly rounded.
-    fn from_i128(n: i128) -> Self;
+    fn from_integer(n: i128) -> Self;
 
     /// Returns a key: two values are equal if and only if their keys are. Rationals override it, because their `==`
     /// calls itself once for each common term of two continued fractions.
@@ -171,7 +247,7 @@ pub trait Ring:
 
 /// The integers, of any size. They are numerators over a denominator that is known in advance.
 impl Ring for BigInt {
-    fn from_i128(n: i128) -> Self {
+    fn from_integer(n: i128) -> Self {
         n.into()
     }
 }
@@ -180,7 +256,7 @@ impl Ring for BigInt {
 ///
 /// # Laws
 /// * The laws of a [`Ring`] hold.
-/// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and agrees with [`from_i128`](Ring::from_i128).
+/// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and agrees with [`from_integer`](Ring::from_integer).
 /// * `a.div_int(n)` is the unique `b` with `b * n = a`.
 ///
 /// # Examples
@@ -199,14 +275,18 @@ impl Ring for BigInt {
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a scalar of cannonpile",
-    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring`, `Algebra` and `OwnNumerators`"
+    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring` and `Algebra`"
 )]
-pub trait Algebra: Ring + Numerators {
+pub trait Algebra: Ring {
     /// The relation between results and true values.
     const EXACTNESS: Exactness;
 
     /// The name of the scalar type in messages, such as `f64`.
     const NAME: &'static str;
+
+    /// The type of numerators over a common denominator: `Self`, for a scalar of your own. The library computes with
+    /// numerators and divides once at the end, by [`checked_div`](Self::checked_div). Only rationals have other ones.
+    type Numerator: Numerators<Self>;
 
     /// Returns the rational `r` as a value of this type: exact, or correctly rounded.
     fn from_rational(r: &BigRational) -> Self;
@@ -215,239 +295,133 @@ pub trait Algebra: Ring + Numerators {
     #[must_use]
     fn div_int(self, n: NonZeroI64) -> Self;
 
+    /// Returns `self / divisor`, or `None` if the divisor is zero or undefined, or does not divide `self` in this type.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Algebra;
+    ///
+    /// assert_eq!(3.0.checked_div(&4.0), Some(0.75));
+    /// assert_eq!(3.0.checked_div(&0.0), None);
+    /// ```
+    fn checked_div(&self, divisor: &Self) -> Option<Self>;
+
     /// Returns whether the value represents a number: false for a fault, an infinity or not-a-number.
     ///
     /// The library checks this once, before it returns a value, and returns [`Error::Overflow`](crate::Error::Overflow)
     /// if it is false. Operations may return undefined values freely.
     fn is_defined(&self) -> bool;
 
-    /// Returns whether two values may represent the same number. For bounds this means that they overlap, otherwise
-    /// that they are equal.
-    fn may_equal(&self, other: &Self) -> bool {
-        let [a, b] = [self, other].map(Self::comparison_key);
-        a == b
-    }
-}
-
-/// A scalar type that is its own ring of numerators. This applies to every scalar except the rationals, whose
-/// numerators are integers.
-///
-/// The library computes numerators over a known denominator and divides once at the end. A scalar of your own
-/// implements this trait for that purpose.
-///
-/// # Examples
-/// In a [`Field`], use its division:
-/// ```text
-/// impl OwnNumerators for Mine {
-///     fn ratio(n: Self, d: &Self) -> Option<Self> {
-///         n.checked_div(d)
-///     }
-/// }
-/// ```
-pub trait OwnNumerators: Algebra + Numerators<Numerator = Self> {
-    /// Returns n/d, reduced or correctly rounded. Returns `None` if d is zero or does not divide n in this type.
-    fn ratio(n: Self, d: &Self) -> Option<Self>;
-}
-
-/// The numerators of a scalar type over a common denominator, and the division at the end.
-///
-/// A scalar of your own gets this trait from [`OwnNumerators`].
-#[doc(hidden)]
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not say how it divides numerators",
-    note = "a scalar of your own implements `OwnNumerators`: `fn ratio(n, d)` returns n/d"
-)]
-pub trait Numerators: Sized {
-    /// The type of the numerators: the scalar itself, or integers for rationals, which avoids reductions of
-    /// intermediate fractions.
+    /// Returns (2/3)(a + b + c)(1, 1, 1) − (a, b, c), the forces below a sign change
+    /// ([`formula::half_turn`](crate::formula::half_turn)), with a single division.
     ///
-    /// For a scalar of your own it is `Self`: implement [`OwnNumerators`] instead of this trait.
-    type Numerator: Ring;
-
-    /// Returns the numerators of `values` over a common denominator, and this denominator.
-    ///
-    /// For rationals the numerators are integers, and the denominator is the least common one. A scalar with
-    /// [`OwnNumerators`] returns the values themselves, over 1.
-    fn numerators<const N: usize>(
-        values: &[BigRational; N],
-    ) -> ([Self::Numerator; N], Self::Numerator);
-
-    /// Returns the numerators of integers over a common denominator. Rationals keep this denominator, and a scalar with
-    /// [`OwnNumerators`] divides by it.
-    fn from_integers(
-        integers: [BigInt; 3],
-        denominator: impl FnOnce() -> BigInt,
-    ) -> [Self::Numerator; 3];
-
-    /// Returns the values as numerators over 1. Rationals, whose numerators need a common denominator, are returned as
-    /// they are, in `Err`.
-    fn into_numerators<const N: usize>(
-        values: [Self; N],
-    ) -> Result<[Self::Numerator; N], [BigRational; N]>;
-
-    /// Returns `n / by`. Returns `None` for every `n` if the numerators, such as integers, do not allow this division.
-    /// The caller then multiplies the denominator instead.
-    #[must_use]
-    fn divide_numerator(n: Self::Numerator, by: NonZeroI64) -> Option<Self::Numerator>;
-
-    /// Returns `n / d`, reduced or correctly rounded. Returns `None` if `d` is zero or does not divide `n` in this
-    /// type.
-    fn from_ratio(n: Self::Numerator, d: &Self::Numerator) -> Option<Self>;
-}
-
-impl<T: OwnNumerators> Numerators for T {
-    type Numerator = T;
-
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([T; N], T) {
-        (values.each_ref().map(T::from_rational), T::one())
-    }
-
-    fn from_integers(integers: [BigInt; 3], denominator: impl FnOnce() -> BigInt) -> [T; 3] {
-        let denominator = denominator();
-        integers.each(|n| T::from_rational(&exact_surd::rational::quotient(n, &denominator)))
-    }
-
-    fn into_numerators<const N: usize>(values: [T; N]) -> Result<[T; N], [BigRational; N]> {
-        Ok(values)
-    }
-
-    #[inline]
-    fn divide_numerator(n: T, by: NonZeroI64) -> Option<T> {
-        Some(n.div_int(by))
-    }
-
-    #[inline]
-    fn from_ratio(n: T, d: &T) -> Option<T> {
-        T::ratio(n, d)
+    /// Bounds override it with an expression in which each operand occurs once, because they widen less.
+    fn half_turn(g: &[Self; 3]) -> [Self; 3] {
+        let twice_mean = turn::twice_sum(g).div_int(THREE);
+        g.each_ref().each(|x| twice_mean.clone() - x)
     }
 }
 
-/// An [`Algebra`] with division.
+/// An [`Algebra`] with division by every nonzero value.
 ///
 /// # Laws
 /// `a.checked_div(b)` is `None` if and only if `b` is zero or undefined; otherwise
 /// `a.checked_div(b) * b = a`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a scalar of cannonpile with division",
-    note = "a scalar of your own implements `Field`: `fn checked_div` returns the quotient, or `None` for a divisor of zero"
+    note = "a scalar of your own implements `Field` if its `checked_div` is `None` only for a divisor of zero"
 )]
-pub trait Field: Algebra {
-    /// Returns `self / divisor`, or `None` if the divisor is zero or undefined.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::Field;
-    ///
-    /// assert_eq!(3.0.checked_div(&4.0), Some(0.75));
-    /// assert_eq!(3.0.checked_div(&0.0), None);
-    /// ```
-    fn checked_div(&self, divisor: &Self) -> Option<Self>;
-}
+pub trait Field: Algebra {}
 
-/// The sign of a real value, as far as it is known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum RealSign {
-    /// Less than zero.
-    Negative,
-    /// Zero.
-    Zero,
-    /// Greater than zero.
-    Positive,
-    /// Not known, as for a fault or not-a-number.
-    Unknown,
-}
+mod numerators {
+    //! Numerators over a common denominator. The library computes with them, and divides once at the end.
+    //!
+    //! The trait is sealed: other crates cannot name it. Every scalar is its own numerator, except rationals, whose
+    //! numerators are integers. This avoids reductions of intermediate fractions.
 
-/// Rational bounds of a value x: `lower ≤ x ≤ upper`.
-#[derive(Clone, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(::serde::Serialize, ::serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
-pub struct Enclosure {
-    /// The greatest known lower bound.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub lower: BigRational,
-    /// The least known upper bound.
-    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
-    pub upper: BigRational,
-}
+    use exact_surd::rational::{common_denominator, quotient};
+    use num_bigint::BigInt;
+    use num_rational::BigRational;
+    use num_traits::Zero;
 
-exact_surd::equality!(Hash for Enclosure; |x| [&x.lower, &x.upper].map(ByValue));
+    use super::{Algebra, Ring, tripled_half_turn};
 
-impl Enclosure {
-    /// Returns the enclosure of a value that is known exactly.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Enclosure, RealEmbeddable};
-    /// use num_rational::BigRational;
-    ///
-    /// // A float is a rational, and known exactly.
-    /// let half = BigRational::new(1.into(), 2.into());
-    /// assert_eq!(0.5_f64.enclosure(), Some(Enclosure::point(half)));
-    /// ```
-    #[must_use]
-    pub fn point(value: BigRational) -> Self {
-        Self {
-            lower: value.clone(),
-            upper: value,
+    /// The numerators of a scalar type `T`.
+    pub trait Numerators<T>: Ring {
+        /// Whether these are integers, so that a sign change multiplies the denominator by 3.
+        const ARE_INTEGERS: bool;
+
+        /// Returns the numerators of `values` over a common denominator, and this denominator. For rationals it is the least
+        /// one, otherwise it is 1.
+        fn of<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self);
+
+        /// Returns the numerators of integers over a common denominator. Rationals keep this denominator, and other scalars
+        /// divide by it.
+        fn of_integers(integers: [BigInt; 3], denominator: impl FnOnce() -> BigInt) -> [Self; 3];
+
+        /// Returns the values as numerators over 1. Rationals, whose numerators need a common denominator, are returned as
+        /// they are, in `Err`.
+        fn of_scalars<const N: usize>(values: [T; N]) -> Result<[Self; N], [BigRational; N]>;
+
+        /// Returns G g, or 3G g for integers: see [`half_turn`](crate::formula::half_turn).
+        fn half_turn(g: &[Self; 3]) -> [Self; 3];
+
+        /// Returns `self / d`, reduced or correctly rounded. Returns `None` if `d` is zero or does not divide `self` in `T`.
+        fn over(self, d: &Self) -> Option<T>;
+    }
+
+    impl<T: Algebra<Numerator = T>> Numerators<T> for T {
+        const ARE_INTEGERS: bool = false;
+
+        fn of<const N: usize>(values: &[BigRational; N]) -> ([T; N], T) {
+            (values.each_ref().map(T::from_rational), T::one())
+        }
+
+        fn of_integers(integers: [BigInt; 3], denominator: impl FnOnce() -> BigInt) -> [T; 3] {
+            let denominator = denominator();
+            integers.map(|n| T::from_rational(&quotient(n, &denominator)))
+        }
+
+        fn of_scalars<const N: usize>(values: [T; N]) -> Result<[T; N], [BigRational; N]> {
+            Ok(values)
+        }
+
+        #[inline]
+        fn half_turn(g: &[T; 3]) -> [T; 3] {
+            T::half_turn(g)
+        }
+
+        #[inline]
+        fn over(self, d: &T) -> Option<T> {
+            self.checked_div(d)
         }
     }
 
-    /// Returns whether `value` lies within the bounds.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::Enclosure;
-    /// use num_rational::BigRational;
-    ///
-    /// let half = BigRational::new(1.into(), 2.into());
-    /// assert!(Enclosure::point(half.clone()).contains(&half));
-    /// ```
-    #[must_use]
-    pub fn contains(&self, value: &BigRational) -> bool {
-        ByValue(&self.lower) <= ByValue(value) && ByValue(value) <= ByValue(&self.upper)
+    impl Numerators<BigRational> for BigInt {
+        const ARE_INTEGERS: bool = true;
+
+        fn of<const N: usize>(values: &[BigRational; N]) -> ([BigInt; N], BigInt) {
+            let common = common_denominator(values);
+            let numerators = values.each_ref().map(|r| r.numer() * (&common / r.denom()));
+            (numerators, common)
+        }
+
+        fn of_integers(integers: [BigInt; 3], _: impl FnOnce() -> BigInt) -> [BigInt; 3] {
+            integers
+        }
+
+        fn of_scalars<const N: usize>(
+            values: [BigRational; N],
+        ) -> Result<[BigInt; N], [BigRational; N]> {
+            Err(values)
+        }
+
+        fn half_turn(g: &[BigInt; 3]) -> [BigInt; 3] {
+            tripled_half_turn(g)
+        }
+
+        fn over(self, d: &BigInt) -> Option<BigRational> {
+            (!d.is_zero()).then(|| quotient(self, d))
+        }
     }
-}
-
-impl fmt::Display for Enclosure {
-    /// Prints `[1/3, 1/2]`.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::RealEmbeddable;
-    ///
-    /// let half = 0.5.enclosure().unwrap();
-    /// assert_eq!(format!("{half:>14}"), "    [1/2, 1/2]");
-    /// ```
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [lower, upper] = [&self.lower, &self.upper].each(|bound| part(f, bound));
-        padded(f, format_args!("[{lower}, {upper}]"))
-    }
-}
-
-/// A scalar type that can be compared with rationals: it has a sign and rational bounds.
-///
-/// For a rounded scalar, sign and bounds describe the *stored* value. They do not bound the quantity that this value
-/// approximates, so a verdict needs an exact scalar.
-///
-/// # Laws
-/// The sign is that of every value in the enclosure, or [`RealSign::Unknown`].
-///
-/// # Examples
-/// ```
-/// use cannonpile::scalar::{RealEmbeddable, RealSign};
-///
-/// assert_eq!((-0.5).sign(), RealSign::Negative);
-/// assert_eq!(f64::NAN.sign(), RealSign::Unknown);
-/// assert!(f64::INFINITY.enclosure().is_none());
-/// ```
-pub trait RealEmbeddable {
-    /// Returns the sign of the value.
-    fn sign(&self) -> RealSign;
-
-    /// Returns the tightest known rational bounds, or `None` for a value without finite bounds.
-    fn enclosure(&self) -> Option<Enclosure>;
 }

@@ -24,7 +24,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let base = exponent(extent, layers, |pile| {
         let forces = pile.forces::<f64>();
         let floor = forces.base(Selection::Base).expect("a base");
-        let normal = (f64::from_i128(pile.layers()) + 2.0) / 3.0;
+        let normal = (f64::from_integer(pile.layers()) + 2.0) / 3.0;
         floor.for_each(|force| assert!((force.expect("a force").normal - normal).abs() < 1e-9));
     });
     results.push(("base_time_exponent".into(), base));
@@ -40,7 +40,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
         let exact: i128 = (1..layers)
             .map(|n| 3 * n * (layers - n) * (layers - n + 1) / 2)
             .sum();
-        assert!((sum - f64::from_i128(exact)).abs() <= 1e-6 * sum);
+        assert!((sum - f64::from_integer(exact)).abs() <= 1e-6 * sum);
     });
     results.push(("pile_time_exponent".into(), whole));
     results.push(("runs_time_exponent".into(), runs(extent)));
@@ -59,7 +59,7 @@ fn one_contact(extent: Extent, layers: i128) -> f64 {
         seconds(|| {
             for _ in 0..repeats {
                 let force = forces.contact(black_box(site), Direction::Beta);
-                assert_eq!(force, Ok(f64::from_i128(site.i) + 1.0));
+                assert_eq!(force, Ok(f64::from_integer(site.i) + 1.0));
             }
         })
     });
@@ -70,7 +70,7 @@ fn one_contact(extent: Extent, layers: i128) -> f64 {
 fn exponent(extent: Extent, layers: [i128; 2], ask: impl Fn(&Pile)) -> f64 {
     let [small, large] = layers.map(|layers| Pile::triangular(layers).expect("a pile"));
     let ratios = (0..extent.pairs).map(|_| seconds(|| ask(&large)) / seconds(|| ask(&small)));
-    let [small, large] = layers.map(f64::from_i128);
+    let [small, large] = layers.map(f64::from_integer);
     median(ratios).ln() / (large / small).ln()
 }
 

@@ -1,9 +1,8 @@
 //! The methods of the library, in every scalar, with an assertion of the accuracy of each scalar.
 
 use cannonpile::geometry::Spacing;
-use cannonpile::scalar::{
-    Algebra, CorrectlyRounded, DoubleDouble, Exactness, Interval, RealEmbeddable,
-};
+use cannonpile::scalar::{Algebra, CorrectlyRounded, DoubleDouble, Exactness, Interval};
+use cannonpile_testkit::real::{Bounded};
 use cannonpile::shape::Selection;
 use cannonpile::{Forces, Packing, Pile};
 use num_rational::BigRational;
@@ -76,7 +75,7 @@ fn tables(bench: &Bench) -> [Run; 3] {
     ]
 }
 
-fn table<T: Algebra + RealEmbeddable>(bench: &Bench, run: impl FnMut() -> Vec<[T; 3]>) -> Run {
+fn table<T: Algebra + Bounded>(bench: &Bench, run: impl FnMut() -> Vec<[T; 3]>) -> Run {
     let (seconds, forces) = timed(bench.repetitions, run);
     let error = held(bench, Method::Table, &forces, Unit::Weights);
     bench.run(Method::Table, T::NAME, Measured { seconds, error })
@@ -100,13 +99,13 @@ fn by_direction<V>([a, b, c]: [Vec<V>; 3]) -> Vec<[V; 3]> {
     forces.map(|((a, b), c)| [a, b, c]).collect()
 }
 
-fn closed<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
+fn closed<T: Algebra + Bounded>(bench: &Bench) -> Run {
     measured::<T>(bench, Method::Closed, || {
         contacts(&bench.case.pile.forces::<T>())
     })
 }
 
-fn recursion<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
+fn recursion<T: Algebra + Bounded>(bench: &Bench) -> Run {
     measured::<T>(bench, Method::Transfer, || swept(&bench.case.pile))
 }
 
@@ -144,7 +143,7 @@ fn contacts<T: Algebra>(forces: &Forces<'_, T>) -> Vec<[T; 3]> {
     by_sphere(contacts.map(|c| c.expect("a force").force).collect())
 }
 
-fn measured<T: Algebra + RealEmbeddable>(
+fn measured<T: Algebra + Bounded>(
     bench: &Bench,
     method: Method,
     run: impl FnMut() -> Vec<[T; 3]>,
@@ -158,7 +157,7 @@ fn measured<T: Algebra + RealEmbeddable>(
 ///
 /// The closed form has a few roundings. The recursion has at most ten roundings for each layer, and no step amplifies
 /// errors. Each rounding is relative to a bound on all forces, √(KC) f₀ for C contacts in K layers.
-fn held<T: Algebra + RealEmbeddable>(
+fn held<T: Algebra + Bounded>(
     bench: &Bench,
     method: Method,
     forces: &[[T; 3]],

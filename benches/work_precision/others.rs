@@ -2,7 +2,8 @@
 //!
 //! Their time includes the assembly of the equations of equilibrium, but not the geometry of the pile.
 
-use cannonpile::scalar::{Algebra, RealEmbeddable};
+use cannonpile::scalar::{Algebra};
+use cannonpile_testkit::real::{Bounded};
 use faer::traits::ComplexField;
 use num_traits::{Float, Signed};
 
@@ -23,7 +24,7 @@ pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
     runs
 }
 
-fn factorised<F: Algebra + RealEmbeddable + ComplexField + Float>(bench: &Bench) -> Run {
+fn factorised<F: Algebra + Bounded + ComplexField + Float>(bench: &Bench) -> Run {
     let (seconds, forces) = timed(bench.repetitions, || {
         lu::forces(&Equations::<F>::new(&bench.network))
     });
@@ -31,7 +32,7 @@ fn factorised<F: Algebra + RealEmbeddable + ComplexField + Float>(bench: &Bench)
     bench.run(Method::Lu, F::NAME, Measured { seconds, error })
 }
 
-fn iterated<F: Algebra + RealEmbeddable + Float>(bench: &Bench, tolerance: F) -> Run {
+fn iterated<F: Algebra + Bounded + Float>(bench: &Bench, tolerance: F) -> Run {
     // In exact arithmetic the iteration ends after at most as many steps as there are unknowns.
     let most = 40 * usize::from(bench.case.layers);
     let (seconds, answer) = timed(bench.repetitions, || {
@@ -55,7 +56,7 @@ fn iterated<F: Algebra + RealEmbeddable + Float>(bench: &Bench, tolerance: F) ->
 ///
 /// σ is the smallest singular value of the unit vectors of three contacts. Layer k adds at most ‖r_k‖/σ to the error from
 /// above, which it does not amplify.
-fn held<F: Algebra + RealEmbeddable + Float>(bench: &Bench, forces: Vec<F>) -> f64 {
+fn held<F: Algebra + Bounded + Float>(bench: &Bench, forces: Vec<F>) -> f64 {
     let Bench {
         case,
         network,

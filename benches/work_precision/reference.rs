@@ -3,7 +3,8 @@
 use cannonpile::Pile;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::Direction;
-use cannonpile::scalar::{Algebra, Enclosure, RealEmbeddable, Ring};
+use cannonpile::scalar::{Algebra, Ring};
+use cannonpile_testkit::real::{Bounded, Enclosure};
 use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -56,7 +57,7 @@ impl Reference {
     /// Returns the largest error of a force, relative to the largest exact force. It is 0 if and only if all are exact.
     ///
     /// The error of an enclosure is the largest error of its values.
-    pub(crate) fn error<T: RealEmbeddable>(&self, forces: &[[T; 3]], unit: Unit) -> f64 {
+    pub(crate) fn error<T: Bounded>(&self, forces: &[[T; 3]], unit: Unit) -> f64 {
         let scaled = |bound: BigRational| match unit {
             Unit::PileUnits => bound,
             Unit::Weights => bound * &self.weight,
@@ -69,7 +70,7 @@ impl Reference {
     }
 
     /// Returns whether every enclosure contains the exact force.
-    pub(crate) fn is_enclosed_by<T: RealEmbeddable>(&self, forces: &[[T; 3]]) -> bool {
+    pub(crate) fn is_enclosed_by<T: Bounded>(&self, forces: &[[T; 3]]) -> bool {
         let mut compared = self.compared(forces);
         compared.all(|(force, exact)| {
             let enclosure = force.enclosure();
@@ -109,7 +110,7 @@ fn certify(pile: &Pile, network: &Network, transmitted: &[[BigRational; 3]]) {
     let forces = pile.forces::<BigRational>();
     let mut left = vec![Vector::zero(); network.sites.len()];
     for (sum, &site) in left.iter_mut().zip(&network.sites) {
-        sum.z = pile.sphere_weight(site).expect("a sphere") * BigRational::from_i128(3);
+        sum.z = pile.sphere_weight(site).expect("a sphere") * BigRational::from_integer(3.into());
     }
     let mut directions = Vec::new();
     for (upper, (below, transmitted)) in network.below.iter().zip(transmitted).enumerate() {

@@ -1,9 +1,8 @@
 //! Intervals contain the exact result, and double-doubles are within 2^−100 of it.
 
 use arbitrary::{Result, Unstructured};
-use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, Interval, RealEmbeddable, RealSign, Ring, laws,
-};
+use cannonpile::scalar::{Algebra, DoubleDouble, Field, Interval, Ring, laws};
+use cannonpile_testkit::real::{Bounded};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -153,8 +152,6 @@ fn intervals(u: &mut Unstructured<'_>) -> Result<()> {
             got.contains(&exact),
             "{operation:?} of {a:?} and {b:?} gave {got:?} without {exact}"
         );
-        let sign = RealEmbeddable::sign(&exact);
-        assert!(got.sign() == RealSign::Unknown || got.sign() == sign);
     }
     Ok(())
 }
@@ -223,18 +220,18 @@ fn images(u: &mut Unstructured<'_>) -> Result<()> {
     if r.abs() < number::power(2, 1023) {
         assert_near(&DoubleDouble::from_rational(&r), &r, "an image");
     }
-    let integer = BigRational::from_i128(n);
-    assert_tight(&Interval::from_i128(n), &integer, &integer, "an integer");
-    assert_near(&DoubleDouble::from_i128(n), &integer, "an integer");
+    let integer = BigRational::from_integer(n.into());
+    assert_tight(&Interval::from_integer(n), &integer, &integer, "an integer");
+    assert_near(&DoubleDouble::from_integer(n), &integer, "an integer");
     obeys::<Interval>(&r, &s);
     obeys::<DoubleDouble>(&r, &s);
     obeys::<Pair<BigRational, Interval>>(&r, &s);
     Ok(())
 }
 
-fn obeys<T: Field + RealEmbeddable>(r: &BigRational, s: &BigRational) {
+fn obeys<T: Field + Bounded>(r: &BigRational, s: &BigRational) {
     let [a, b, c] = [r.clone(), s.clone(), r - s].map(|r| T::from_rational(&r));
-    if let Err(broken) = laws::algebra(&a, &b, &c).and(laws::embedding::<T>(r, s)) {
+    if let Err(broken) = laws::algebra(&a, &b, &c).and(laws::embedding(r, s, T::bounds)) {
         panic!("{broken}");
     }
 }

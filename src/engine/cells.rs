@@ -54,7 +54,7 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
     fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         let deferred = core::mem::take(&mut self.deferred);
         let ramps = |pass: &Pass, increments| {
-            let times = |w: &_, n| formula::force(T::Numerator::from_i128(n), w);
+            let times = |w: &_, n| formula::force(T::Numerator::from_integer(n), w);
             alloc::vec![Ramps::new(pass, increments, times)]
         };
         let passes = deferred.iter().map(|(pass, w)| (*pass, ramps(pass, w)));

@@ -25,7 +25,7 @@ use crate::formula::{self, force, half_turn, transmitted};
 use crate::geometry::{Load, Vector};
 use crate::lattice::{Direction, Row, Sign, Site};
 use crate::pile::{Extra, Pile};
-use crate::scalar::{Algebra, Ring};
+use crate::scalar::{Algebra, Numerators, Ring};
 use crate::shape::{RunLayers, Shape};
 use crate::sorted::Sorted;
 
@@ -89,9 +89,9 @@ struct Own<N> {
 pub(crate) fn numerators<T: Algebra, const N: usize>(
     values: [T; N],
 ) -> ([T::Numerator; N], T::Numerator) {
-    match T::into_numerators(values) {
+    match T::Numerator::of_scalars(values) {
         Ok(own) => (own, T::Numerator::one()),
-        Err(rationals) => T::numerators(&rationals),
+        Err(rationals) => T::Numerator::of(&rationals),
     }
 }
 
@@ -101,7 +101,7 @@ pub(crate) fn to_scalar<T: Algebra>(
     n: T::Numerator,
     d: &T::Numerator,
 ) -> Result<T, Error> {
-    match T::from_ratio(n, d) {
+    match n.over(d) {
         Some(value) if value.is_defined() => Ok(value),
         _ => Err(Error::overflow(quantity, T::NAME)),
     }
@@ -154,7 +154,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
     pub(crate) fn of(pile: Cow<'p, Pile>, shape: &'p Shape) -> Self {
         let (increments, scale) =
             numerators(formula::increments(&T::from_rational(pile.sin_phi())));
-        let ([increment_sum], sum_scale) = T::numerators(&[pile.increment_sum()]);
+        let ([increment_sum], sum_scale) = T::Numerator::of(&[pile.increment_sum()]);
         let directions = pile.directions::<T>().each(Vector::into_array);
         let components = array::from_fn::<_, 9, _>(|n| directions[n / 3][n % 3].clone());
         let (components, direction_scale) = numerators(components);
@@ -171,7 +171,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
             extras: Sorted::new(),
             extra_loads: Sorted::new(),
             scale,
-            triples: formula::triples::<T>(),
+            triples: T::Numerator::ARE_INTEGERS,
             increment_sum,
             sum_scale,
             directions: [0, 3, 6].each(|line| {
@@ -196,10 +196,10 @@ impl<'p, T: Algebra> LineForces<'p, T> {
             if value.is_zero() {
                 return T::Numerator::zero();
             }
-            let ([value, _], _) = T::numerators(&[value, least.clone()]);
+            let ([value, _], _) = T::Numerator::of(&[value, least.clone()]);
             value
         };
-        let (_, scale) = T::numerators(array::from_ref(&least));
+        let (_, scale) = T::Numerator::of(array::from_ref(&least));
         let (w, gravity) = (pile.increment_sum(), pile.loading.ordinary());
         let increments = |sign| pile.load_increments(&gravity, sign).each(numerator);
         let ordinary = signs(self.shape).each(increments);
@@ -222,7 +222,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
     pub(crate) fn add_loads(&mut self, loads: Vec<(Site, Load<T>)>) {
         let (mut rational, mut own) = (false, Vec::new());
         for (site, Load { down, x, y }) in loads {
-            match T::into_numerators([down, x, y]) {
+            match T::Numerator::of_scalars([down, x, y]) {
                 Ok([down, x, y]) => own.push((site, Load { down, x, y })),
                 Err([down, x, y]) => {
                     let loading = &mut self.pile.to_mut().loading;
@@ -257,7 +257,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
 
     /// Adds to the tilt of gravity.
     pub(crate) fn add_tilt(&mut self, tilt: [T; 2]) {
-        let [x, y] = match T::into_numerators(tilt) {
+        let [x, y] = match T::Numerator::of_scalars(tilt) {
             Ok(tilt) => tilt,
             Err(tilt) => {
                 self.pile.to_mut().loading.add_tilt(tilt);
@@ -267,7 +267,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
         };
         self.has_scalar_loads = true;
         let leaning = |weight: BigRational| {
-            let ([weight], _) = T::numerators(&[weight]);
+            let ([weight], _) = T::Numerator::of(&[weight]);
             let [x, y] = [&x, &y].each(|part| force(weight.clone(), part));
             let down = T::Numerator::zero();
             Load { down, x, y }
@@ -286,7 +286,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
 
     /// Returns s = sin φ, in a scalar that is its own numerator.
     fn sin_phi(&self) -> T::Numerator {
-        let ([s], _) = T::numerators(core::array::from_ref(self.pile.sin_phi()));
+        let ([s], _) = T::Numerator::of(core::array::from_ref(self.pile.sin_phi()));
         s
     }
 
@@ -325,7 +325,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
     /// Returns the factor between the denominators before any sign change and after `changes` of them, unless they are
     /// equal.
     pub(super) fn power(&self, changes: usize) -> Option<T::Numerator> {
-        let three = || T::Numerator::from_i128(3);
+        let three = || T::Numerator::from_integer(3);
         (self.triples && changes > 0).then(|| pow(three(), changes))
     }
 
@@ -371,7 +371,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
         direction: Direction,
         n: i128,
     ) -> T::Numerator {
-        let ordinary = self.ordinary(run.index, T::Numerator::from_i128(n), direction.index());
+        let ordinary = self.ordinary(run.index, T::Numerator::from_integer(n), direction.index());
         if self.extras.is_empty() {
             return ordinary;
         }

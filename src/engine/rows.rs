@@ -18,7 +18,7 @@ use super::thirds::has_threefold_symmetry;
 use super::tree::LineSelection;
 use crate::Error;
 use crate::lattice::{Row, Site};
-use crate::scalar::{Algebra, Exactness};
+use crate::scalar::{Algebra, Exactness, Numerators};
 use crate::shape::{Rows, Shape};
 
 /// The engine that a plan has chosen for many spheres.
@@ -146,7 +146,7 @@ fn in_scalar<T: Algebra>(
     sweep: &Sweep<'_, BigRational, Planes>,
     SphereForces { forces, changes }: SphereForces<BigRational>,
 ) -> SphereForces<T> {
-    let forces = T::from_integers(forces, || sweep.lines.scale(changes));
+    let forces = T::Numerator::of_integers(forces, || sweep.lines.scale(changes));
     SphereForces { forces, changes }
 }
 

@@ -23,7 +23,6 @@ use super::walk::Source;
 use crate::Error;
 use crate::engine::{LineForces, Method, Quantity, Table, check_interrupt, split_front};
 use crate::error::bug;
-use crate::formula::triples;
 use crate::lattice::{Row, Site};
 use crate::scalar::{Algebra, Exactness, Numerators, Ring};
 use crate::shape::{Selection, Shape};
@@ -102,7 +101,7 @@ pub trait Write: Sized {
     fn value(
         conversion: &Self::Conversion,
         line: usize,
-        numerator: <Self::Scalar as Numerators>::Numerator,
+        numerator: <Self::Scalar as Algebra>::Numerator,
     ) -> Result<Self::Value, Error>;
 
     /// Writes a row straight from the numbers of the engine, as if every sphere were ordinary. Returns `false` if the
@@ -232,7 +231,7 @@ impl<'p, O: Output> Layers<'p, O> {
         // The largest number of increments in a contact force of the part.
         let most = self.ahead.end.min(self.shape().layers() - 1);
         Table::new(lines, most, |n, line| {
-            let number = <O::Scalar as Numerators>::Numerator::from_i128(n);
+            let number = <O::Scalar as Algebra>::Numerator::from_integer(n);
             O::value(conversion, line, lines.ordinary(0, number, line))
         })
     }
@@ -454,7 +453,7 @@ impl<'p, O: Output> Layers<'p, O> {
     }
 
     /// Returns the denominator of the forces below the lowest remaining layer above the floor.
-    fn lowest_denominator(&self) -> <O::Scalar as Numerators>::Numerator {
+    fn lowest_denominator(&self) -> <O::Scalar as Algebra>::Numerator {
         let changes = self.shape().changes_above(self.above_the_floor().end);
         self.source.lines.scale(changes)
     }
@@ -470,7 +469,7 @@ impl<'p, O: Output> Layers<'p, O> {
 }
 
 /// Three numerators of a sphere.
-type Numbers<O> = [<<O as Write>::Scalar as Numerators>::Numerator; 3];
+type Numbers<O> = [<<O as Write>::Scalar as Algebra>::Numerator; 3];
 
 /// Converts the numerators of one sphere.
 fn values<O: Output>(
@@ -490,7 +489,7 @@ fn values<O: Output>(
 /// this margin only after half a million passes. A layer so far down does not fit in memory.
 fn may_overflow<T: Algebra>(lines: &LineForces<'_, T>, last: i128) -> bool {
     let is_fine = matches!(T::EXACTNESS, Exactness::Rounded { bits: 24.. });
-    if !is_fine || triples::<T>() || lines.has_scalar_loads {
+    if !is_fine || T::Numerator::ARE_INTEGERS || lines.has_scalar_loads {
         return true;
     }
     let pile = &lines.pile;

@@ -12,7 +12,7 @@ use crate::each::Each;
 use crate::engine::{LineForces, LineSelection, Meter, Quantity, numerators, to_scalar};
 use crate::geometry::{Vector, square_across};
 use crate::lattice::{Axis, Direction, HorizontalContact, Row, Site};
-use crate::scalar::{Algebra, Ring};
+use crate::scalar::{Algebra, Numerators, Ring};
 use crate::shape::Selection;
 
 impl<'p, T: Algebra> Forces<'p, T> {
@@ -133,7 +133,7 @@ impl<T: Algebra> LineForces<'_, T> {
                 *sum = part * force + &*sum;
             }
         }
-        let ([across2], one) = T::numerators(&[square_across(pile.sin_phi())]);
+        let ([across2], one) = T::Numerator::of(&[square_across(pile.sin_phi())]);
         let directions2 = self.direction_scale.clone() * &self.direction_scale;
         let unit = scale * &self.increment_sum * &directions2 * &one;
         let part = |sum: T::Numerator, factor| {

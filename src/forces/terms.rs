@@ -75,7 +75,7 @@ impl<T: Algebra> LineForces<'_, T> {
         k: i128,
         changes: usize,
     ) -> ([Vector<T::Numerator>; 3], Vector<T::Numerator>) {
-        let (zero, one) = (T::Numerator::from_i128(0), T::Numerator::from_i128(1));
+        let (zero, one) = (T::Numerator::from_integer(0), T::Numerator::from_integer(1));
         let directions = self.directions_above(k);
         let support_load = |forces: [&T::Numerator; 3], weight| {
             let force = formula::support_load(&forces.each(Clone::clone), &directions, weight);

@@ -25,7 +25,7 @@ use super::{Inclination, Spacing, square_per_sin2, squared_distance};
 use crate::Error;
 use crate::each::Each;
 use crate::lattice::Dimension;
-use crate::scalar::{ByValue, Ring};
+use crate::scalar::ByValue;
 use crate::shape::Shape;
 use crate::sorted::distinct;
 
@@ -129,7 +129,7 @@ impl Clearance {
             if !occurs(n, pyramid.layers()) || n.iter().skip(lines).any(|c| *c != 0) {
                 continue;
             }
-            let vector = n.each(BigRational::from_i128);
+            let vector = n.each(|n| BigRational::from_integer(n.into()));
             let at_zero = squared_distance(&vector, s, &BigRational::zero());
             let slope = squared_distance(&vector, s, &BigRational::one()) - &at_zero;
             if slope.is_zero() {

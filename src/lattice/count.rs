@@ -119,7 +119,7 @@ pub fn spheres_in_layer<T: Algebra>(k: &T, d: u32) -> T {
 /// ```
 #[must_use]
 pub fn contacts<T: Algebra>(layers: &T, d: u32) -> T {
-    spheres(&shifted(layers, -1), d) * &T::from_i128(d.into())
+    spheres(&shifted(layers, -1), d) * &T::from_integer(d.into())
 }
 
 /// Returns the number of contacts in one direction that carry n increments, for n = 1 … L−1: C(L−n+d−2, d−1).
@@ -140,7 +140,7 @@ pub fn contacts_of_strength<T: Algebra>(layers: &T, n: &T, d: u32) -> T {
 
 /// Returns `n + by`.
 fn shifted<T: Algebra>(n: &T, by: i128) -> T {
-    n.clone() + &T::from_i128(by)
+    n.clone() + &T::from_integer(by)
 }
 
 /// Returns the binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
@@ -148,7 +148,7 @@ fn binomial<T: Algebra>(x: &T, n: u32) -> T {
     let mut product = T::one();
     for t in 0..n {
         let divisor = NonZeroU32::MIN.saturating_add(t);
-        let factor = x.clone() - &T::from_i128(t.into());
+        let factor = x.clone() - &T::from_integer(t.into());
         product = (product * &factor).div_int(NonZeroI64::from(divisor));
     }
     product

@@ -111,7 +111,7 @@ impl<T: Field> SiBasis<T> {
     /// As for [`Forces::position`].
     pub fn position(&self, forces: &Forces<'_, T>, site: Site) -> Result<[T; 3], Error> {
         let Vector { x, y, z } = forces.position(site)?;
-        let height = T::from_i128(forces.pile().layers() - 1) - &z;
+        let height = T::from_integer(forces.pile().layers() - 1) - &z;
         let diameter = self.radius.clone() + &self.radius;
         let along = diameter.clone() * &self.sin;
         Ok([

@@ -14,10 +14,7 @@ use num_integer::Integer;
 use num_rational::{BigRational, Ratio};
 use num_traits::{Bounded, CheckedAdd, CheckedDiv, CheckedMul, CheckedSub, One, Signed, Zero};
 
-use super::{
-    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
-    RealSign, Ring,
-};
+use super::{Algebra, CorrectlyRounded, Exactness, Field, Ring};
 
 mod sealed {
     pub trait Sealed {}
@@ -70,7 +67,7 @@ fixed_integer!(i8 i16 i32 i64 i128);
 /// let third = FixedRational::<i64>::one().div_int(3.try_into().unwrap());
 /// assert_eq!(third.parts(), Some((1, 3)));
 ///
-/// let huge = FixedRational::<i64>::from_i128(i128::from(i64::MAX));
+/// let huge = FixedRational::<i64>::from_integer(i128::from(i64::MAX));
 /// let fault = huge + &FixedRational::one();
 /// assert_eq!(fault.parts(), None);
 /// assert_ne!(fault, fault);
@@ -224,7 +221,7 @@ impl<I: FixedInteger> Mul<&Self> for FixedRational<I> {
     }
 }
 
-by_value!(FixedRational<I>, I: FixedInteger);
+crate::by_value!([I: FixedInteger] FixedRational<I>);
 
 impl<I: FixedInteger> Neg for FixedRational<I> {
     type Output = Self;
@@ -252,7 +249,7 @@ impl<I: FixedInteger> One for FixedRational<I> {
 }
 
 impl<I: FixedInteger> Ring for FixedRational<I> {
-    fn from_i128(n: i128) -> Self {
+    fn from_integer(n: i128) -> Self {
         I::try_from(n).map_or(Self::FAULT, |n| Self::new(n, I::one()))
     }
 }
@@ -260,6 +257,7 @@ impl<I: FixedInteger> Ring for FixedRational<I> {
 impl<I: FixedInteger> Algebra for FixedRational<I> {
     const EXACTNESS: Exactness = Exactness::ExactOrFault;
     const NAME: &'static str = I::RATIONAL_NAME;
+    type Numerator = Self;
 
     fn from_rational(r: &BigRational) -> Self {
         match (
@@ -272,8 +270,13 @@ impl<I: FixedInteger> Algebra for FixedRational<I> {
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {
-        let divisor = Self::from_i128(n.get().into());
+        let divisor = Self::from_integer(n.get().into());
         self.checked(&divisor, CheckedDiv::checked_div)
+    }
+
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        (divisor.is_defined() && !divisor.is_zero())
+            .then(|| self.checked(divisor, CheckedDiv::checked_div))
     }
 
     fn is_defined(&self) -> bool {
@@ -281,33 +284,7 @@ impl<I: FixedInteger> Algebra for FixedRational<I> {
     }
 }
 
-impl<I: FixedInteger> OwnNumerators for FixedRational<I> {
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        n.checked_div(d)
-    }
-}
-
-impl<I: FixedInteger> Field for FixedRational<I> {
-    fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        (divisor.is_defined() && !divisor.is_zero())
-            .then(|| self.checked(divisor, CheckedDiv::checked_div))
-    }
-}
-
-impl<I: FixedInteger> RealEmbeddable for FixedRational<I> {
-    fn sign(&self) -> RealSign {
-        match &self.0 {
-            None => RealSign::Unknown,
-            Some(r) if r.is_positive() => RealSign::Positive,
-            Some(r) if r.is_negative() => RealSign::Negative,
-            Some(_) => RealSign::Zero,
-        }
-    }
-
-    fn enclosure(&self) -> Option<Enclosure> {
-        self.to_rational().map(Enclosure::point)
-    }
-}
+impl<I: FixedInteger> Field for FixedRational<I> {}
 
 #[cfg(test)]
 mod tests {

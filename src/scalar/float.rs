@@ -5,10 +5,7 @@ use core::num::NonZeroI64;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::{
-    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
-    RealSign, Ring,
-};
+use super::{Algebra, CorrectlyRounded, Exactness, Field, Ring};
 
 macro_rules! float_scalar {
     ($float:ident) => {
@@ -17,7 +14,7 @@ macro_rules! float_scalar {
                 clippy::cast_precision_loss,
                 reason = "the result is correctly rounded"
             )]
-            fn from_i128(n: i128) -> Self {
+            fn from_integer(n: i128) -> Self {
                 n as $float
             }
         }
@@ -27,6 +24,7 @@ macro_rules! float_scalar {
                 bits: $float::MANTISSA_DIGITS,
             };
             const NAME: &'static str = stringify!($float);
+            type Numerator = Self;
 
             fn from_rational(r: &BigRational) -> Self {
                 // A rational beyond the range of floats becomes not-a-number, which is undefined.
@@ -51,49 +49,25 @@ macro_rules! float_scalar {
                 }
             }
 
+            #[expect(
+                clippy::float_cmp,
+                reason = "exactly 1, so that the division can be skipped"
+            )]
+            #[inline]
+            fn checked_div(&self, divisor: &Self) -> Option<Self> {
+                if *divisor == 1.0 {
+                    return Some(*self);
+                }
+                (*divisor != 0.0 && divisor.is_finite()).then(|| self / divisor)
+            }
+
             #[inline]
             fn is_defined(&self) -> bool {
                 self.is_finite()
             }
         }
 
-        impl OwnNumerators for $float {
-            #[expect(
-                clippy::float_cmp,
-                reason = "exactly 1, so that the division can be skipped"
-            )]
-            #[inline]
-            fn ratio(n: Self, d: &Self) -> Option<Self> {
-                if *d == 1.0 {
-                    return Some(n);
-                }
-                n.checked_div(d)
-            }
-        }
-
-        impl Field for $float {
-            fn checked_div(&self, divisor: &Self) -> Option<Self> {
-                (*divisor != 0.0 && divisor.is_finite()).then(|| self / divisor)
-            }
-        }
-
-        impl RealEmbeddable for $float {
-            fn sign(&self) -> RealSign {
-                if *self > 0.0 {
-                    RealSign::Positive
-                } else if *self < 0.0 {
-                    RealSign::Negative
-                } else if *self == 0.0 {
-                    RealSign::Zero
-                } else {
-                    RealSign::Unknown
-                }
-            }
-
-            fn enclosure(&self) -> Option<Enclosure> {
-                BigRational::from_float(*self).map(Enclosure::point)
-            }
-        }
+        impl Field for $float {}
     };
 }
 

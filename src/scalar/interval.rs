@@ -8,10 +8,8 @@ use core::ops::{Add, Mul, Neg, Sub};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::{
-    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
-    RealSign, Ring,
-};
+use super::{Algebra, CorrectlyRounded, Exactness, Field, Ring, THREE, tripled_apart};
+use crate::each::Each;
 use exact_surd::error_free::{is_ordinary, significand, two_product, two_sum};
 use exact_surd::layout::padded;
 
@@ -25,13 +23,12 @@ use exact_surd::layout::padded;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, RealSign, Ring};
-/// use num_rational::BigRational;
+/// use cannonpile::scalar::{Algebra, Interval, Ring};
 ///
-/// let third = Interval::from_i128(1).div_int(3.try_into().unwrap());
+/// let third = Interval::from_integer(1).div_int(3.try_into().unwrap());
 /// assert_eq!(third.upper(), third.lower().next_up());
-/// let rest = Interval::from_i128(1) - (third + third + third);
-/// assert_eq!(rest.sign(), RealSign::Unknown);
+/// let rest = Interval::from_integer(1) - (third + third + third);
+/// assert!(rest.contains_f64(0.0));
 /// // The divisor contains zero, so the quotient is undefined.
 /// assert_eq!(third.checked_div(&rest), None);
 /// ```
@@ -350,7 +347,7 @@ impl Mul<&Self> for Interval {
     }
 }
 
-by_value!(Interval);
+crate::by_value!(Interval);
 
 impl Zero for Interval {
     fn zero() -> Self {
@@ -369,14 +366,15 @@ impl One for Interval {
 }
 
 impl Ring for Interval {
-    fn from_i128(n: i128) -> Self {
-        Self::from_rational(&BigRational::from_i128(n))
+    fn from_integer(n: i128) -> Self {
+        Self::from_rational(&BigRational::from_integer(n.into()))
     }
 }
 
 impl Algebra for Interval {
     const EXACTNESS: Exactness = Exactness::Enclosure;
     const NAME: &'static str = "Interval";
+    type Numerator = Self;
 
     fn from_rational(r: &BigRational) -> Self {
         let nearest = f64::nearest_to_rational(r);
@@ -402,50 +400,25 @@ impl Algebra for Interval {
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {
-        self.over(&Self::from_i128(n.get().into()))
+        self.over(&Self::from_integer(n.get().into()))
+    }
+
+    /// Returns the quotient, or `None` if the divisor contains zero.
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        (divisor.is_defined() && !divisor.has_zero()).then(|| self.over(divisor))
     }
 
     fn is_defined(&self) -> bool {
         self.lower <= self.upper
     }
 
-    fn may_equal(&self, other: &Self) -> bool {
-        self.lower <= other.upper && other.lower <= self.upper
+    /// Each operand occurs once.
+    fn half_turn(g: &[Self; 3]) -> [Self; 3] {
+        tripled_apart(g).each(|tripled| tripled.div_int(THREE))
     }
 }
 
-impl OwnNumerators for Interval {
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        n.checked_div(d)
-    }
-}
-
-impl Field for Interval {
-    /// Returns the quotient, or `None` if the divisor contains zero.
-    fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        (divisor.is_defined() && !divisor.has_zero()).then(|| self.over(divisor))
-    }
-}
-
-impl RealEmbeddable for Interval {
-    fn sign(&self) -> RealSign {
-        if self.lower > 0.0 {
-            RealSign::Positive
-        } else if self.upper < 0.0 {
-            RealSign::Negative
-        } else if self.is_zero() {
-            RealSign::Zero
-        } else {
-            RealSign::Unknown
-        }
-    }
-
-    fn enclosure(&self) -> Option<Enclosure> {
-        let lower = BigRational::from_float(self.lower)?;
-        let upper = BigRational::from_float(self.upper)?;
-        Some(Enclosure { lower, upper })
-    }
-}
+impl Field for Interval {}
 
 #[cfg(test)]
 mod tests {
@@ -481,8 +454,8 @@ mod tests {
                 assert_eq!(order == Some(Ordering::Equal), x == y);
                 assert_eq!(order, y.partial_cmp(&x).map(Ordering::reverse));
                 if let Some(Ordering::Less | Ordering::Greater) = order {
-                    assert!(!x.may_equal(&y), "{x} {y}");
-                    assert_eq!(x < y, (y - x).sign() == RealSign::Positive, "{x} {y}");
+                    assert_eq!(x < y, (y - x).lower() > 0.0, "{x} {y}");
+                    assert_eq!(y < x, (x - y).lower() > 0.0, "{x} {y}");
                 }
             }
         }
@@ -492,7 +465,8 @@ mod tests {
     fn midpoints_lie_inside_and_widths_are_upper_bounds() {
         for x in intervals() {
             assert!(x.contains_f64(x.midpoint()), "{x}");
-            if let Some(Enclosure { lower, upper }) = x.enclosure() {
+            let [lower, upper] = [x.lower(), x.upper()].map(BigRational::from_float);
+            if let (Some(lower), Some(upper)) = (lower, upper) {
                 assert_eq!(Some(x.width()) == Some(0.0), lower == upper, "{x}");
                 let width = BigRational::from_float(x.width());
                 assert!(width.is_none_or(|width| width >= upper - lower), "{x}");

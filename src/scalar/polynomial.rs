@@ -13,7 +13,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
-use super::{Algebra, Exactness, OwnNumerators, Ring, common_multiple};
+use super::{Algebra, Exactness, Ring, common_multiple};
 use crate::sorted::{Sorted, distinct};
 
 /// A symbol of a [`Polynomial`], identified by its name.
@@ -280,7 +280,7 @@ impl Polynomial {
     ///
     /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
     /// let square = x.clone() * &x;
-    /// let shifted = square.substitute(Symbol("x"), &(y + &Polynomial::from_i128(1)));
+    /// let shifted = square.substitute(Symbol("x"), &(y + &Polynomial::from_integer(1)));
     /// assert_eq!(shifted.to_string(), "y^2 + 2 y + 1");
     /// ```
     #[must_use]
@@ -497,7 +497,7 @@ impl Mul<&Self> for Polynomial {
     }
 }
 
-by_value!(Polynomial);
+crate::by_value!(Polynomial);
 
 impl Neg for Polynomial {
     type Output = Self;
@@ -530,14 +530,15 @@ impl One for Polynomial {
 }
 
 impl Ring for Polynomial {
-    fn from_i128(n: i128) -> Self {
-        Self::constant(&BigRational::from_i128(n))
+    fn from_integer(n: i128) -> Self {
+        Self::constant(&BigRational::from_integer(n.into()))
     }
 }
 
 impl Algebra for Polynomial {
     const EXACTNESS: Exactness = Exactness::ExactOrFault;
     const NAME: &'static str = "Polynomial";
+    type Numerator = Self;
 
     fn from_rational(r: &BigRational) -> Self {
         Self::constant(r)
@@ -552,13 +553,11 @@ impl Algebra for Polynomial {
         Self::canonical(terms, self.denominator * BigInt::from(n.get()).abs())
     }
 
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        self.divide_exactly(divisor)
+    }
+
     fn is_defined(&self) -> bool {
         !self.denominator.is_zero()
-    }
-}
-
-impl OwnNumerators for Polynomial {
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        n.divide_exactly(d)
     }
 }

@@ -21,7 +21,7 @@ pub fn symbol(name: &'static str) -> P {
 /// Returns an integer as a polynomial.
 #[must_use]
 pub fn int(n: i128) -> P {
-    P::from_i128(n)
+    P::from_integer(n)
 }
 
 /// Returns 1/2.

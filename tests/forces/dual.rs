@@ -1,11 +1,10 @@
 //! Dual numbers a + a′ε with ε² = 0: a value and its derivative.
 
 use core::num::NonZeroI64;
-use core::ops::{Add, Mul, Neg, Sub};
+use core::ops::{Add, Mul, Sub};
 
-use cannonpile::scalar::{Algebra, Exactness, Field, OwnNumerators, Ring};
+use cannonpile::scalar::{Algebra, Exactness, Field, Ring};
 use num_rational::BigRational;
-use num_traits::{One, Zero};
 
 /// A value and its derivative.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,56 +57,18 @@ impl<T: Ring> Mul<&Self> for Dual<T> {
     }
 }
 
-impl<T: Ring> Add for Dual<T> {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        self + &other
-    }
-}
-
-impl<T: Ring> Mul for Dual<T> {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        self * &other
-    }
-}
-
-impl<T: Ring> Neg for Dual<T> {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        let (value, slope) = (-self.value, -self.slope);
-        Self { value, slope }
-    }
-}
-
-impl<T: Ring> Zero for Dual<T> {
-    fn zero() -> Self {
-        Self::constant(T::zero())
-    }
-
-    fn is_zero(&self) -> bool {
-        self.value.is_zero() && self.slope.is_zero()
-    }
-}
-
-impl<T: Ring> One for Dual<T> {
-    fn one() -> Self {
-        Self::constant(T::one())
-    }
-}
+cannonpile::ring!([T: Ring] Dual<T>);
 
 impl<T: Ring> Ring for Dual<T> {
-    fn from_i128(n: i128) -> Self {
-        Self::constant(T::from_i128(n))
+    fn from_integer(n: i128) -> Self {
+        Self::constant(T::from_integer(n))
     }
 }
 
 impl<T: Field> Algebra for Dual<T> {
     const EXACTNESS: Exactness = T::EXACTNESS;
     const NAME: &'static str = "Dual";
+    type Numerator = Self;
 
     fn from_rational(r: &BigRational) -> Self {
         Self::constant(T::from_rational(r))
@@ -118,22 +79,16 @@ impl<T: Field> Algebra for Dual<T> {
         Self { value, slope }
     }
 
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        let value = self.value.checked_div(&divisor.value)?;
+        let slope = self.slope.clone() - &(value.clone() * &divisor.slope);
+        let slope = slope.checked_div(&divisor.value)?;
+        Some(Self { value, slope })
+    }
+
     fn is_defined(&self) -> bool {
         self.value.is_defined() && self.slope.is_defined()
     }
 }
 
-impl<T: Field> OwnNumerators for Dual<T> {
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        let value = n.value.checked_div(&d.value)?;
-        let slope = n.slope - &(value.clone() * &d.slope);
-        let slope = slope.checked_div(&d.value)?;
-        Some(Self { value, slope })
-    }
-}
-
-impl<T: Field> Field for Dual<T> {
-    fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        Self::ratio(self.clone(), divisor)
-    }
-}
+impl<T: Field> Field for Dual<T> {}

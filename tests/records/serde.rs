@@ -7,7 +7,7 @@ use cannonpile::geometry::{LayerGap, Spacing, Vector};
 use cannonpile::lattice::{
     Axis, Dimension, Direction, HorizontalContact, MAX_LAYERS, Region, Row, Sign, Site,
 };
-use cannonpile::scalar::{DoubleDouble, Enclosure, FixedRational, Interval, Surd};
+use cannonpile::scalar::{DoubleDouble, FixedRational, Interval, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::{Pattern, Run, Stacking};
 use cannonpile::{
@@ -304,8 +304,4 @@ fn answers() {
     let written = serde_json::to_value(&counters).unwrap();
     assert_eq!(written["rows"], rows);
     assert_eq!(back(&LayerGap { layers: 2 }), r#"{"layers":2}"#);
-    back(&Enclosure {
-        lower: ratio(-1, 3),
-        upper: ratio(1, 3),
-    });
 }

@@ -3,10 +3,8 @@
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use cannonpile::scalar::{
-    Algebra, CorrectlyRounded, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable,
-    RealSign, Ring, laws,
-};
+use cannonpile::scalar::{Algebra, CorrectlyRounded, Exactness, Field, Ring, laws};
+use cannonpile_testkit::real::{Bounded, Enclosure};
 use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};
 
@@ -80,14 +78,15 @@ impl<const LOST: i32> One for Half<LOST> {
 }
 
 impl<const LOST: i32> Ring for Half<LOST> {
-    fn from_i128(n: i128) -> Self {
-        Self::rounded(f32::from_i128(n))
+    fn from_integer(n: i128) -> Self {
+        Self::rounded(f32::from_integer(n))
     }
 }
 
 impl<const LOST: i32> Algebra for Half<LOST> {
     const EXACTNESS: Exactness = Exactness::Rounded { bits: 11 };
     const NAME: &'static str = "Half";
+    type Numerator = Self;
 
     fn from_rational(r: &Q) -> Self {
         Self::rounded(f32::nearest_to_rational(r).unwrap_or(f32::NAN))
@@ -97,28 +96,18 @@ impl<const LOST: i32> Algebra for Half<LOST> {
         Self::rounded(self.0.div_int(n))
     }
 
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        self.0.checked_div(&divisor.0).map(Self::rounded)
+    }
+
     fn is_defined(&self) -> bool {
         self.0.is_finite()
     }
 }
 
-impl<const LOST: i32> OwnNumerators for Half<LOST> {
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        n.checked_div(d)
-    }
-}
+impl<const LOST: i32> Field for Half<LOST> {}
 
-impl<const LOST: i32> Field for Half<LOST> {
-    fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        self.0.checked_div(&divisor.0).map(Self::rounded)
-    }
-}
-
-impl<const LOST: i32> RealEmbeddable for Half<LOST> {
-    fn sign(&self) -> RealSign {
-        self.0.sign()
-    }
-
+impl<const LOST: i32> Bounded for Half<LOST> {
     fn enclosure(&self) -> Option<Enclosure> {
         self.0.enclosure()
     }
@@ -142,7 +131,7 @@ fn verdicts<const LOST: i32>() -> impl Iterator<Item = Result<(), laws::BrokenLa
         let others = numbers.clone();
         others.into_iter().map(move |y| (x.clone(), y))
     });
-    pairs.map(|(x, y)| laws::embedding::<Half<LOST>>(&x, &y))
+    pairs.map(|(x, y)| laws::embedding(&x, &y, Half::<LOST>::bounds))
 }
 
 #[test]

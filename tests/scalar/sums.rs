@@ -17,7 +17,7 @@ fn symbol(name: &'static str) -> P {
 }
 
 fn int(n: i128) -> P {
-    P::from_i128(n)
+    P::from_integer(n)
 }
 
 /// i^a j^b k^c.
@@ -62,7 +62,7 @@ fn one_by_one([a, b, c]: [u32; 3]) -> Vec<i128> {
 }
 
 fn at_layers(p: &P, layers: i128) -> Q {
-    p.evaluate(&[(Symbol("L"), Q::from_i128(layers))])
+    p.evaluate(&[(Symbol("L"), Q::from_integer(layers.into()))])
         .expect("a polynomial in L")
 }
 
@@ -75,7 +75,7 @@ fn every_monomial_over_every_pile() {
         for (layers, want) in (0..).zip(one_by_one(powers)) {
             assert_eq!(
                 at_layers(&sum, layers),
-                Q::from_i128(want),
+                Q::from_integer(want.into()),
                 "{powers:?}, {layers} layers"
             );
         }
@@ -115,7 +115,8 @@ fn combinations_over_every_pile() {
         });
         let sum = over_pile(&p);
         for (n, layers) in (0..=MAX_TESTED_LAYERS).enumerate() {
-            let term = |(powers, c): (&[u32; 3], &Q)| c * Q::from_i128(direct[powers][n]);
+            let term =
+                |(powers, c): (&[u32; 3], &Q)| c * Q::from_integer((direct[powers][n]).into());
             assert_eq!(
                 at_layers(&sum, layers),
                 terms.iter().map(term).sum::<Q>(),
@@ -140,8 +141,8 @@ fn in_x_and_y() -> [P; 5] {
 
 fn at(p: &P, x: i128, y: i128) -> Q {
     p.evaluate(&[
-        (Symbol("x"), Q::from_i128(x)),
-        (Symbol("y"), Q::from_i128(y)),
+        (Symbol("x"), Q::from_integer(x.into())),
+        (Symbol("y"), Q::from_integer(y.into())),
     ])
     .expect("in x and y")
 }

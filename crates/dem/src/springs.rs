@@ -8,7 +8,6 @@ use super::weights::{checked, gravity, greatest_extra, magnitude, nearest_ration
 use crate::Error;
 use cannonpile::Load;
 use cannonpile::lattice::Site;
-use cannonpile::scalar::Ring;
 
 /// Springs, dashpots and timesteps that relax a pile to its exact forces.
 ///
@@ -37,7 +36,7 @@ pub(super) struct Springs {
 impl Springs {
     pub(super) fn of(numbered: &NumberedPile<'_>) -> Result<Self, Error> {
         let (pile, packing) = (numbered.pile(), numbered.packing());
-        let layers = BigRational::from_i128(pile.layers());
+        let layers = BigRational::from_integer(pile.layers().into());
         let most = greatest_extra(pile)?;
         // In mg. For weightless spheres only the loads matter; without loads any value is correct.
         let greatest = match (pile.is_weightless(), most.is_zero()) {
@@ -45,7 +44,7 @@ impl Springs {
             _ => &layers * magnitude(&Load::leaning(BigRational::one(), pile.tilt())) + most,
         };
         let cos2 = packing.inclination().cos2();
-        let million = BigRational::from_i128(1_000_000);
+        let million = BigRational::from_integer(1_000_000.into());
         let stiffness = million * greatest * packing.sphere_weight() / cos2 / packing.radius();
         let stiffness = normal(&stiffness, "the stiffness of springs")?;
         let mass = normal(packing.mass(), "mass")?;

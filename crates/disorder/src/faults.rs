@@ -1,6 +1,6 @@
 //! Sums over all stackings with the same number of faults, which give the mean for every fault probability.
 
-use cannonpile::scalar::{Numerators, Polynomial, Symbol};
+use cannonpile::scalar::{Polynomial, Symbol};
 use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
 use num_rational::BigRational;
@@ -8,7 +8,7 @@ use num_traits::{Zero, pow};
 
 use super::domain::{Domain, check_words};
 use super::floor::FLOOR_UNIT;
-use super::mean::{Mean, MeanForce};
+use super::mean::{Mean, MeanForce, over};
 use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::check_fault_probability;
@@ -200,12 +200,7 @@ impl ByFaults {
         }
         let power = BigInt::from(3).pow(faults);
         let scale = &power * &self.denominator * FLOOR_UNIT.get();
-        let row = MeanForce::of(
-            place,
-            sums.clone(),
-            BigRational::from_ratio,
-            [&power, &scale],
-        )?;
+        let row = MeanForce::of(place, sums.clone(), over, [&power, &scale])?;
         Ok(Some(FaultForce {
             place,
             faults,
@@ -242,7 +237,6 @@ impl ByFaults {
             .map(|d| pow(faults.clone(), d) * pow(straight.clone(), most - d));
         let shares: Vec<_> = shares.collect();
         let scale = pow(b * 3, most) * &self.firsts;
-        let over = |n: BigInt, scale: &BigInt| BigRational::from_ratio(n, scale);
         self.mean(&scale, over, |sums| {
             let mut totals = [(); 4].map(|()| BigInt::zero());
             for (share, sums) in shares.iter().zip(sums) {

@@ -158,7 +158,7 @@ pub fn registry_excess<T: Ring>(x: &T, y: &T, q: &T) -> T {
 }
 
 fn integer<T: Ring>(n: i128) -> T {
-    T::from_i128(n)
+    T::from_integer(n)
 }
 
 fn deep<T: Ring>(n: &T, s: &T) -> T {

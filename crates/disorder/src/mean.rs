@@ -2,10 +2,11 @@
 
 use core::num::NonZeroI64;
 
-use cannonpile::scalar::{Algebra, Field, Numerators, Ring};
+use cannonpile::engine::quotient;
+use cannonpile::scalar::{Algebra, Field, Ring};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::{One, pow};
+use num_traits::{One, Zero, pow};
 
 use super::domain::Domain;
 use super::floor::FLOOR_UNIT;
@@ -332,7 +333,7 @@ impl RandomPiles {
         let forces = &scale * denominator * FLOOR_UNIT.get();
         let rows = spots.into_iter().map(|spot| {
             let sums = one_class(spot.classes)?;
-            MeanForce::of(spot.place, sums, BigRational::from_ratio, [&scale, &forces])
+            MeanForce::of(spot.place, sums, over, [&scale, &forces])
         });
         Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
     }
@@ -344,6 +345,11 @@ impl RandomPiles {
             _ => ONE,
         }
     }
+}
+
+/// Returns n/d, or `None` if d is zero.
+pub(super) fn over(n: BigInt, d: &BigInt) -> Option<BigRational> {
+    (!d.is_zero()).then(|| quotient(n, d))
 }
 
 /// Returns the only class of a recursion by probability.

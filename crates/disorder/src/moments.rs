@@ -1,7 +1,7 @@
 //! Moments of the response to a load, and the waves of the mean response.
 
 use cannonpile::engine::refuse_beyond;
-use cannonpile::scalar::{Algebra, ByValue, Field, Ring};
+use cannonpile::scalar::{Algebra, ByValue};
 use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -61,12 +61,12 @@ impl Moments {
         let mut t = BigRational::zero();
         for sign in stacking.signs() {
             t += BigRational::one();
-            let sigma = BigRational::from_i128(sign.factor().into());
+            let sigma = BigRational::from_integer(sign.factor().into());
             third += third_moment(&n, &t) * &sigma;
             // The formula is linear in 2s−1, so it applies to the sum.
             let s = (before.clone() + BigRational::one()).div_int(TWO);
             fourth += fourth_moment_of_pair(&n, &s, &t) * &sigma;
-            before += (BigRational::from_i128(2) * &t - BigRational::one()) * sigma;
+            before += (BigRational::from_integer(2.into()) * &t - BigRational::one()) * sigma;
         }
         Ok(Self {
             second: n.clone() * n,
@@ -101,7 +101,7 @@ impl RandomStackings {
         check_fault_probability(q)?;
         let n = steps(self.layers())?;
         let one = BigRational::one();
-        let mu = one.clone() - BigRational::from_i128(2) * q;
+        let mu = one.clone() - BigRational::from_integer(2.into()) * q;
         let gap = one - &mu;
         let square = n.clone() * &n;
         let straight = || Moments {
@@ -206,7 +206,7 @@ impl Wave {
     /// ```
     #[must_use]
     pub fn squared_width(&self, n: i128) -> BigRational {
-        BigRational::from_i128(2) * &self.damping * BigRational::from_i128(n)
+        BigRational::from_integer(2.into()) * &self.damping * BigRational::from_integer(n.into())
     }
 }
 
@@ -218,5 +218,5 @@ fn steps(layers: i128) -> Result<BigRational, Error> {
         MAX_RANDOM_LAYERS,
         "use fewer layers",
     )?;
-    Ok(BigRational::from_i128(layers - 1))
+    Ok(BigRational::from_integer((layers - 1).into()))
 }

@@ -7,12 +7,13 @@
 //! Example: x + y = 1 and x − y = 0. The pivot of the first row is x, and −1 times this row is added to the second one:
 //! −2y = −1. So y = 1/2, and x = 1 − 1/2.
 
-use core::cmp::Reverse;
+use core::cmp::{Ordering, Reverse};
 use core::mem;
 use std::collections::BinaryHeap;
 
 use cannonpile::engine::check_interrupt;
-use cannonpile::scalar::{Field, FixedRational, RealEmbeddable};
+use cannonpile::scalar::{Field, FixedInteger, FixedRational};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 
@@ -23,14 +24,33 @@ pub(crate) type Sparse<T = BigRational> = Vec<(usize, T)>;
 pub(crate) type Equation = (Sparse, BigRational);
 
 /// A scalar of exact arithmetic: a rational in machine words, or of any length.
-pub(crate) trait Exact: Field + RealEmbeddable {
+pub(crate) trait Exact: Field {
     /// Returns the value, or `None` if it overflowed.
+    fn value(&self) -> Option<BigRational>;
+
+    /// Compares the value with zero. `None` if it overflowed.
+    fn sign(&self) -> Option<Ordering>;
+}
+
+impl Exact for BigRational {
     fn value(&self) -> Option<BigRational> {
-        self.enclosure().map(|point| point.lower)
+        Some(self.clone())
+    }
+
+    fn sign(&self) -> Option<Ordering> {
+        Some(self.numer().cmp(&BigInt::ZERO))
     }
 }
 
-impl<T: Field + RealEmbeddable> Exact for T {}
+impl<I: FixedInteger> Exact for FixedRational<I> {
+    fn value(&self) -> Option<BigRational> {
+        self.to_rational()
+    }
+
+    fn sign(&self) -> Option<Ordering> {
+        self.parts().map(|(numer, _)| numer.cmp(&I::zero()))
+    }
+}
 
 /// Equations in triangular form.
 pub(crate) struct Factors<T> {

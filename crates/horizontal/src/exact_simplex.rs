@@ -28,7 +28,7 @@ use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use cannonpile::engine::{bug, check_interrupt};
-use cannonpile::scalar::{FixedRational, RealSign};
+use cannonpile::scalar::FixedRational;
 use num_rational::BigRational;
 
 use crate::Error;
@@ -348,11 +348,11 @@ impl<T: Exact> Tableau<T> {
 }
 
 fn is_negative<T: Exact>(number: &T) -> bool {
-    number.sign() == RealSign::Negative
+    number.sign().is_some_and(|sign| sign.is_lt())
 }
 
 fn is_positive<T: Exact>(number: &T) -> bool {
-    number.sign() == RealSign::Positive
+    number.sign().is_some_and(|sign| sign.is_gt())
 }
 
 /// Returns the candidate with the smallest ratio, and the first one of several. `None` on overflow or without candidates.

@@ -103,7 +103,7 @@ pub fn least_on_corner<T: Ring>(k: &T) -> T {
 /// assert_eq!(cannonpile_horizontal::formula::greatest_on_corner(&9.0), 25.0);
 /// ```
 pub fn greatest_on_corner<T: Ring>(k: &T) -> T {
-    k.clone() + k + k - &T::from_i128(2)
+    k.clone() + k + k - &T::from_integer(2)
 }
 
 /// Returns an upper bound of the load on a bottom sphere of a straight pile under one sphere, in f₀: Σ C(n_l+2, 3).

@@ -2,7 +2,6 @@
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Dimension, Region};
-use cannonpile::scalar::Ring;
 use cannonpile::shape::Anchor;
 use cannonpile_stability::{Affine, Margin, Tilts, above_last_run, tilts_by_oracle};
 use num_rational::BigRational;
@@ -42,7 +41,7 @@ pub fn tilts(pile: &Pile) -> Result<Tilts<Certificate>, Error> {
         }
         let along_y = i128::from(pile.dimension() == Dimension::Three);
         let tension = |tilt: [i128; 2]| {
-            let tilt = tilt.each(BigRational::from_i128);
+            let tilt = tilt.each(|n| BigRational::from_integer(n.into()));
             let leaning = pile.clone().with_tilt(tilt)?;
             Ok::<_, Error>(-work(&leaning, &certificate.field))
         };

@@ -5,7 +5,7 @@ use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use cannonpile::engine::bug;
-use cannonpile::scalar::{Algebra, Exactness, OwnNumerators, Polynomial, Ring, Symbol};
+use cannonpile::scalar::{Algebra, Exactness, Polynomial, Ring, Symbol};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -270,21 +270,7 @@ impl Mul<&Self> for Expression {
     }
 }
 
-impl Add for Expression {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        self + &rhs
-    }
-}
-
-impl Mul for Expression {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        self * &rhs
-    }
-}
+cannonpile::by_value!(Expression);
 
 impl Neg for Expression {
     type Output = Self;
@@ -311,7 +297,7 @@ impl One for Expression {
 }
 
 impl Ring for Expression {
-    fn from_i128(n: i128) -> Self {
+    fn from_integer(n: i128) -> Self {
         Self::from_rational(&BigRational::from_integer(BigInt::from(n)))
     }
 }
@@ -319,6 +305,7 @@ impl Ring for Expression {
 impl Algebra for Expression {
     const EXACTNESS: Exactness = Exactness::ExactOrFault;
     const NAME: &'static str = "Expression";
+    type Numerator = Self;
 
     fn from_rational(r: &BigRational) -> Self {
         Self([Step::Number(r.clone())].into())
@@ -328,21 +315,19 @@ impl Algebra for Expression {
         self.after(Step::Quotient(n))
     }
 
-    fn is_defined(&self) -> bool {
-        self.to_polynomial().is_ok_and(|p| p.is_defined())
-    }
-}
-
-impl OwnNumerators for Expression {
-    /// Returns `n / d` for a constant d; `None` if d is zero or contains symbols.
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        let divisor = d.to_polynomial().ok()?.to_constant()?;
+    /// `None` if the divisor is zero or contains symbols.
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        let divisor = divisor.to_polynomial().ok()?.to_constant()?;
         if divisor.is_zero() {
             return None;
         }
         if divisor.is_one() {
-            return Some(n);
+            return Some(self.clone());
         }
-        Some(n * &Self::from_rational(&divisor.recip()))
+        Some(self.clone() * &Self::from_rational(&divisor.recip()))
+    }
+
+    fn is_defined(&self) -> bool {
+        self.to_polynomial().is_ok_and(|p| p.is_defined())
     }
 }

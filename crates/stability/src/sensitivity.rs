@@ -40,7 +40,7 @@ impl<T: Field> Spread<T> {
     /// See [`spread`].
     #[must_use]
     pub fn bearable_squared(&self) -> Option<T> {
-        let nine = T::from_i128(9) * &self.variance;
+        let nine = T::from_integer(9) * &self.variance;
         (self.force.clone() * &self.force).checked_div(&nine)
     }
 }

@@ -4,7 +4,7 @@ use cannonpile::each::Each;
 use cannonpile::engine::{bug, check_interrupt, equality};
 use cannonpile::geometry::square_across;
 use cannonpile::lattice::{Dimension, Direction, Site};
-use cannonpile::scalar::{ByValue, Field, Ring};
+use cannonpile::scalar::{Algebra, ByValue};
 use cannonpile::shape::{Anchor, Selection};
 use cannonpile::stacking::{Run, Stacking};
 use cannonpile::{ContactForce, Forces, Pile};
@@ -233,7 +233,7 @@ fn under_three_tilts<V>(
     let along_y = i128::from(pile.dimension() == Dimension::Three);
     let at = |tilt: [i128; 2]| {
         let forces = pile.forces::<BigRational>();
-        read(&forces.with_tilt(tilt.each(BigRational::from_i128))?)
+        read(&forces.with_tilt(tilt.each(|n| BigRational::from_integer(n.into())))?)
     };
     Ok([at([0, 0])?, at([1, 0])?, at([0, along_y])?])
 }
@@ -249,7 +249,7 @@ pub fn tilts_by_oracle<C: Clone, E: From<Error>>(
 ) -> Result<Tilts<C>, E> {
     check_weight(pile)?;
     let (mut cuts, mut accepted): (Vec<(Affine, C)>, Vec<Tilt>) = (Vec::new(), Vec::new());
-    let mut reach = BigRational::from_i128(4);
+    let mut reach = BigRational::from_integer(4.into());
     let corners = loop {
         let mut corners = square(&reach, pile.dimension());
         for (force, _) in &cuts {
@@ -276,7 +276,7 @@ pub fn tilts_by_oracle<C: Clone, E: From<Error>>(
         if corners.iter().all(is_inside) {
             break corners;
         }
-        reach *= BigRational::from_i128(1 << 16);
+        reach *= BigRational::from_integer((1 << 16).into());
     };
     Ok(Tilts {
         margin: least_margin(pile, cuts),
@@ -325,7 +325,8 @@ fn check_weight(pile: &Pile) -> Result<(), Error> {
 
 /// Returns the corners of the square |x|, |y| ≤ `reach`, counterclockwise. For discs, the ends of an interval along x.
 fn square(reach: &BigRational, dimension: Dimension) -> Vec<Tilt> {
-    let corner = |x: i128, y: i128| [x, y].each(|sign| reach * BigRational::from_i128(sign));
+    let corner =
+        |x: i128, y: i128| [x, y].each(|sign| reach * BigRational::from_integer(sign.into()));
     match dimension {
         Dimension::Two => Vec::from([corner(-1, 0), corner(1, 0)]),
         Dimension::Three => Vec::from([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)]),

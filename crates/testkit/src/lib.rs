@@ -23,6 +23,7 @@
 //! | [mod@properties] | the runner that tests a claim on random bytes | |
 //! | [`python_checker`] | the second certificate checker, as a Python process | |
 //! | [`rational`] | rationals from machine integers | |
+//! | [`real`] | scalars with rational bounds | |
 //! | [`rounding`] | inputs that are critical for correct rounding | some |
 //! | `scenes` | scenes of every kind, and the files of their piles | `dem` |
 //! | `tally` | ensembles of stackings, enumerated one by one | `disorder` |
@@ -59,6 +60,7 @@ pub mod proofs;
 pub mod properties;
 pub mod python_checker;
 pub mod rational;
+pub mod real;
 pub mod rounding;
 #[cfg(feature = "dem")]
 pub mod scenes;

@@ -4,9 +4,8 @@ use core::fmt;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use cannonpile::scalar::{
-    Algebra, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable, RealSign, Ring,
-};
+use crate::real::{Bounded, Enclosure};
+use cannonpile::scalar::{Algebra, Exactness, Field, Ring};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -27,9 +26,9 @@ impl fmt::Display for Divergence {
 }
 
 /// A scalar with division whose values are real numbers.
-pub trait Real: Field + RealEmbeddable {}
+pub trait Real: Field + Bounded {}
 
-impl<T: Field + RealEmbeddable> Real for T {}
+impl<T: Field + Bounded> Real for T {}
 
 /// Runs every operation in two scalars and records the first at which they differ.
 ///
@@ -103,7 +102,7 @@ fn may_be_equal<A: Real, B: Real>(a: &A, b: &B) -> bool {
     }
 }
 
-fn widened<T: Algebra + RealEmbeddable>(value: &T) -> Option<Enclosure> {
+fn widened<T: Algebra + Bounded>(value: &T) -> Option<Enclosure> {
     let Enclosure { lower, upper } = value.enclosure()?;
     let Exactness::Rounded { bits } = T::EXACTNESS else {
         return Some(Enclosure { lower, upper });
@@ -135,21 +134,7 @@ macro_rules! operators {
 
 operators!(Add add "a + b", Sub sub "a - b", Mul mul "a * b");
 
-impl<A: Real, B: Real> Add for Pair<A, B> {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        Add::<&Self>::add(self, &rhs)
-    }
-}
-
-impl<A: Real, B: Real> Mul for Pair<A, B> {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        Mul::<&Self>::mul(self, &rhs)
-    }
-}
+cannonpile::by_value!([A: Real, B: Real] Pair<A, B>);
 
 impl<A: Real, B: Real> Neg for Pair<A, B> {
     type Output = Self;
@@ -181,8 +166,8 @@ impl<A: Real, B: Real> One for Pair<A, B> {
 }
 
 impl<A: Real, B: Real> Ring for Pair<A, B> {
-    fn from_i128(n: i128) -> Self {
-        Self::new(A::from_i128(n), B::from_i128(n))
+    fn from_integer(n: i128) -> Self {
+        Self::new(A::from_integer(n), B::from_integer(n))
     }
 }
 
@@ -190,6 +175,7 @@ impl<A: Real, B: Real> Algebra for Pair<A, B> {
     /// The weaker of the two scalars.
     const EXACTNESS: Exactness = weaker(A::EXACTNESS, B::EXACTNESS);
     const NAME: &'static str = "Pair";
+    type Numerator = Self;
 
     fn from_rational(r: &BigRational) -> Self {
         Self::new(A::from_rational(r), B::from_rational(r))
@@ -208,18 +194,6 @@ impl<A: Real, B: Real> Algebra for Pair<A, B> {
         self.first.is_defined() && self.second.is_defined()
     }
 
-    fn may_equal(&self, other: &Self) -> bool {
-        self.first.may_equal(&other.first) && self.second.may_equal(&other.second)
-    }
-}
-
-impl<A: Real, B: Real> OwnNumerators for Pair<A, B> {
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        n.checked_div(d)
-    }
-}
-
-impl<A: Real, B: Real> Field for Pair<A, B> {
     /// `None` if either scalar cannot divide.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
         let quotient = Self {
@@ -234,19 +208,22 @@ impl<A: Real, B: Real> Field for Pair<A, B> {
     }
 }
 
-impl<A: Real, B: Real> RealEmbeddable for Pair<A, B> {
-    /// The sign if both scalars agree on it.
-    fn sign(&self) -> RealSign {
-        if self.first.sign() == self.second.sign() {
-            self.first.sign()
-        } else {
-            RealSign::Unknown
-        }
-    }
+impl<A: Real, B: Real> Field for Pair<A, B> {}
 
+impl<A: Real, B: Real> Bounded for Pair<A, B> {
     /// The enclosure of the first scalar, because this type checks the second. `None` if either value is undefined.
     fn enclosure(&self) -> Option<Enclosure> {
         self.is_defined().then(|| self.first.enclosure())?
+    }
+
+    /// Where one of the scalars is an interval, the bounds of both, since either may contain zero.
+    fn bounds(&self) -> Option<[BigRational; 2]> {
+        let Enclosure { lower, upper } = self.enclosure()?;
+        if Self::EXACTNESS != Exactness::Enclosure {
+            return Some([lower, upper]);
+        }
+        let second = self.second.enclosure()?;
+        Some([lower.min(second.lower), upper.max(second.upper)])
     }
 }
 

@@ -1,7 +1,7 @@
 //! Conversion of the forces that lines carry into contact forces below the spheres of a row.
 
 use crate::formula::{half_turn, transmitted};
-use crate::scalar::Algebra;
+use crate::scalar::{Algebra, Numerators};
 
 /// Converts the forces that lines carry into contact forces below a layer.
 pub(super) struct Below<T: Algebra> {
@@ -58,7 +58,7 @@ impl<T: Algebra> Below<T> {
 
     #[inline]
     fn put(&self, force: T::Numerator, out: &mut T, is_defined: &impl Fn(&T) -> bool) -> bool {
-        match T::from_ratio(force, &self.scale) {
+        match force.over(&self.scale) {
             Some(value) => {
                 let defined = is_defined(&value);
                 *out = value;

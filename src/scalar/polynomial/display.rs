@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn uses_common_notation() {
         let l = Polynomial::from(Symbol("L"));
-        let n = Polynomial::from_i128;
+        let n = Polynomial::from_integer;
         let six = 6.try_into().unwrap();
         let tetrahedral = l.clone() * &(l.clone() + &n(1)) * &(l.clone() + &n(2));
         let divided = tetrahedral.div_int(six);
@@ -104,12 +104,12 @@ mod tests {
     #[test]
     fn width_fill_and_sign_are_honoured() {
         let l = Polynomial::from(Symbol("L"));
-        let next = l.clone() + &Polynomial::from_i128(1);
+        let next = l.clone() + &Polynomial::from_integer(1);
         assert_eq!(format!("{next:>9}|{next:<9}|"), "    L + 1|L + 1    |");
         assert_eq!(format!("{:*^9}", -next.clone()), "*-L - 1**");
         assert_eq!(format!("{next:+}"), "+L + 1");
         let halved = (-next.clone()).div_int(2.try_into().unwrap());
         assert_eq!(format!("{halved:+.1}"), "+(-L - 1)/2");
-        assert_eq!(format!("{:>4}", Polynomial::from_i128(0)), "   0");
+        assert_eq!(format!("{:>4}", Polynomial::from_integer(0)), "   0");
     }
 }

@@ -2,7 +2,7 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
-use cannonpile::scalar::{Algebra, FixedRational, Interval, RealEmbeddable};
+use cannonpile::scalar::{Algebra, FixedRational, Interval};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Counters, Error, Method, Packing, Pile, Quantity, Question};
@@ -13,6 +13,7 @@ use num_traits::Signed;
 use cannonpile_testkit::cases::limbs;
 use cannonpile_testkit::pair::Pair;
 use cannonpile_testkit::rational::ratio;
+use cannonpile_testkit::real::Bounded;
 
 const METHODS: [Method; 3] = [Method::Closed, Method::Tree, Method::Sweep];
 

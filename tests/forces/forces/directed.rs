@@ -1,14 +1,13 @@
 //! Loads and gravity of any direction, in every scalar: compared with the oracle, with each other, and as symbols.
 
 use cannonpile::lattice::{Region, Site};
-use cannonpile::scalar::{
-    Algebra, DoubleDouble, FixedRational, Interval, Polynomial, RealEmbeddable, Ring, Symbol,
-};
+use cannonpile::scalar::{Algebra, DoubleDouble, FixedRational, Interval, Polynomial, Symbol};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces, Load, Method, Pile, ratio};
 use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs};
 use cannonpile_testkit::compare::agrees;
 use cannonpile_testkit::laws::{obeys_algebra, obeys_integers};
+use cannonpile_testkit::real::Bounded;
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -70,7 +69,7 @@ fn small_tilts_of_all_stackings() {
 fn a_load_on_a_line_of_falling_forces() {
     let aims = [[1, 0], [-1, 0], [1, 1], [-1, -1], [1, -1], [-1, 1]];
     for signs in ["++++", "----"] {
-        for [x, y] in aims.map(|aim| aim.map(BigRational::from_i128)) {
+        for [x, y] in aims.map(|aim| aim.map(|n| BigRational::from_integer(n.into()))) {
             let along = [ratio!(3 / 4) * &x, ratio!(1 / 5) * &y];
             let load = Load {
                 down: ratio!(4),
@@ -156,7 +155,8 @@ fn isosceles_piles_and_discs_are_in_equilibrium() {
 fn the_mirror_image_has_the_same_forces() {
     let top = Region::hexagon(2, 2).unwrap();
     let pile = |signs: &str, sign: i128| {
-        let tilt = [ratio!(1 / 4), ratio!(1 / 9)].map(|part| part * BigRational::from_i128(sign));
+        let tilt = [ratio!(1 / 4), ratio!(1 / 9)]
+            .map(|part| part * BigRational::from_integer(sign.into()));
         let pile = Pile::under(top, signs.parse().unwrap()).unwrap();
         pile.with_tilt(tilt).unwrap()
     };
@@ -204,7 +204,7 @@ fn loaded<T: Algebra>(pile: &Pile) -> (Pile, Forces<'_, T>) {
         for times in [1, 2] {
             let load = load
                 .clone()
-                .map(|part| part * BigRational::from_i128(times));
+                .map(|part| part * BigRational::from_integer(times.into()));
             let same = load.clone().map(|part| own(&part));
             forces = forces.with_load(site, same).unwrap();
             rational = rational.with_load(site, load).unwrap();

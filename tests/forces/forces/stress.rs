@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use cannonpile::lattice::{Axis, Dimension, HorizontalContact, Region, Site};
-use cannonpile::scalar::{FixedRational, Interval, RealEmbeddable, Surd};
+use cannonpile::scalar::{FixedRational, Interval, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{Load, Method, Packing, Pile};
+use cannonpile_testkit::real::Bounded;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 

@@ -7,11 +7,10 @@ use cannonpile::formula::{
 };
 use cannonpile::geometry::{Vector, directions, disc_directions, position, squared_distance};
 use cannonpile::lattice::{Direction, Site, count};
-use cannonpile::scalar::{
-    Algebra, DoubleDouble, Exactness, Field, Interval, Polynomial, RealEmbeddable, Symbol,
-};
+use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Field, Interval, Polynomial, Symbol};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
+use cannonpile_testkit::real::Bounded;
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Signed, Zero};
@@ -139,7 +138,7 @@ fn places() -> impl Iterator<Item = [Q; 6]> {
 const ROUNDINGS: i64 = 8;
 
 /// Returns whether an answer is as close to the exact one as its scalar permits.
-fn is_near<T: Algebra + RealEmbeddable>(got: &T, want: &Q, growth: &Q) -> bool {
+fn is_near<T: Algebra + Bounded>(got: &T, want: &Q, growth: &Q) -> bool {
     let Some(bounds) = got.enclosure() else {
         return false;
     };
@@ -159,7 +158,7 @@ fn exact_turn(g: &[Q; 3]) -> [Q; 3] {
     tripled_half_turn(g).map(|tripled| tripled / BigInt::from(3))
 }
 
-fn formulas_are_near<T: Field + Algebra<Numerator = T> + RealEmbeddable>() {
+fn formulas_are_near<T: Field + Algebra<Numerator = T> + Bounded>() {
     for place in places() {
         let exact = formulas(&place, exact_turn);
         let [_, _, _, l, ..] = &place;
@@ -268,7 +267,7 @@ fn piles() -> impl Iterator<Item = Pile> {
     })
 }
 
-fn statics_are_near<T: Field + RealEmbeddable>(layers: i128) {
+fn statics_are_near<T: Field + Bounded>(layers: i128) {
     for pile in piles().filter(|pile| pile.layers() <= layers) {
         let growth = Q::from_integer((pile.layers() + 3).into());
         let exact = answers::<Q>(&pile).expect("exact answers");

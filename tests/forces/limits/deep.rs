@@ -4,8 +4,9 @@
 use core::fmt;
 
 use cannonpile::Pile;
-use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
+use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval};
 use cannonpile::shape::Selection;
+use cannonpile_testkit::real::Bounded;
 use num_rational::BigRational;
 use num_traits::Signed;
 
@@ -79,7 +80,7 @@ impl Deep {
     }
 
     /// The worst error of a sweep. Intervals must contain the exact forces, and their error is that of the ends.
-    fn swept<T: Algebra + RealEmbeddable>(&self, ulp: &BigRational) -> Worst {
+    fn swept<T: Algebra + Bounded>(&self, ulp: &BigRational) -> Worst {
         let forces = lowest_contacts::<T>(&self.case.pile);
         let mut worst = Worst::none();
         for (place, exact) in &self.sample {

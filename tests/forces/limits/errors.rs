@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use cannonpile::scalar::{RealEmbeddable, Surd};
+use cannonpile::scalar::Surd;
+use cannonpile_testkit::real::Bounded;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -26,7 +27,7 @@ pub(crate) fn unit<F: Float>(about: &BigRational) -> BigRational {
 }
 
 /// The greatest distance from `exact` to any number that the answer may represent. `None` if it is unbounded.
-pub(crate) fn distance<T: RealEmbeddable>(got: &T, exact: &BigRational) -> Option<BigRational> {
+pub(crate) fn distance<T: Bounded>(got: &T, exact: &BigRational) -> Option<BigRational> {
     let bounds = got.enclosure()?;
     Some(
         (bounds.upper - exact)

@@ -4,8 +4,9 @@
 use core::fmt::{self, Write as _};
 
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::scalar::{Algebra, DoubleDouble, Interval, RealEmbeddable, Surd};
+use cannonpile::scalar::{Algebra, DoubleDouble, Interval, Surd};
 use cannonpile::{Error, Packing, Pile};
+use cannonpile_testkit::real::Bounded;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, Zero};
 
@@ -267,7 +268,7 @@ fn round_to<F: Float>(surd: &Surd, worst: &mut Worst) -> Result<(), String> {
 }
 
 /// The worst error of a scalar, in units of a format.
-fn compare<T: Algebra + RealEmbeddable, F: Float>(
+fn compare<T: Algebra + Bounded, F: Float>(
     forces: &Result<Forces<T>, Error>,
     quantity: Quantity,
     wanted: &[Wanted],

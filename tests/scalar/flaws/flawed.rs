@@ -6,9 +6,8 @@ use core::marker::PhantomData;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use cannonpile::scalar::{
-    Algebra, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable, RealSign, Ring,
-};
+use cannonpile::scalar::{Algebra, Exactness, Field, Ring};
+use cannonpile_testkit::real::{Bounded, Enclosure};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Zero};
@@ -26,10 +25,7 @@ pub(crate) struct Operations {
     pub(crate) rational: fn(&Q) -> Q,
     pub(crate) div_int: fn(&Q, i64) -> Q,
     pub(crate) div: fn(&Q, &Q) -> Option<Q>,
-    /// From a numerator and a denominator.
-    pub(crate) ratio: fn(&Q, &Q) -> Option<Q>,
     pub(crate) is_defined: fn(&Q) -> bool,
-    pub(crate) sign: fn(&Q) -> RealSign,
     pub(crate) enclosure: fn(&Q) -> Enclosure,
 }
 
@@ -46,9 +42,7 @@ impl Operations {
         rational: Q::clone,
         div_int: |a, n| a / BigInt::from(n),
         div: |a, b| (!b.is_zero()).then(|| a / b),
-        ratio: |n, d| (!d.is_zero()).then(|| n / d),
         is_defined: |_| true,
-        sign: RealEmbeddable::sign,
         enclosure: |a| Enclosure::point(a.clone()),
     };
 }
@@ -123,21 +117,7 @@ impl<C: Claim> Mul<&Self> for Flawed<C> {
     }
 }
 
-impl<C: Claim> Add for Flawed<C> {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        self + &rhs
-    }
-}
-
-impl<C: Claim> Mul for Flawed<C> {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        self * &rhs
-    }
-}
+cannonpile::by_value!([C: Claim] Flawed<C>);
 
 impl<C: Claim> Neg for Flawed<C> {
     type Output = Self;
@@ -164,7 +144,7 @@ impl<C: Claim> One for Flawed<C> {
 }
 
 impl<C: Claim> Ring for Flawed<C> {
-    fn from_i128(n: i128) -> Self {
+    fn from_integer(n: i128) -> Self {
         flawed((operations().integer)(n))
     }
 }
@@ -172,6 +152,7 @@ impl<C: Claim> Ring for Flawed<C> {
 impl<C: Claim> Algebra for Flawed<C> {
     const EXACTNESS: Exactness = C::EXACTNESS;
     const NAME: &'static str = "Flawed";
+    type Numerator = Self;
 
     fn from_rational(r: &Q) -> Self {
         flawed((operations().rational)(r))
@@ -181,28 +162,18 @@ impl<C: Claim> Algebra for Flawed<C> {
         flawed((operations().div_int)(&self.0, n.get()))
     }
 
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        (operations().div)(&self.0, &divisor.0).map(flawed)
+    }
+
     fn is_defined(&self) -> bool {
         (operations().is_defined)(&self.0)
     }
 }
 
-impl<C: Claim> OwnNumerators for Flawed<C> {
-    fn ratio(n: Self, d: &Self) -> Option<Self> {
-        (operations().ratio)(&n.0, &d.0).map(flawed)
-    }
-}
+impl<C: Claim> Field for Flawed<C> {}
 
-impl<C: Claim> Field for Flawed<C> {
-    fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        (operations().div)(&self.0, &divisor.0).map(flawed)
-    }
-}
-
-impl<C: Claim> RealEmbeddable for Flawed<C> {
-    fn sign(&self) -> RealSign {
-        (operations().sign)(&self.0)
-    }
-
+impl<C: Claim> Bounded for Flawed<C> {
     fn enclosure(&self) -> Option<Enclosure> {
         Some((operations().enclosure)(&self.0))
     }

@@ -19,7 +19,7 @@ use crate::springs::Springs;
 use crate::table::{Summary, Units, stacking};
 use crate::template::{fill, fill_lines};
 use crate::weights::newtons;
-use cannonpile::scalar::{Ring, Surd};
+use cannonpile::scalar::Surd;
 use cannonpile::{BaseExtremes, Load, Packing, Pile, Verdict};
 
 /// The texts for a template, by name. A condition that holds has an empty text, and one that does not hold has no
@@ -285,7 +285,7 @@ pub(super) const CRITERION: &str = "a criterion of a card has a name, a demand a
 
 /// Returns a/R, from sin²θ = (a/R)²(d−1)/(2d).
 fn spacing(numbered: &NumberedPile<'_>) -> Result<Surd, Error> {
-    let d = BigRational::from_i128(numbered.pile().dimension().number().into());
+    let d = BigRational::from_integer(numbered.pile().dimension().number().into());
     let square = numbered.packing().inclination().sin2() * (&d + &d) / (d - BigRational::one());
     Ok(Surd::sqrt(square).map_err(cannonpile::Error::from)?)
 }

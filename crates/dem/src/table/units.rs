@@ -6,7 +6,7 @@ use num_traits::Signed;
 use super::rows::Column;
 use crate::Error;
 use cannonpile::lattice::Dimension;
-use cannonpile::scalar::{CorrectlyRounded, Ring, Surd};
+use cannonpile::scalar::{CorrectlyRounded, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Forces, Layers, Method, Nearest, Packing, Pile, Places};
 
@@ -152,7 +152,7 @@ impl<'p> Units<'p> {
     /// adds at most its force to a multiple. A disc has at most six, and each adds at most twice its force. In SI units each
     /// contact adds at most R times its force.
     pub(super) fn greatest_stress(&self) -> Surd {
-        let contacts = BigRational::from_i128(12);
+        let contacts = BigRational::from_integer(12.into());
         let force = self.greatest_force().scaled(&contacts);
         match self {
             Self::Pile(_) => force,
@@ -165,8 +165,8 @@ impl<'p> Units<'p> {
     pub(super) fn greatest_force(&self) -> Surd {
         let horizontal = self.pile().horizontal_forces();
         let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();
-        let sources = sources(self.pile()) + horizontal * BigRational::from_i128(2);
-        let bound = sources * BigRational::from_i128(3);
+        let sources = sources(self.pile()) + horizontal * BigRational::from_integer(2.into());
+        let bound = sources * BigRational::from_integer(3.into());
         match self {
             Self::Pile(_) => bound.into(),
             // f₀ is mg times at most 1/cosθ, and shear has the factor tanθ.
@@ -275,12 +275,12 @@ impl Units<'_> {
 
 /// Returns the sum of |w| + 2|x| + 4|y| over all weights and loads (w, x, y).
 fn sources(pile: &Pile) -> BigRational {
-    let two = || BigRational::from_i128(2);
+    let two = || BigRational::from_integer(2.into());
     let horizontal = |[x, y]: [&BigRational; 2]| (x.abs() + y.abs() * two()) * two();
     let loads = pile.loads();
     let aside: BigRational = loads.map(|(_, load)| horizontal([&load.x, &load.y])).sum();
     // The loads have no tilt, so this bound is not sharp.
-    let tilt = BigRational::from_i128(1) + horizontal(pile.tilt().each_ref());
+    let tilt = BigRational::from_integer(1.into()) + horizontal(pile.tilt().each_ref());
     pile.weight() * tilt + aside
 }
 

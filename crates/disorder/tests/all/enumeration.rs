@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Region, Sign, Site};
-use cannonpile::scalar::{DoubleDouble, Polynomial, RealEmbeddable, Symbol};
+use cannonpile::scalar::{DoubleDouble, Polynomial, Symbol};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile_disorder::{FirstSign, Place};
+use cannonpile_testkit::real::Bounded;
 use num_rational::BigRational;
 use num_traits::{One, Signed, pow};
 

@@ -3,7 +3,7 @@
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::Site;
-use cannonpile::scalar::{Field, FixedInteger, FixedRational};
+use cannonpile::scalar::{Algebra, FixedInteger, FixedRational};
 use cannonpile::{Error, FloorForce, Pile};
 use num_rational::BigRational;
 

@@ -26,10 +26,11 @@
 
 use core::fmt::Debug;
 
+use crate::real::Bounded;
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::scalar::{Algebra, CorrectlyRounded, RealEmbeddable, Ring};
+use cannonpile::scalar::{Algebra, CorrectlyRounded};
 use cannonpile::{Error, Forces, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -42,9 +43,9 @@ use crate::generators::{number, pile};
 const ROUNDINGS: i64 = 12;
 
 /// A rounded scalar.
-pub trait Float: Algebra + RealEmbeddable + CorrectlyRounded {}
+pub trait Float: Algebra + Bounded + CorrectlyRounded {}
 
-impl<F: Algebra + RealEmbeddable + CorrectlyRounded> Float for F {}
+impl<F: Algebra + Bounded + CorrectlyRounded> Float for F {}
 
 /// Checks `f32` and `f64` for a pile whose sin φ is a float.
 pub fn real_pile(u: &mut Unstructured<'_>) -> Checked {
@@ -127,7 +128,7 @@ fn on_floor<F: Float>(
 
 /// Returns (N_α, N_β, N_γ), the numbers of spheres above a site on its lines of contacts.
 fn counts(site: Site) -> [BigRational; 3] {
-    [site.k - site.i - site.j, site.i, site.j].map(BigRational::from_i128)
+    [site.k - site.i - site.j, site.i, site.j].map(|n| BigRational::from_integer(n.into()))
 }
 
 /// Returns Σ |c_m ê_m| for c_m ≥ 0, by component.
@@ -162,7 +163,7 @@ impl Bound {
     }
 
     /// Checks that `got` differs from `want` by at most the bound. `magnitude` is Σ|t| of the terms of `want`.
-    fn holds<F: RealEmbeddable + Debug>(
+    fn holds<F: Bounded + Debug>(
         &self,
         what: &str,
         got: &F,
@@ -177,7 +178,7 @@ impl Bound {
         })
     }
 
-    fn holds_along<F: RealEmbeddable + Debug>(
+    fn holds_along<F: Bounded + Debug>(
         &self,
         what: &str,
         got: Vector<F>,

@@ -1,8 +1,9 @@
 //! In every scalar the forces of a mixed pile agree with the equations to the accuracy that the scalar states, or it reports
 //! an overflow.
 
+use crate::real::Bounded;
 use arbitrary::Unstructured;
-use cannonpile::scalar::{Algebra, FixedRational, Interval, RealEmbeddable};
+use cannonpile::scalar::{Algebra, FixedRational, Interval};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces};
 use num_rational::BigRational;
@@ -24,7 +25,7 @@ pub fn mixed(u: &mut Unstructured<'_>) -> Checked {
 }
 
 /// Every answer contains the exact value.
-fn encloses<T: Algebra + RealEmbeddable>(
+fn encloses<T: Algebra + Bounded>(
     forces: &Forces<'_, T>,
     contacts: &Contacts,
     floor: &Floor,
@@ -60,7 +61,7 @@ fn or_overflow<A>(answer: Result<A, Error>) -> Result<Option<A>, Error> {
     }
 }
 
-fn hold<'w, T: RealEmbeddable + core::fmt::Debug>(
+fn hold<'w, T: Bounded + core::fmt::Debug>(
     got: &[T],
     wanted: impl Iterator<Item = &'w BigRational>,
 ) -> Checked {

@@ -3,8 +3,9 @@
 //! The slices hold exact values, numerators, correctly rounded floats, and floats. They cover all layers from some layer on,
 //! and the base.
 
+use crate::real::Bounded;
 use arbitrary::Unstructured;
-use cannonpile::scalar::{Algebra, CorrectlyRounded, DoubleDouble, RealEmbeddable};
+use cannonpile::scalar::{Algebra, CorrectlyRounded, DoubleDouble};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces, Layers};
 use num_bigint::BigInt;
@@ -158,7 +159,7 @@ fn are_nearest<F: CorrectlyRounded + PartialEq + core::fmt::Debug>(
 /// No value exceeds the error bound of its layer. The claim ignores values that overflow.
 fn within_bounds<T>(forces: &Forces<'_, T>, contacts: &Contacts) -> Checked
 where
-    T: Algebra + RealEmbeddable + Clone + Zero,
+    T: Algebra + Bounded + Clone + Zero,
 {
     let mut layers = forces.layers(Selection::All)?;
     while let Some(layer) = layers.next_layer()? {

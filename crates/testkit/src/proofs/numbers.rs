@@ -1,6 +1,6 @@
 //! Evaluates both sides of a step.
 
-use cannonpile::scalar::{Ring, Symbol};
+use cannonpile::scalar::Symbol;
 use cannonpile::theorem::{Library, Proof, Relation, Step, Theorem};
 use num_rational::BigRational as Q;
 
@@ -39,7 +39,7 @@ pub fn sides_agree_at_every_point<F: Library>(theorems: &[&Theorem<F>]) {
             symbols.extend(step.right.symbols());
             let agree = (0..20_u32).all(|point| {
                 let at = |n: usize| {
-                    ratio(i64::try_from(n).expect("few") * 7 - 3, 5) + Q::from_i128(point.into())
+                    ratio(i64::try_from(n).expect("few") * 7 - 3, 5) + Q::from_integer(point.into())
                 };
                 let values: Vec<_> = symbols
                     .iter()

@@ -53,7 +53,7 @@ fn the_product_of_directions_is_their_determinant() {
     let skew: Formulas = Formulas {
         directions: |_| {
             [[1, 2, 3], [4, 5, 7], [11, 13, 17]].map(|direction| {
-                let [x, y, z] = direction.map(Polynomial::from_i128);
+                let [x, y, z] = direction.map(Polynomial::from_integer);
                 Vector { x, y, z }
             })
         },

@@ -6,7 +6,6 @@ mod counts;
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
-use cannonpile::scalar::Ring;
 use cannonpile::theorem;
 use cannonpile::theorem::{Formulas, Proof};
 use cannonpile_testkit::proofs;
@@ -17,7 +16,7 @@ use num_rational::BigRational as Q;
 const RIGHT: Formulas = Formulas::LIBRARY;
 
 fn int(n: i128) -> Q {
-    Q::from_i128(n)
+    Q::from_integer(n.into())
 }
 
 fn prove(name: &str) -> Proof {

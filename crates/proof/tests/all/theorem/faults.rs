@@ -106,5 +106,5 @@ pub(super) fn own() -> Vec<Fault<Formulas>> {
 }
 
 fn int(n: i128) -> P {
-    P::from_i128(n)
+    P::from_integer(n)
 }

@@ -66,7 +66,7 @@ pub(super) fn faults() -> Vec<Fault> {
         "five dimensions for six": spheres_in_layer = |k, d| (RIGHT.spheres_in_layer)(k, d.min(5))
             => ["dimensions"];
 
-        "contacts with the floor counted": contacts = |l, d| (RIGHT.spheres)(l, d) * &P::from_i128(d.into())
+        "contacts with the floor counted": contacts = |l, d| (RIGHT.spheres)(l, d) * &P::from_integer(d.into())
             => ["contacts", "strengths"];
         "one contact below each sphere": contacts = |l, d| (RIGHT.spheres)(&one_less(l), d)
             => ["contacts", "strengths"];
