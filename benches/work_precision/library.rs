@@ -2,9 +2,9 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::{Algebra, CorrectlyRounded, DoubleDouble, Exactness, Interval};
-use cannonpile_testkit::real::{Bounded};
 use cannonpile::shape::Selection;
 use cannonpile::{Forces, Packing, Pile};
+use cannonpile_testkit::real::Bounded;
 use num_rational::BigRational;
 
 use crate::Bench;
@@ -157,12 +157,7 @@ fn measured<T: Algebra + Bounded>(
 ///
 /// The closed form has a few roundings. The recursion has at most ten roundings for each layer, and no step amplifies
 /// errors. Each rounding is relative to a bound on all forces, √(KC) f₀ for C contacts in K layers.
-fn held<T: Algebra + Bounded>(
-    bench: &Bench,
-    method: Method,
-    forces: &[[T; 3]],
-    unit: Unit,
-) -> f64 {
+fn held<T: Algebra + Bounded>(bench: &Bench, method: Method, forces: &[[T; 3]], unit: Unit) -> f64 {
     let (name, scalar) = (&bench.case.name, T::NAME);
     let error = bench.reference.error(forces, unit);
     match T::EXACTNESS {

@@ -2,8 +2,8 @@
 //!
 //! Their time includes the assembly of the equations of equilibrium, but not the geometry of the pile.
 
-use cannonpile::scalar::{Algebra};
-use cannonpile_testkit::real::{Bounded};
+use cannonpile::scalar::Algebra;
+use cannonpile_testkit::real::Bounded;
 use faer::traits::ComplexField;
 use num_traits::{Float, Signed};
 

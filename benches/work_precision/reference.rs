@@ -3,9 +3,9 @@
 use cannonpile::Pile;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::Direction;
-use cannonpile::scalar::{Algebra, Ring};
-use cannonpile_testkit::real::{Bounded, Enclosure};
+use cannonpile::scalar::Algebra;
 use cannonpile::shape::Selection;
+use cannonpile_testkit::real::{Bounded, Enclosure};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};

@@ -2,7 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::scalar::{Algebra, DoubleDouble, Field, Interval, Ring, laws};
-use cannonpile_testkit::real::{Bounded};
+use cannonpile_testkit::real::Bounded;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};

@@ -94,12 +94,11 @@ impl Error {
     pub(crate) fn argument(&self) -> Option<&'static str> {
         match self {
             Self::Core(error) => of_core(error),
-            Self::Stability(_) => None,
             Self::Horizontal(error) => of_horizontal(error),
             Self::Disorder(error) => of_disorder(error),
             Self::Dem(error) => of_dem(error),
             Self::Figure(cannonpile_figure::Error::TooManyGlyphs { .. }) => Some("layers"),
-            Self::Figure(_) => None,
+            Self::Stability(_) | Self::Figure(_) => None,
         }
     }
 }

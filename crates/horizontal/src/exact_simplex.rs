@@ -348,11 +348,11 @@ impl<T: Exact> Tableau<T> {
 }
 
 fn is_negative<T: Exact>(number: &T) -> bool {
-    number.sign().is_some_and(|sign| sign.is_lt())
+    number.sign().is_some_and(core::cmp::Ordering::is_lt)
 }
 
 fn is_positive<T: Exact>(number: &T) -> bool {
-    number.sign().is_some_and(|sign| sign.is_gt())
+    number.sign().is_some_and(core::cmp::Ordering::is_gt)
 }
 
 /// Returns the candidate with the smallest ratio, and the first one of several. `None` on overflow or without candidates.

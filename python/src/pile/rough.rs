@@ -180,7 +180,7 @@ pub(crate) fn rough_contacts(floor: &RoughFloor, py: Python<'_>) -> PyResult<Vec
             let (multiple, contact) = (multiple?, contact?);
             let (site, direction) = (contact.site, contact.direction);
             let below = pile.shape().below(site, direction);
-            let below = below.ok_or_else(|| cannonpile::Error::OnFloor { site })?;
+            let below = below.ok_or(cannonpile::Error::OnFloor { site })?;
             Ok((
                 (numbering.id(site)?, numbering.id(below)?),
                 site.k.into(),

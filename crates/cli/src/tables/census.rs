@@ -76,11 +76,11 @@ fn judged(pile: &Pile, verdict: Verdict) -> Vec<Cell> {
 /// Returns the squared margin of a pile without horizontal contacts. It is empty for an unstable pile, for a single layer,
 /// and where it takes too long to compute.
 fn margin(pile: &Pile, standing: Option<&Standing>) -> Result<Cell, Error> {
+    use cannonpile_stability::Error::Core;
+
     if standing.is_none_or(|standing| standing.first_failure.is_some()) {
         return Ok(Cell::Missing);
     }
-    use cannonpile_stability::Error::Core;
-
     match cannonpile_stability::margin(pile) {
         Ok(margin) => Ok(margin.map_or(Cell::Missing, |margin| margin.squared.into())),
         Err(Core(error)) if !matches!(error, Error::TooLarge { .. }) => Err(error),

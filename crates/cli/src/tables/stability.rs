@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn corners_of_spheres_and_discs() {
         let corners = |pile: &Pile| {
-            let tilts = cannonpile_stability::tilts(&pile).unwrap();
+            let tilts = cannonpile_stability::tilts(pile).unwrap();
             csv(polygon(pile, tilts.corners))
         };
         let spheres = corners(&Pile::triangular(4).unwrap());

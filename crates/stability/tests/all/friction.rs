@@ -140,7 +140,7 @@ fn check(pile: &Pile) {
         equations.balance(&forces, weight(*site));
     }
     let solution = equations.solve();
-    let rough = RoughFloor::new(&pile).unwrap();
+    let rough = RoughFloor::new(pile).unwrap();
     let found: Vec<_> = rough
         .contacts::<BigRational>(Selection::All)
         .unwrap()

@@ -88,9 +88,7 @@ fn total_force_and_moment() {
 }
 
 fn margin(pile: &Pile) -> Q {
-    let margin = cannonpile_stability::tilts(&pile)
-        .expect("a verdict")
-        .margin;
+    let margin = cannonpile_stability::tilts(pile).expect("a verdict").margin;
     margin.expect("a stable pile").squared
 }
 
