@@ -237,11 +237,28 @@ pub trait Ring:
     /// Returns the integer `n` as a value of this type: exact, or correctly rounded.
     fn from_integer(n: i128) -> Self;
 
-    /// Returns a key: two values are equal if and only if their keys are. Rationals override it, because their `==`
-    /// calls itself once for each common term of two continued fractions.
+    /// Returns whether two values are equal. Rationals override it, because their `==` calls itself once for each common term
+    /// of two continued fractions.
     #[doc(hidden)]
-    fn comparison_key(&self) -> impl PartialEq {
-        self
+    fn equals(&self, other: &Self) -> bool {
+        self == other
+    }
+
+    /// Returns a key that compares the value by [`equals`](Self::equals).
+    #[doc(hidden)]
+    fn comparison_key(&self) -> ComparisonKey<'_, Self> {
+        ComparisonKey(self)
+    }
+}
+
+/// A value that is compared by [`Ring::equals`].
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct ComparisonKey<'a, T>(&'a T);
+
+impl<T: Ring> PartialEq for ComparisonKey<'_, T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.equals(other.0)
     }
 }
 

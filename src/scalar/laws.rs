@@ -266,8 +266,7 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
 /// Returns whether two values may represent the same number: bounds overlap, and other values are equal.
 fn may_equal<T: Algebra>(a: &T, b: &T) -> bool {
     let overlap = || T::one().checked_div(&(a.clone() - b)).is_none();
-    let [x, y] = [a, b].map(T::comparison_key);
-    x == y || T::EXACTNESS == Exactness::Enclosure && overlap()
+    a.equals(b) || T::EXACTNESS == Exactness::Enclosure && overlap()
 }
 
 /// Returns the rational that the scalar represents, if its bounds are equal.

@@ -13,8 +13,8 @@ impl Ring for BigRational {
         Self::from_integer(n.into())
     }
 
-    fn comparison_key(&self) -> impl PartialEq {
-        ByValue(self)
+    fn equals(&self, other: &Self) -> bool {
+        ByValue(self) == ByValue(other)
     }
 }
 

@@ -21,7 +21,7 @@ pub enum Floor {
     /// The bottom spheres are fixed, and no contact has friction.
     #[default]
     Glued,
-    /// The bottom spheres lie on a plane, and all contacts have friction: see [`cannonpile::friction`].
+    /// The bottom spheres lie on a plane, and all contacts have friction: see [`RoughPacking`](cannonpile_stability::RoughPacking).
     Rough,
 }
 

@@ -337,14 +337,13 @@ impl Reader {
     /// bytes for each number that is read. A VTK file is kept as a whole.
     ///
     /// # Errors
-    /// * [`Refusal::Kind`] for a file of another kind, such as a spreadsheet. [`Refusal::NoRows`] if no row is a contact of
-    ///   the pile. [`Refusal::NoStep`] if the wanted step is not there.
+    /// * [`Refusal::Table`] for a file of another kind, such as a spreadsheet, for a VTK file without readable contacts, if the
+    ///   wanted step is not there, and for errors of the input. [`Refusal::NoRows`] if no row is a contact of the pile.
     /// * [`Refusal::Line`] for a line that cannot be read, an unknown sphere number, or a position where no spheres touch.
     /// * [`Refusal::Line`] for a third row of a pair, or a second one in the same order with another force.
     /// * [`Refusal::Elsewhere`] if no frame matches the positions to the pile.
     /// * [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with too many contacts.
     ///   [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`.
-    /// * [`Refusal::Vtk`] for a VTK file without readable contacts. [`Refusal::Io`] for errors of the input.
     ///
     /// # Examples
     /// ```

@@ -59,7 +59,7 @@ impl Ensemble {
     /// three supports exist.
     ///
     /// As everywhere, signs are listed from the top. A stacking whose top layer would be empty is left out. The tally
-    /// says [how many](Tally::left_out) there are.
+    /// says [how many](crate::Tally::left_out) there are.
     ///
     /// # Errors
     /// The errors of [`Pile::on`] for a single layer. A [run](Self::run) fails if the base supports no stacking of this
