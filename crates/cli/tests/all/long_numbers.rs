@@ -12,7 +12,7 @@ use std::time::Instant;
 use std::{fs, hash};
 
 use cannonpile::engine::{common_denominator, product, sum_of};
-use cannonpile::geometry::{Inclination, Spacing};
+use cannonpile::geometry::{Inclination, Spacing, square_across};
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
 use cannonpile::num_bigint::BigInt;
 use cannonpile::num_rational::BigRational;
@@ -30,7 +30,7 @@ use cannonpile_disorder::{
     Shard, TallyRecord, Wave, check_fault_probability,
 };
 use cannonpile_figure::Subject;
-use cannonpile_stability::{RoughFloor, RoughPacking, margin, sensitivity, tilts};
+use cannonpile_stability::{Affine, RoughFloor, RoughPacking, margin, sensitivity, tilts};
 
 /// The greatest stack of an operation. Reading the options of a command takes more than this, with any numbers.
 const STACK: usize = 512 * 1024;
@@ -127,7 +127,7 @@ fn numbers() {
         "rational: nearest f64 and f32": (f64s(&a), f32s(&a), f64s(&raw));
         "DoubleDouble::from_rational": DoubleDouble::from_rational(&a);
         "rational: sums, products": (sum_of([a.clone(), b.clone()]), product(&a, &b), common_denominator([&a, &b]));
-        "rational: as a scalar": (a.clone().div_int(NonZeroI64::MIN), a.is_defined(), a.checked_div(&b), a.clone() - <BigRational as Ring>::from_integer(7));
+        "rational: as a scalar": (a.clone().div_int(NonZeroI64::MIN), a.is_defined(), a.checked_div(&b), a.clone() - <BigRational as Ring>::from_integer(7), Algebra::half_turn(&[a.clone(), b.clone(), a.clone()]));
         "rational: laws": (laws::embedding(&a, &b, |x: &BigRational| Some([x.clone(), x.clone()])).unwrap(), laws::numerators::<BigRational>(&a, &b).unwrap());
         "to_rational, to_constant": (Polynomial::constant(&a).to_constant().unwrap(), DoubleDouble::from_rational(&a).to_rational(), FixedRational::<i128>::from_rational(&a).to_rational());
         "Surd: from, order and equality": assert!(x != y && (x < y) == (y > x) && x == Surd::from(raw.clone()));
@@ -217,8 +217,9 @@ fn piles() -> Result<(), Error> {
         "Packing: contacts, contact_forces": (packing.contacts(Selection::All).unwrap().count(), packing.contact_forces(Selection::All).unwrap().count());
         "Packing: to SI": (packing.contact_in_si(contacts()[0].clone()).unwrap(), packing.floor_force_in_si(base()[0].clone()), packing.stress_in_si(&forces.stress(Site::APEX).unwrap()), packing.horizontal_contact_in_si(contact, &a).is_ok());
         "Layer: error_bound": { let mut layers = pile.forces::<f64>().layers(Selection::Base).unwrap(); layers.next_layer().unwrap().map(|layer| layer.error_bound()) };
-        "Pile: standing": pile.standing().unwrap();
+        "Pile: standing, tensile_contact": (pile.standing().unwrap(), pile.tensile_contact().unwrap());
         "Pile: base_extremes": assert!(pile.base_extremes().unwrap() == pile.base_extremes().unwrap());
+        "square_across, Affine": (square_across(&a), Affine::through([a.clone(), b.clone(), a.clone()]));
         "Pile: margin": assert!(margin(&pile).unwrap() == margin(&pile).unwrap());
         "Pile: stability, of half the digits": assert!(tilts(&short).unwrap() == tilts(&short).unwrap());
         "Packing: sensitivity, equality": { let changes = || sensitivity::<BigRational>(&packing, Site::APEX).unwrap(); assert!(changes() == changes()) };
