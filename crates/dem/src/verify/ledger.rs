@@ -173,6 +173,17 @@ impl<'p> Ledger<'p> {
         Ok(())
     }
 
+    /// Refuses a line after more rows than all pairs may have, so that a table without end is refused too. Among so many rows
+    /// one repeats a pair, as in a table of several steps, or pairs without a contact are too many.
+    pub(super) fn refuse_when_full(&mut self, line: u64) -> Result<(), Refusal> {
+        let limit = 2 * (self.contacts + self.limit());
+        if (self.rows.len() as u64) < limit {
+            return Ok(());
+        }
+        self.sort()?;
+        Err(Fault::TooMany { limit }.at(line))
+    }
+
     fn is_at_bottom(&self, sphere: u64) -> bool {
         (self.first_on_floor..=self.spheres).contains(&sphere)
     }
@@ -192,14 +203,6 @@ impl<'p> Ledger<'p> {
         if let Some(value) = tangential.into_iter().find(|x| !x.is_finite()) {
             let column = "a tangential force";
             return Err(Fault::NotFinite { column, value });
-        }
-        let limit = 2 * (self.contacts + self.limit());
-        if self.rows.len() as u64 >= limit {
-            // A table of several steps has more rows than pairs.
-            return match self.sort() {
-                Err(Refusal::Line { fault, .. }) => Err(fault),
-                _ => Err(Fault::TooMany { limit }),
-            };
         }
         let Measured {
             ids,
@@ -429,6 +432,7 @@ impl<'p> Ledger<'p> {
 impl Ledger<'_> {
     /// Stores a row with the numbers of its spheres.
     pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
+        self.refuse_when_full(row.line)?;
         let ids = numbers(row)?;
         let admitted = if let [Ok(one), Ok(other)] = ids.each(u64::try_from) {
             self.admit(&Measured::of([one, other], row), row.line)
