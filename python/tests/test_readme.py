@@ -81,9 +81,3 @@ def test_console(tmp_path, monkeypatch):
 def test_all_examples_are_listed():
     named = set(re.findall(r"\(examples/([^)]*)\)", README.read_text(encoding="utf-8")))
     assert named == {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".ipynb")}
-
-
-def test_the_guide_shows_the_same():
-    text = (README.parent.parent / "docs/check-your-dem-code.md").read_text(encoding="utf-8")
-    for block in (blocks("sh")[0], blocks("python")[0]):
-        assert text.count(block) == 1
