@@ -498,12 +498,14 @@ fn unlike(forces: &[(Force, [f64; 3])]) -> f64 {
     };
     let sum: f64 = forces.iter().map(|(force, _)| size(force)).sum();
     let all: f64 = forces.iter().map(|(_, exact)| norm(*exact)).sum();
+    // In a wrong frame, all positions may be those of spheres without a force.
+    let share = |x: f64, all: f64| if all == 0.0 { 0.0 } else { x / all };
     let apart = forces.iter().map(|(force, exact)| {
-        let exact = exact.each(|x| x / all);
+        let exact = exact.each(|x| share(x, all));
         match force {
-            Force::Along(force) => (force.abs() / sum - norm(exact)).abs(),
+            Force::Along(force) => (share(force.abs(), sum) - norm(exact)).abs(),
             Force::Vector(vector) | Force::Both(_, vector) => {
-                let share = vector.each(|x| x / sum);
+                let share = vector.each(|x| share(x, sum));
                 let [one, other] = [minus(share, exact), plus(share, exact)].each(norm);
                 one.min(other)
             }
