@@ -301,7 +301,7 @@ impl<'p, O: Output> Layers<'p, O> {
     ///
     /// let pile = Pile::triangular(3)?;
     /// let [mut alpha, mut beta, mut gamma] = [[0.0; 4]; 3];
-    /// pile.forces().layers(Selection::All)?.fill([&mut alpha, &mut beta, &mut gamma])?;
+    /// pile.forces::<f64>().layers(Selection::All)?.fill([&mut alpha, &mut beta, &mut gamma])?;
     /// assert_eq!(alpha, [1.0, 2.0, 1.0, 1.0]);
     /// assert_eq!(beta, [1.0, 1.0, 2.0, 1.0]);
     /// assert_eq!(gamma, [1.0, 1.0, 1.0, 2.0]);
