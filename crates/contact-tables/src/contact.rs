@@ -18,8 +18,8 @@ pub struct Contact {
 /// The identification of the two spheres of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spheres {
-    /// The numbers of the spheres, counted from 1. A number that is no sphere's may belong to a floor or to a wall, as 0,
-    /// a negative number, or one beyond the last sphere.
+    /// The numbers of the spheres, counted from 1. A floor or a wall has a number of its own: 0,
+    /// a negative one, or one beyond the last sphere.
     Numbers([i64; 2]),
     /// The position of the contact.
     Places(Place),

@@ -27,7 +27,7 @@ pub struct Contacts<'r> {
     source: Source<'r>,
 }
 
-/// Where the next row comes from.
+/// The source of the next row.
 enum Source<'r> {
     Text(Box<Text<'r>>),
     /// Rows that were read before, and what ended them.

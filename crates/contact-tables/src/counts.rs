@@ -135,7 +135,7 @@ impl RowCounts {
     }
 }
 
-/// What is left out: one, and several.
+/// The names of the rows that are left out: of one, and of several.
 const OTHER_KINDS: [&str; 2] = ["row of another kind", "rows of other kinds"];
 const OTHER_STEPS: [&str; 2] = ["row of another step", "rows of other steps"];
 const COMMENTED: [&str; 2] = [

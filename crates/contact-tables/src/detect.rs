@@ -83,7 +83,7 @@ impl Sample {
     }
 }
 
-/// What cuts a line.
+/// The characters that separate and quote the cells of a line.
 #[derive(Clone, Copy)]
 struct Marks(Separator, Option<char>);
 

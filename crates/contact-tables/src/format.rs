@@ -1,4 +1,4 @@
-//! What a user knows about a file.
+//! The meaning of a file, as far as the user states it.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use crate::columns::{Columns, Identity};
 use crate::dialect::DialectOptions;
 use crate::preset::Preset;
 
-/// What a file means, as far as the user tells it. The first bytes of the file decide the rest.
+/// The meaning of a file, as far as the user states it. The first bytes of the file decide the rest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Format {
     /// The columns of the quantities.

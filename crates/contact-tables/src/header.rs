@@ -478,6 +478,6 @@ fn twice(quantity: Quantity, first: &str, second: &str) -> Fault {
 
 const ID: &str = "the number of a sphere, such as 17, with all its digits (in LAMMPS by dump_modify format float %.17g)";
 
-/// What is expected in place of a word, which may begin a row of totals.
+/// The value expected in place of a word. A row of totals may begin with the word.
 const NO_ID: &str =
     "the number of a sphere, such as 17: if this row is a footer, leave it out or put # before it";

@@ -61,7 +61,7 @@ impl Steps {
         core::mem::take(&mut self.has_begun)
     }
 
-    /// Refuses a file in which the wanted step was not found.
+    /// Refuses a file without the wanted step.
     pub(crate) fn close(&self) -> Result<(), Error> {
         match (&self.wanted, &self.current) {
             (Some(wanted), None) => {

@@ -36,8 +36,8 @@ use cannonpile_stability::{Affine, RoughFloor, RoughPacking, margin, sensitivity
 const STACK: usize = 512 * 1024;
 const STACK_OF_COMMANDS: usize = 2 * STACK;
 
-/// The digits of a number. Sums of several such numbers and polygons take minutes in debug, where shorter ones suffice: a
-/// comparison of numbers of 1,000 digits that calls itself for each term exhausts the stack many times over.
+/// The digits of a number. Sums of several of the longest numbers take minutes in debug. There 1,000 digits suffice: a
+/// comparison that calls itself for each term exhausts the stack with them many times over.
 const LONGEST: u32 = 4990;
 const LONG: u32 = if cfg!(debug_assertions) {
     1000

@@ -49,7 +49,7 @@ pub(super) struct Piece<'f> {
     counts: [Option<usize>; SECTIONS],
 }
 
-/// What the rows of a piece are. The last kind in a file decides: beside lines, no points are rows.
+/// The kind of the rows of a piece. The last kind in a file decides: beside lines, no points are rows.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
     /// The piece is empty.
@@ -67,7 +67,7 @@ pub(super) struct Row {
     /// The position of the cell in the cell data.
     pub(super) cell: usize,
     pub(super) first: usize,
-    /// The second point of a line. For a row that is no line, the first point again.
+    /// The second point of a line. For a vertex or a point, the first point again.
     pub(super) second: usize,
 }
 

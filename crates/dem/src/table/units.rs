@@ -160,8 +160,10 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// Returns an upper bound of all forces. In mg or f₀, no force exceeds three times the sum of |w| + 2|x| + 4|y| over
-    /// all weights and loads (w, x, y), plus 2√2 times the sum of all forces of horizontal contacts. This sum bounds the root of the sum of the squared forces of the layer.
+    /// Returns an upper bound of all forces.
+    ///
+    /// Let S be the sum of |w| + 2|x| + 4|y| over all weights and loads (w, x, y), and H the sum of all forces of horizontal
+    /// contacts. In mg or f₀, the root of the sum of the squared forces of a layer is at most 3S + 2√2·H.
     pub(super) fn greatest_force(&self) -> Surd {
         let horizontal = self.pile().horizontal_forces();
         let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();

@@ -149,7 +149,7 @@ fn up_to(u: &mut Unstructured<'_>, layers: usize) -> Result<Drawn, super::Failur
 }
 
 impl Drawn {
-    /// The same pile with one more load.
+    /// Returns the pile with one more load.
     pub fn loaded(&self, site: Site, load: BigRational) -> Result<Self, Error> {
         let mut balance = self.balance.clone();
         let weight = balance.weight(place(site)) + &load;

@@ -311,7 +311,7 @@ const LINES: [&[u8]; 6] = [
     include_bytes!("../../../dem/tests/all/verify/vtk/appended.vtp"),
 ];
 
-/// The same files and two grids.
+/// Six files with lines, and two grids.
 const PICTURES: [&[u8]; 8] = [
     LINES[0],
     LINES[1],

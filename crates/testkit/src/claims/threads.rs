@@ -1,7 +1,7 @@
 //! Threads do not change answers. Most piles are large enough that threads share the rows of a sweep, and some layers are
 //! large enough that threads share their slices.
 //!
-//! The same calls run in pools of one and of several threads: floats and numerators, as slices.
+//! Each call runs in pools of one and of several threads: floats and numerators, as slices.
 
 use std::sync::OnceLock;
 

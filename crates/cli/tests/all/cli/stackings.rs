@@ -90,7 +90,7 @@ fn summary_of_one_pile() {
     assert_eq!(row[6], "tree");
 }
 
-/// The same stacking in several notations gives the same forces.
+/// Several notations of one stacking give the same forces.
 #[test]
 fn notations_agree() {
     let base = stdout("base --stacking=++-+ --format csv");

@@ -109,7 +109,7 @@ impl Comparison {
         } else if !is_right {
             findings = judged.loads.findings(&judged.symptoms, error, tolerance);
         }
-        // What explains the contacts explains the floor too.
+        // A cause that explains the contacts explains the floor too.
         let floor = self.floor_error().filter(|error| *error > tolerance);
         if let Some(error) = floor.filter(|_| is_right || findings.is_empty()) {
             let spheres = over(&judged.floor_errors, tolerance);

@@ -119,7 +119,7 @@ fn straight_pile_accepts_every_positive_stiffness_ratio() {
     }
 }
 
-/// The same field with the opposite sign does not prove the other bound.
+/// A field with the opposite sign does not prove the other bound.
 #[test]
 fn negated_field_does_not_prove_other_bound() {
     for certificate in all() {
