@@ -648,8 +648,9 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn unbalanced(&self, site: Site) -> Result<Vector<T>, Error> {
-        let below = self.transmitted(site)?;
+        self.check_off_the_floor(site)?;
         let above = self.received(site, LineSelection::All)?;
+        let below = self.lines.to_below(site, above.clone(), self.meter);
         let (lines, changes) = (&self.lines, below.changes);
         let rescaled = |force| lines.scaled(force, changes.saturating_sub(above.changes));
         let received = above.forces.each(rescaled);

@@ -156,7 +156,7 @@ impl Planes {
         let deferred = core::mem::take(&mut self.deferred);
         let carries = planes > self.limbs.len() || self.passes + deferred.len() > PASSES_PER_CARRY;
         self.passes = deferred.len() + if carries { 0 } else { self.passes };
-        self.limbs.resize(planes, Plane::new(grid, &0));
+        self.limbs.resize_with(planes, || Plane::new(grid, &0));
         let mut passes = Vec::with_capacity(deferred.len());
         for (pass, increments) in deferred {
             let ramps = ramps_of_planes(&pass, &increments, planes);

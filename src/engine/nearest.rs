@@ -219,7 +219,7 @@ fn nearest_of<F: CorrectlyRounded>(
     unit: &Unit,
 ) -> Option<F> {
     // A sum below 2^70 stays below 2^126 after a shift by the 55 bits of a limb and the addition of a limb below
-    // 5·2^63.
+    // 2^80: those of the floor are multiplied by up to 2^15.
     const ENOUGH: u128 = 1 << 70;
     let (mut leading, mut left) = (0_i128, planes);
     while left > 0 && leading.unsigned_abs() < ENOUGH {

@@ -43,7 +43,7 @@ pub(crate) fn cut(
 }
 
 /// Calls two functions, in parallel if there are threads, and returns both results.
-pub(crate) fn join<A: Send, B: Send>(
+fn join<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B + Send,
 ) -> (A, B) {

@@ -188,9 +188,12 @@ impl<T: Algebra> LineForces<'_, T> {
             Some(Method::Tree) => by_trees(),
             Some(Method::Sweep) => self.plan_sweep(&closed, rows, true),
             // A query for a single sphere falls back to a sweep if the tree is too large.
-            None if is_one => by_trees().or_else(|too_large| by_sweep().map_err(|_| too_large)),
+            None if is_one => unless_too_large(by_trees, by_sweep),
             // If the sweep does not fit in memory, the rows are computed one by one.
-            None => by_sweep().or_else(|_| by_trees()),
+            None => match by_sweep() {
+                Err(Error::TooLarge { .. }) => by_trees(),
+                plan => plan,
+            },
         }
     }
 

@@ -215,6 +215,9 @@ impl<T: Algebra> Sweep<'_, T, Cells<T::Numerator>> {
     /// # Errors
     /// [`Error::Bug`] for a row of another layer.
     pub(crate) fn carried(&self, row: &Row) -> Result<[&[T::Numerator]; 3], Error> {
+        if row.k != self.k {
+            return Err(bug("a sweep is queried only for rows of its layer"));
+        }
         let cells = self.grid.row(row.j, &row.i, self.stored.shift)?;
         Ok(self.layer.slices(cells))
     }

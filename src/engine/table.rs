@@ -94,8 +94,7 @@ impl<V: Clone + Send + Sync> Table<V> {
         let spheres = self.shape.spheres_in(upper.clone()).to_usize();
         let mut rest = slices;
         let above = split_front(&mut rest, spheres.ok_or_else(too_short)?)?;
-        let (first, second) = parallel::join(|| self.fill(upper, above), || self.fill(lower, rest));
-        first.and(second)
+        parallel::share(|| self.fill(upper, above), || self.fill(lower, rest))
     }
 
     /// Splits some layers into two parts with similar numbers of spheres. Returns `None` if a second thread would not

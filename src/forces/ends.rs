@@ -85,7 +85,9 @@ impl Forces<'_, BigRational> {
             None => {
                 let plan = lines.plan(&rows, Quantity::Floor, self.method)?;
                 let engine = Engine::new(&plan, &rows, lines)?;
-                for row in rows {
+                let most = engine.sites_at_once(lines);
+                for row in rows.flat_map(|row| row.pieces(most)) {
+                    check_interrupt()?;
                     let received = engine.received_in(lines, &row, Meter::NONE);
                     for (site, above) in row.into_iter().zip(received) {
                         visit(site, &above?);

@@ -199,7 +199,8 @@ impl<'p, T: Algebra, A> Answers<'p, T, A> {
         (quantity, by_site): (Quantity, usize),
         compute: Compute<'p, T, A>,
     ) -> Result<Self, Error> {
-        let plan = forces.lines.plan(&rows, quantity, forces.method)?;
+        let mut plan = forces.lines.plan(&rows, quantity, forces.method)?;
+        plan.rows = rows.site_count() * by_site;
         Ok(Self {
             source: Source::new(forces, &rows, &plan)?,
             plan,

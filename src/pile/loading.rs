@@ -13,8 +13,8 @@ use crate::geometry::Load;
 use crate::lattice::{Axis, HorizontalContact, Sign, Site};
 use crate::scalar::ByValue;
 
-/// The weights of the spheres, in mg, the loads on them, and the forces of horizontal contacts, in f₀. No weight,
-/// downward load or horizontal contact force is negative.
+/// The weights of the spheres, in mg, the loads on them, and the forces of horizontal contacts, in f₀. In a
+/// `Pile` no weight, downward load or horizontal contact force is negative. Loads of `Forces::with_load` may be.
 ///
 /// In the equations a load acts like additional weight of its sphere, but it does not change the mass of the sphere.
 #[derive(Clone, Debug, Default)]

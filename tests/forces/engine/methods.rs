@@ -439,7 +439,7 @@ fn a_sweep_replaces_a_tree_that_is_too_large_for_one_sphere() {
     assert!(counters.passes() > 400);
 }
 
-/// The loads have long denominators, so the values have so many limbs that the threads share the limbs.
+/// The loads have long denominators, so the values have more than twelve limbs.
 #[test]
 fn wide_values_sweep_limb_by_limb() {
     let long = |power: u32, at: Site, pile: Pile| {

@@ -307,7 +307,7 @@ fn widths(
 
 impl Row {
     /// Checks the bounds that the library states: 12 units for a straight stacking, otherwise 16 for each layer and load. An
-    /// interval grows up to threefold at each sign change, because 2Σg/3 − g uses each force twice.
+    /// interval grows by 5/3 at each sign change, where each force occurs once in a line.
     fn keeps_bounds(&self, case: &Case) -> Result<(), String> {
         let stacking = case.pile.shape().stacking();
         let straight = stacking.is_straight() || self.quantity == "position";
@@ -318,7 +318,7 @@ impl Row {
             BigRational::from_integer((16 * (case.pile.layers() + 3)).into())
         };
         let spread = if straight { 0 } else { stacking.changes() };
-        let spread = ratio(3, 1).pow(u32::try_from(spread).unwrap_or(u32::MAX));
+        let spread = ratio(5, 3).pow(u32::try_from(spread).unwrap_or(u32::MAX));
         let limits = [
             (&self.f64, most.clone()),
             (&self.f32, most.clone()),
