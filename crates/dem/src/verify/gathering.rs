@@ -6,9 +6,9 @@ use contact_tables::{Contact, Force, Place, Rows};
 
 use super::frame::Frame;
 use super::ledger::Ledger;
-use super::measured::{magnitude, opposite, whole};
+use super::measured::{MAX_ENTRIES, magnitude, opposite, whole};
 use super::places::{Found, Places};
-use super::refusal::Refusal;
+use super::refusal::{Fault, Refusal};
 use super::registration;
 use crate::Error;
 use crate::error::bug;
@@ -120,6 +120,10 @@ impl<'p> Gathering<'p> {
     pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
         if self.is_own {
             return self.give(row, &Frame::OWN);
+        }
+        if self.kept.len() as u64 >= MAX_ENTRIES {
+            let limit = MAX_ENTRIES;
+            return Err(Fault::TooMany { limit }.at(row.line));
         }
         self.kept.push(row)?;
         if self.kept.len() == ENOUGH && self.all_fit() {

@@ -507,6 +507,17 @@ mod tests {
             assert_eq!(floor.contradictions, [1.0]);
         }
         assert_eq!(judged(&[right[0], right[0], right[0]]).repeated, 2);
+        // The sums of these rows are infinite, so that their difference is not a number.
+        let mut ledger = Ledger::new(&packing).unwrap();
+        for (first, sign) in [(0, 1.0), (-1, -1.0)] {
+            for force in [1.7e308, 1.6e308].map(|force| sign * force) {
+                let ids = [2.into(), first.into()];
+                ledger
+                    .admit_wall(ids, Force::Vector([0.0, 0.0, force]), 1)
+                    .unwrap();
+            }
+        }
+        assert_eq!(ledger.judge().unwrap().0.floor_errors, [f64::INFINITY]);
         let mut ledger = Ledger::new(&packing).unwrap();
         let infinite = Force::Along(f64::INFINITY);
         assert!(ledger.admit_floor(2, infinite, 1).is_err());

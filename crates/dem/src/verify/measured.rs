@@ -236,12 +236,16 @@ pub(super) fn opposite(vector: [f64; 3]) -> [f64; 3] {
     vector.each(|x| 0.0 - x)
 }
 
-/// Returns a difference relative to a force. Only a difference of 0 gives 0.
+/// Returns a difference relative to a force. Only a difference of 0 gives 0. A difference of infinite sums, which is unknown,
+/// is infinite.
 pub(super) fn relative(difference: f64, force: f64) -> f64 {
+    let share = difference / force;
     if difference == 0.0 {
         0.0
+    } else if share.is_nan() {
+        f64::INFINITY
     } else {
-        (difference / force).max(f64::from_bits(1))
+        share.max(f64::from_bits(1))
     }
 }
 
@@ -256,8 +260,11 @@ pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     norm([x - u, y - v, z - w])
 }
 
-/// Returns √(x² + y² + z²), without overflow or underflow of the squares.
+/// Returns √(x² + y² + z²), without overflow or underflow of the squares. NaN if a component is.
 pub(super) fn norm(vector: [f64; 3]) -> f64 {
+    if vector.iter().any(|x| x.is_nan()) {
+        return f64::NAN;
+    }
     let scale = vector.iter().fold(0.0, |scale: f64, x| scale.max(x.abs()));
     if scale == 0.0 || !scale.is_finite() {
         return scale;

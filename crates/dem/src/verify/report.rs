@@ -295,13 +295,15 @@ impl<'c> Report<'c> {
     fn not_judged(self) -> Option<String> {
         let (walls, fixed) = (self.walls(), self.comparison.fixed());
         let no_floor = u64::from(self.comparison.floor() == 0);
+        let floor = if walls == 0 {
+            "the forces of the floor, of which none is listed"
+        } else {
+            "the forces of the floor, of which none is compared"
+        };
         let parts = [
             (walls, counted(walls, "contact") + " with walls"),
             (fixed, counted(fixed, "pair") + " of the bottom layer"),
-            (
-                no_floor,
-                "the forces of the floor, of which none is listed".into(),
-            ),
+            (no_floor, floor.to_owned()),
         ];
         let parts = parts.into_iter().filter(|(count, _)| *count > 0);
         let parts: Vec<_> = parts.map(|(_, part)| part).collect();
