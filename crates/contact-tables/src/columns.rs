@@ -80,9 +80,12 @@ impl Quantity {
         names.any(|known| known.eq_ignore_ascii_case(name))
     }
 
-    /// Returns whether the quantity is one column, never a sum: the number of a sphere, or a step.
-    const fn is_one_column(self) -> bool {
-        matches!(self, Self::Id1 | Self::Id2 | Self::Id | Self::Step)
+    /// Returns whether the quantity is one column, never a sum: the number of a sphere, a kind, or a step.
+    pub(crate) const fn is_one_column(self) -> bool {
+        matches!(
+            self,
+            Self::Id1 | Self::Id2 | Self::Id | Self::Kind | Self::Step
+        )
     }
 
     pub(crate) const fn name(self) -> &'static str {

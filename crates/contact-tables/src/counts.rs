@@ -91,6 +91,7 @@ impl RowCounts {
     pub(crate) fn begin_step(&mut self) {
         self.other_steps +=
             core::mem::take(&mut self.used) + core::mem::take(&mut self.other_kinds);
+        self.ghosts = 0;
         self.kinds.clear();
     }
 
@@ -106,6 +107,12 @@ impl RowCounts {
     /// ```
     #[must_use]
     pub fn why_none(&self) -> String {
+        if self.ghosts > 0 && self.ghosts == self.other_kinds {
+            return format!(
+                "all {} rows are ghosts: give the piece that owns them",
+                self.ghosts
+            );
+        }
         if self.other_kinds > 0 {
             let kinds: Vec<&str> = self.kinds.iter().map(String::as_str).collect();
             return format!(

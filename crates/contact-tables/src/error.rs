@@ -177,7 +177,7 @@ impl Fault {
     pub(crate) fn bug(invariant: &str) -> Self {
         debug_assert!(false, "broken invariant: {invariant}");
         Self::new(format!(
-            "this is a bug of cannonpile: it does not hold that {invariant} (please report it)"
+            "this is a bug of contact-tables: it does not hold that {invariant} (please report it)"
         ))
     }
 

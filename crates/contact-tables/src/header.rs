@@ -182,6 +182,13 @@ impl Header {
         }
     }
 
+    /// Returns whether the last column is a step or a kind, whose words a comment would join.
+    pub(crate) fn ends_with_word(&self) -> bool {
+        let words = [Quantity::Step, Quantity::Kind].map(|word| self.sum_of(word));
+        let mut columns = words.into_iter().flatten();
+        columns.any(|(column, _)| column + 1 == self.width)
+    }
+
     /// Returns the fault of a row with another number of cells.
     pub(crate) fn row_of(&self, cells: usize) -> Fault {
         let columns = self.width;
@@ -293,14 +300,7 @@ impl Header {
             let value = number(text, self.decimal_comma).ok_or_else(|| {
                 Fault::of_cell(quantity.name(), text, "a number such as 0.46 or 1e-3")
             })?;
-            if value.is_finite() {
-                Ok(value)
-            } else {
-                Err(Fault::new(format!(
-                    "{} is {value}: forces and positions must be finite",
-                    quantity.name()
-                )))
-            }
+            finite(quantity, value)
         };
         match self.sum_of(quantity) {
             [(column, 1.0)] => value(*column),
@@ -309,7 +309,7 @@ impl Header {
                 for (column, factor) in terms {
                     sum += factor * value(*column)?;
                 }
-                Ok(sum)
+                finite(quantity, sum)
             }
         }
     }
@@ -324,6 +324,16 @@ impl Header {
         let expected = if is_word { NO_ID } else { ID };
         counted.ok_or_else(|| Fault::of_cell(quantity.name(), text, expected))
     }
+}
+
+/// Refuses a value that is infinite or not a number.
+fn finite(quantity: Quantity, value: f64) -> Result<f64, Fault> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let name = quantity.name();
+    let reason = format!("{name} is {value}: forces and positions must be finite");
+    Err(Fault::new(reason))
 }
 
 /// Returns the quantities that are read if they are there. Incomplete centres and vectors are not read if there is a
@@ -370,7 +380,12 @@ fn named(
         return Ok(sum);
     }
     let mut sum = Vec::new();
-    for term in &differences(terms, names) {
+    let terms = if quantity.is_one_column() {
+        terms.to_vec()
+    } else {
+        differences(terms, names)
+    };
+    for term in &terms {
         let place = match &term.column {
             Column::Numbered(place) if *place < width => *place,
             Column::Numbered(place) => {

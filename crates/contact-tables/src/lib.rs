@@ -19,8 +19,8 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `error` | [`Error`]: why a file is refused |
 //! | `kind` | [`FileKind`]: the kind of a file, by its first bytes |
+//! | `error` | [`Error`]: why a file is refused |
 //! | `encoding`, `input`, `lines` | the [`TextEncoding`]; the bytes of a file, decompressed, as text, line by line |
 //! | `contact`, `rows` | [`Contact`]: a row; [`Rows`]: many in little memory |
 //! | `number`, `cut`, `dialect` | the [`Dialect`] of a text: numbers and cells |

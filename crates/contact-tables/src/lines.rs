@@ -1,6 +1,6 @@
 //! The numbered lines of a text, one at a time in memory.
 
-use std::io::BufRead;
+use std::io::{BufRead, ErrorKind};
 
 use memchr::memchr2;
 
@@ -88,6 +88,11 @@ impl<R: BufRead> Lines<R> {
         self.bytes.clear();
         let mut begun = false;
         loop {
+            if let Err(error) = self.input.fill_buf()
+                && error.kind() == ErrorKind::Interrupted
+            {
+                continue;
+            }
             let available = self.input.fill_buf()?;
             let Some(first) = available.first() else {
                 return Ok(begun.then_some(false));

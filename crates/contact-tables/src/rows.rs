@@ -43,6 +43,8 @@ impl Rows {
     /// # Errors
     /// The memory does not suffice.
     pub fn push(&mut self, row: &Contact) -> io::Result<()> {
+        self.ids.try_reserve(1)?;
+        self.numbers.try_reserve(MOST_NUMBERS)?;
         match self.runs.last_mut() {
             Some(run) if run.is_continued_by(row) => run.count += 1,
             _ => {
@@ -53,8 +55,6 @@ impl Rows {
                 });
             }
         }
-        self.ids.try_reserve(1)?;
-        self.numbers.try_reserve(MOST_NUMBERS)?;
         let mut row = *row;
         if let Spheres::Numbers(ids) = row.spheres {
             self.ids.push(ids);

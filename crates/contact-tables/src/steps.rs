@@ -6,6 +6,9 @@ use crate::counts::RowCounts;
 use crate::error::{Error, Fault, shortened};
 use crate::number::number;
 
+/// The largest number of steps in a table. Each is kept, to refuse one that comes again.
+const MOST_STEPS: usize = 1 << 20;
+
 /// The rows and steps that were found so far.
 pub(crate) struct Steps {
     pub(crate) rows: RowCounts,
@@ -33,8 +36,16 @@ impl Steps {
         if self.current.as_deref() == Some(step) {
             return Ok(true);
         }
+        if step.trim().is_empty() {
+            return Err(Fault::new("this row has no step: give every row one"));
+        }
         let is_new = !self.seen.contains(step);
         if is_new {
+            if self.seen.len() >= MOST_STEPS {
+                return Err(Fault::new(format!(
+                    "more than {MOST_STEPS} steps: name the column of the steps with step=COLUMN in --columns"
+                )));
+            }
             self.seen.insert(step.to_owned());
         }
         if let Some(wanted) = &self.wanted {

@@ -63,7 +63,12 @@ impl<'r> Text<'r> {
                 steps.rows.commented += u64::from(is_row);
                 continue;
             }
-            let (cells, open) = dialect.cut(text);
+            let before = dialect
+                .before_comment(text)
+                .filter(|_| header.ends_with_word());
+            let before = before.map(|row| dialect.cut(row));
+            let is_whole = |(cells, _): &(Vec<_>, _)| cells.len() == header.width();
+            let (cells, open) = before.filter(is_whole).unwrap_or_else(|| dialect.cut(text));
             // Without a header, a text may precede the rows.
             let is_above = number < dialect.first_row
                 && dialect.header.is_none()
@@ -134,5 +139,49 @@ impl OpenQuote {
         let is_closed = self.0.is_some() && quotes % 2 == 1;
         self.0 = (!is_closed).then_some(begin);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Contact, Error, Force, Format, Spheres, read};
+
+    fn contacts(table: &str, columns: &str) -> Result<Vec<Contact>, Error> {
+        let format = Format::of(columns.parse().unwrap());
+        read(table.as_bytes(), &format)?.collect()
+    }
+    fn refusal(table: &str, columns: &str) -> String {
+        contacts(table, columns).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_comment_behind_a_row_is_not_part_of_its_step_or_kind() {
+        let table = "id1,id2,force,step\n1,2,0.5,3\n1,3,0.5,3 # last\n1,4,0.5,3\n";
+        let read = contacts(table, "force=force").unwrap();
+        assert_eq!(read.len(), 3);
+        let table = "id1,id2,force,kind\n1,2,0.5,SS\n1,3,0.5,SS # last\n1,0,0.5,SW # floor\n";
+        assert_eq!(contacts(table, "kind=kind:SS").unwrap().len(), 2);
+        let table = "id1,id2,force,step\n1,2,0.5,3\n1,3,0.5,\n";
+        assert!(refusal(table, "force=force").contains("line 3: this row has no step"));
+    }
+
+    #[test]
+    fn only_sums_are_split_at_a_minus() {
+        let table = "i,j,f\n1,2,0.5\n1,3,0.25\n";
+        let forces = contacts(table, "id1=i,id2=j,force=f-i").unwrap();
+        assert!(matches!(forces[0].force, Force::Along(-0.5)));
+        assert_eq!(forces[1].spheres, Spheres::Numbers([1, 3]));
+        for columns in ["id1=i-j,id2=j,force=f", "id1=i,id2=j,force=f,step=i-j"] {
+            assert!(refusal(table, columns).contains("no column 'i-j'"));
+        }
+    }
+
+    #[test]
+    fn infinite_sums_are_refused() {
+        let table = "i,j,f,g\n1,2,1e300,1e308\n1,3,1,1\n";
+        for sum in ["1e300*f", "1e300*f-g"] {
+            let refusal = refusal(table, &format!("id1=i,id2=j,force={sum}"));
+            assert!(refusal.contains("line 2: force is inf"), "{refusal}");
+        }
     }
 }

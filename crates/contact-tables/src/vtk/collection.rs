@@ -127,6 +127,10 @@ fn within(name: &str, error: Error) -> Error {
     match error {
         Error::Vtk(reason) => Error::vtk(format!("{}: {reason}", quoted(name))),
         Error::Io(error) => Error::vtk(format!("{}: {error}", quoted(name))),
+        Error::Line { line, reason } => Error::Line {
+            line,
+            reason: format!("{}: {reason}", quoted(name)),
+        },
         other => other,
     }
 }
