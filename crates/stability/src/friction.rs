@@ -8,7 +8,7 @@ use cannonpile::scalar::{Algebra, ByValue, Surd, SurdSum};
 use cannonpile::shape::Selection;
 use cannonpile::{ContactForce, Error, FloorForce, Packing, Pile, formula};
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// Two layers on a rough floor.
 ///
@@ -386,12 +386,14 @@ impl<'p> RoughPacking<'p> {
     /// // tanθ = 3/4, so tan(θ/2) is 1/3.
     /// let rough = RoughPacking::new(&Packing::new(&pile, &"6/5".parse()?)?)?;
     /// assert!(rough.contacts_hold_at(&ratio!(1/3))? && !rough.contacts_hold_at(&ratio!(333/1000))?);
+    /// assert!(!rough.contacts_hold_at(&ratio!(-1))?);
     /// # Ok::<(), cannonpile_stability::Error>(())
     /// ```
     pub fn contacts_hold_at(&self, friction: &BigRational) -> Result<bool, Error> {
         // The forces on an outermost lower sphere come from one side, so they do not cancel.
         let needed = self.on_rough_floor.floor_friction()?.square();
-        Ok(needed.is_zero() || self.half_angle_is_within(&(friction * friction)))
+        Ok(needed.is_zero()
+            || !friction.is_negative() && self.half_angle_is_within(&(friction * friction)))
     }
 
     /// Returns whether no bottom sphere slides at a coefficient of friction μ ≥ 0 of the floor. The comparison is exact.
@@ -412,7 +414,9 @@ impl<'p> RoughPacking<'p> {
     /// ```
     pub fn floor_holds_at(&self, friction: &BigRational) -> Result<bool, Error> {
         let needed = self.on_rough_floor.floor_friction()?.square();
-        Ok(needed.is_zero() || self.half_angle_is_within(&(friction * friction / needed)))
+        Ok(needed.is_zero()
+            || !friction.is_negative()
+                && self.half_angle_is_within(&(friction * friction / needed)))
     }
 
     /// Returns whether tan²(θ/2) is at most this number t, from cosθ ≥ (1 − t)/(1 + t).

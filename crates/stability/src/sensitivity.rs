@@ -85,7 +85,8 @@ pub fn sensitivity<T: Field>(
 /// [`Spread::bearable_squared`].
 ///
 /// # Errors
-/// [`Error::TooLarge`] for more than ten thousand spheres; [`Error::Overflow`].
+/// [`Error::TooLarge`] for more than ten thousand spheres. [`Error::Overflow`], also if the scalar cannot decide which of two
+/// forces is weaker, as overlapping intervals cannot.
 ///
 /// # Examples
 /// ```
@@ -120,22 +121,39 @@ pub fn spread<T: Field + PartialOrd>(packing: &Packing<'_>) -> Result<Option<Spr
             contact.variance = contact.variance.clone() + &(change.clone() * &change);
         }
     }
-    if contacts.iter().any(|contact| contact.force < T::zero()) {
-        return Ok(None);
+    let undecided = || Error::overflow("the order of two variances", T::NAME);
+    for Spread {
+        force, variance, ..
+    } in &contacts
+    {
+        let sign = force.partial_cmp(&T::zero()).ok_or_else(undecided)?;
+        if !variance.is_defined() {
+            return Err(Error::overflow("the variance of a force", T::NAME));
+        }
+        if sign.is_lt() {
+            return Ok(None);
+        }
     }
     // f/σ is less for the first contact if f²·σ′² < f′²·σ².
     let ratio =
         |one: &Spread<T>, other: &Spread<T>| one.force.clone() * &one.force * &other.variance;
-    let varied = contacts
-        .into_iter()
-        .filter(|contact| !contact.variance.is_zero());
-    Ok(varied.reduce(|first, next| {
-        if ratio(&next, &first) - &ratio(&first, &next) < T::zero() {
-            next
-        } else {
-            first
+    let mut weakest: Option<Spread<T>> = None;
+    for next in contacts {
+        if next.variance.is_zero() {
+            continue;
         }
-    }))
+        let Some(first) = &weakest else {
+            weakest = Some(next);
+            continue;
+        };
+        let difference = ratio(&next, first) - &ratio(first, &next);
+        let order = difference.partial_cmp(&T::zero());
+        let order = order.filter(|_| difference.is_defined());
+        if order.ok_or_else(undecided)?.is_lt() {
+            weakest = Some(next);
+        }
+    }
+    Ok(weakest)
 }
 
 /// Returns the pile of a packing with its forces.

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::scalar::{FixedRational, Interval};
 use cannonpile::shape::Selection;
-use cannonpile::{Packing, Pile, ratio};
+use cannonpile::{Error, Packing, Pile, ratio};
 use cannonpile_stability::{ForceChange, sensitivity, spread};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -148,6 +149,20 @@ fn spreads_of_straight_piles() {
     assert!(!exact.is_zero());
     let rounded = spread::<f64>(&packing).unwrap().unwrap().variance;
     assert!((exact.to_f64().unwrap() - rounded).abs() < 1e-9);
+}
+
+/// The sums of squares exceed the scalar, or the intervals of equal ratios overlap. None of them names a contact.
+#[test]
+fn a_scalar_that_cannot_compare_gives_no_spread() {
+    let pile = Pile::triangular(6).unwrap();
+    let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
+    let fixed = spread::<FixedRational<i32>>(&packing);
+    assert!(matches!(fixed, Err(Error::Overflow { .. })), "{fixed:?}");
+    let interval = spread::<Interval>(&packing);
+    assert!(
+        matches!(interval, Err(Error::Overflow { .. })),
+        "{interval:?}"
+    );
 }
 
 /// A contact whose force no radius changes is not the one that opens first, and an unstable pile has no such contact.

@@ -126,7 +126,8 @@ fn table(u: &mut Unstructured<'_>, packing: &Packing<'_>) -> Result<Table, Failu
             let reader = match preset {
                 // The user must give the stiffness.
                 Preset::Mddem => {
-                    let spring = "force=1024*overlap".parse().unwrap_or_default();
+                    let spring = "force=1024*overlap".parse();
+                    let spring = spring.expect("columns of one sum");
                     Reader::new()
                         .with_columns(preset.columns().overridden(&spring))
                         .by_place(Reader::WITHIN)?
