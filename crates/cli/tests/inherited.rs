@@ -7,44 +7,23 @@
 mod binary;
 
 use std::fs;
-use std::os::unix::process::CommandExt;
 use std::path::Path;
-use std::process::{Output, Stdio};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::process::{Command, Output, Stdio};
+use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use cannonpile_testkit::processes::{LONGEST_WAIT, Process, left_out};
-use rustix::process::{Pid, Resource, Rlimit, Signal, getgid, getrlimit, kill_process, setrlimit};
+use rustix::process::{Pid, Signal, kill_process};
 use signal_hook::{consts, flag};
 
-/// Held while a command starts, because a limit of memory must not reach other commands.
-static START: Mutex<()> = Mutex::new(());
-
-/// Starts a command in a folder, with at most this much address space in bytes, if given.
-fn start(bytes: Option<u64>, arguments: &[&str], folder: &Path) -> Process {
-    let mut command = binary::command();
+/// Starts a command in a folder, and reads what it prints.
+fn start(command: &mut Command, folder: &Path) -> Process {
     command
-        .args(arguments)
         .current_dir(folder)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
-    let _held = START.lock().unwrap_or_else(PoisonError::into_inner);
-    let own = getrlimit(Resource::As);
-    if bytes.is_some() {
-        // Setting the group makes the standard library call `fork`. Otherwise it reserves a stack for the new process, and
-        // this process itself may be above the limit. The group stays the same.
-        command.gid(getgid().as_raw());
-        // The command inherits this limit. The maximum stays, so that this process can return to its own limit.
-        let limited = Rlimit {
-            current: bytes,
-            maximum: own.maximum,
-        };
-        setrlimit(Resource::As, limited).expect("a lower limit");
-    }
-    let process = Process::start(&mut command);
-    setrlimit(Resource::As, own).expect("the former limit");
-    process.expect("the binary runs")
+    Process::start(command).expect("the program runs")
 }
 
 /// Returns the names of the files in a folder, also of hidden ones.
@@ -99,8 +78,9 @@ fn signals_remove_unfinished_files() {
 /// Sends a signal to an export that has begun to write, and returns its exit status. `None` if it ended before the signal.
 fn interrupted(signal: Signal, layers: &str, folder: &Path) -> Option<i32> {
     let into = folder.join("new/pile");
-    let arguments = ["export", "--layers", layers, "new/pile"];
-    let mut export = start(None, &arguments, folder);
+    let mut command = binary::command();
+    command.args(["export", "--layers", layers, "new/pile"]);
+    let mut export = start(&mut command, folder);
     let begun = Instant::now();
     while !into.exists() || names(&into).is_empty() {
         if export.status().is_some() {
@@ -117,13 +97,18 @@ fn interrupted(signal: Signal, layers: &str, folder: &Path) -> Option<i32> {
     Some(status.expect("an exit status")).filter(|status| *status != 0)
 }
 
-/// Runs a command with 250 000 kB of address space.
+/// Runs a command with 250 000 kB of address space. A shell sets the limit: that of this process would stop its threads.
 #[cfg(target_os = "linux")]
 fn limited(arguments: &str) -> Output {
     let folder = tempfile::tempdir().expect("a folder");
-    let arguments: Vec<&str> = arguments.split_whitespace().collect();
-    let process = start(Some(250_000 << 10), &arguments, folder.path());
-    binary::without_times(process.output())
+    let mut command = Command::new("/bin/sh");
+    command
+        .args(["-c", "ulimit -S -v 250000 && exec \"$@\"", "sh"])
+        .arg(binary::command().get_program())
+        .args(arguments.split_whitespace())
+        .env_clear()
+        .stdin(Stdio::null());
+    binary::without_times(start(&mut command, folder.path()).output())
 }
 
 #[cfg(target_os = "linux")]
