@@ -166,7 +166,7 @@ pub struct Inclination {
     sin2: BigRational,
 }
 
-exact_surd::equality!(Hash for Inclination; |x| ByValue(&x.sin2));
+exact_surd::equality!(Hash for Inclination; |Self { sin2 }| ByValue(sin2));
 
 impl Inclination {
     /// Returns the angle for this spacing: sin²θ = q(d−1)/(2d), with q = (a/R)² and the dimension d.

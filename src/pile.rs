@@ -46,7 +46,7 @@ pub struct Pile {
     pub(crate) loading: Loading,
 }
 
-exact_surd::equality!(Hash for Pile; |x| (&x.shape, ByValue(&x.sin_phi), &x.loading));
+exact_surd::equality!(Hash for Pile; |Self { shape, sin_phi, loading }| (shape, ByValue(sin_phi), loading));
 
 impl Pile {
     /// Returns the paper's pile: an equilateral base, φ = π/6.

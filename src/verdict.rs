@@ -115,7 +115,7 @@ pub struct Standing {
     pub first_failure: Option<i128>,
 }
 
-exact_surd::equality!(Standing; |x| (&x.least, x.first_failure));
+exact_surd::equality!(Standing; |Self { least, first_failure }| (least, first_failure));
 
 impl Standing {
     /// Returns the verdict for a spacing at which the spheres `touching` touch in addition to the contacts α, β, γ.

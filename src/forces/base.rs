@@ -45,9 +45,10 @@ pub struct FloorForce<T> {
     pub shear_y: T,
 }
 
-exact_surd::equality!(FloorForce<T>, T: Ring; |x| (x.site, [&x.normal, &x.shear_x, &x.shear_y].map(Ring::comparison_key)));
-exact_surd::equality!(FloorForce<Surd>; |x| (x.site, &x.normal, &x.shear_x, &x.shear_y));
-exact_surd::equality!(FloorForce<SurdSum>; |x| (x.site, &x.normal, &x.shear_x, &x.shear_y));
+exact_surd::equality!(FloorForce<T>, T: Ring; |Self { site, normal, shear_x, shear_y }|
+    (site, [normal, shear_x, shear_y].map(Ring::comparison_key)));
+exact_surd::equality!(FloorForce<Surd>; |Self { site, normal, shear_x, shear_y }| (site, normal, shear_x, shear_y));
+exact_surd::equality!(FloorForce<SurdSum>; |Self { site, normal, shear_x, shear_y }| (site, normal, shear_x, shear_y));
 
 impl<T> FloorForce<T> {
     /// Returns the force with `f` applied to each component.

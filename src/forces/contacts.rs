@@ -37,8 +37,8 @@ pub struct ContactForce<T> {
     pub force: T,
 }
 
-exact_surd::equality!(ContactForce<T>, T: Ring; |x| (x.site, x.direction, x.force.comparison_key()));
-exact_surd::equality!(ContactForce<Surd>; |x| (x.site, x.direction, &x.force));
+exact_surd::equality!(ContactForce<T>, T: Ring; |Self { site, direction, force }| (site, direction, force.comparison_key()));
+exact_surd::equality!(ContactForce<Surd>; |Self { site, direction, force }| (site, direction, force));
 
 impl<T: fmt::Display> fmt::Display for ContactForce<T> {
     /// Prints the site, the direction and the force, as `(0,0,0) alpha: 1`. The flag `+` and a precision apply to the

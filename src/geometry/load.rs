@@ -46,7 +46,7 @@ pub struct Load<T = BigRational> {
     pub y: T,
 }
 
-exact_surd::equality!(Load<T>, T: Ring; |load| [&load.down, &load.x, &load.y].map(Ring::comparison_key));
+exact_surd::equality!(Load<T>, T: Ring; |Self { down, x, y }| [down, x, y].map(Ring::comparison_key));
 
 impl Hash for Load {
     fn hash<H: Hasher>(&self, state: &mut H) {

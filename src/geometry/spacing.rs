@@ -31,7 +31,7 @@ pub struct Spacing {
     square: BigRational,
 }
 
-exact_surd::equality!(Hash for Spacing; |x| ByValue(&x.square));
+exact_surd::equality!(Hash for Spacing; |Self { square }| ByValue(square));
 
 impl Spacing {
     /// Returns the spacing a/R.

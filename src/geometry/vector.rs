@@ -30,7 +30,7 @@ pub struct Vector<T> {
     pub z: T,
 }
 
-exact_surd::equality!(Vector<T>, T: Ring; |v| [&v.x, &v.y, &v.z].map(Ring::comparison_key));
+exact_surd::equality!(Vector<T>, T: Ring; |Self { x, y, z }| [x, y, z].map(Ring::comparison_key));
 
 impl<T: Ring> Vector<T> {
     /// Returns the zero vector.

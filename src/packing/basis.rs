@@ -46,7 +46,8 @@ pub struct SiBasis<T> {
     pub radius: T,
 }
 
-exact_surd::equality!(SiBasis<T>, T: Ring; |x| [&x.sin, &x.cos, &x.twice_cos_phi, &x.weight, &x.radius].map(Ring::comparison_key));
+exact_surd::equality!(SiBasis<T>, T: Ring; |Self { sin, cos, twice_cos_phi, weight, radius }|
+    [sin, cos, twice_cos_phi, weight, radius].map(Ring::comparison_key));
 
 impl<T: Field> SiBasis<T> {
     /// Returns the force of a contact, f·mg/(W cosθ), in newtons.

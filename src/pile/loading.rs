@@ -26,7 +26,8 @@ pub(crate) struct Loading {
     spheres: BTreeMap<Site, Acting>,
 }
 
-exact_surd::equality!(Hash for Loading; |x| (x.weightless, x.tilt.each_ref().map(ByValue), &x.spheres));
+exact_surd::equality!(Hash for Loading; |Self { weightless, tilt, spheres }|
+    (weightless, tilt.each_ref().map(ByValue), spheres));
 exact_surd::equality!(Hash for Acting);
 
 /// What acts on a sphere besides ordinary gravity.

@@ -44,7 +44,8 @@ pub struct BaseExtremes {
     pub shear_without_normal: bool,
 }
 
-exact_surd::equality!(BaseExtremes; |x| ([&x.normal_min, &x.normal_max].map(ByValue), &x.max_shear_ratio, x.shear_without_normal));
+exact_surd::equality!(BaseExtremes; |Self { normal_min, normal_max, max_shear_ratio, shear_without_normal }|
+    ([normal_min, normal_max].map(ByValue), max_shear_ratio, shear_without_normal));
 
 impl Pile {
     /// Returns the extremes of the force on the floor.

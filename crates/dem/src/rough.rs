@@ -44,7 +44,7 @@ struct Coefficient {
     exact: Option<BigRational>,
 }
 
-cannonpile::engine::equality!(Coefficient; |x| (x.rounded, x.exact.as_ref().map(ByValue)));
+cannonpile::engine::equality!(Coefficient; |Self { rounded, exact }| (rounded, exact.as_ref().map(ByValue)));
 
 impl Friction {
     /// Returns twice the coefficients that the pile needs.

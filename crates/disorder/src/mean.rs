@@ -52,7 +52,8 @@ pub struct MeanForce<T> {
     pub shear_y: T,
 }
 
-cannonpile::engine::equality!(MeanForce<T>, T: Ring; |x| (x.place, [&x.probability, &x.normal, &x.shear_x, &x.shear_y].map(Ring::comparison_key)));
+cannonpile::engine::equality!(MeanForce<T>, T: Ring; |Self { place, probability, normal, shear_x, shear_y }|
+    (place, [probability, normal, shear_x, shear_y].map(Ring::comparison_key)));
 
 impl<T> MeanForce<T> {
     /// Returns the row for sums of a probability and three forces. `over` divides a sum by a scale, and the scales are
@@ -133,7 +134,7 @@ pub struct Mean<T> {
     rows: Vec<MeanForce<T>>,
 }
 
-cannonpile::engine::equality!(Mean<T>, T: Ring; |x| &x.rows);
+cannonpile::engine::equality!(Mean<T>, T: Ring; |Self { rows }| rows);
 
 impl<T> Mean<T> {
     /// Sorts the rows.

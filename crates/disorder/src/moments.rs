@@ -43,7 +43,7 @@ pub struct Moments {
     pub fourth: BigRational,
 }
 
-cannonpile::engine::equality!(Moments; |x| [&x.second, &x.third, &x.fourth].map(ByValue));
+cannonpile::engine::equality!(Moments; |Self { second, third, fourth }| [second, third, fourth].map(ByValue));
 
 impl Moments {
     /// Returns the moments of the response in one stacking.
@@ -159,7 +159,7 @@ pub struct Wave {
     pub dispersion: BigRational,
 }
 
-cannonpile::engine::equality!(Wave; |x| [&x.damping, &x.dispersion].map(ByValue));
+cannonpile::engine::equality!(Wave; |Self { damping, dispersion }| [damping, dispersion].map(ByValue));
 
 impl Wave {
     /// Returns damping and dispersion at the fault probability `q`. The result is `None` for q = 0, where the response

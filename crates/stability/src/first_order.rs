@@ -32,8 +32,8 @@ pub struct ForceChange<T = BigRational> {
     pub turn: Vector<T>,
 }
 
-equality!(ForceChange<T>, T: Ring; |x| (x.site, x.direction, x.spheres, &x.turn,
-    [&x.force, &x.change].map(Ring::comparison_key)));
+equality!(ForceChange<T>, T: Ring; |Self { site, direction, spheres, turn, force, change }| (site, direction, spheres, turn,
+    [force, change].map(Ring::comparison_key)));
 
 /// A pile of which all contacts may become longer or shorter.
 ///

@@ -221,8 +221,9 @@ pub struct RoughContact {
     pub point: [Surd; 3],
 }
 
-equality!(RoughContact; |x| (x.site, x.direction, &x.point, ByValue(&x.normal), &x.normal_vector,
-    &x.tangential, &x.tangential_vector));
+equality!(RoughContact; |Self { site, direction, point, normal, normal_vector, tangential, tangential_vector }|
+    (site, direction,
+    point, ByValue(normal), normal_vector, tangential, tangential_vector));
 
 impl<'p> RoughPacking<'p> {
     /// Returns a packing on a rough floor, for forces in SI units.

@@ -30,7 +30,8 @@ pub struct Spread<T = BigRational> {
     pub variance: T,
 }
 
-equality!(Spread<T>, T: Ring; |x| (x.site, x.direction, [&x.force, &x.variance].map(Ring::comparison_key)));
+equality!(Spread<T>, T: Ring; |Self { site, direction, force, variance }|
+    (site, direction, [force, variance].map(Ring::comparison_key)));
 
 impl<T: Field> Spread<T> {
     /// Returns the square of the relative standard deviation r of the radii at which the force is three standard

@@ -32,7 +32,7 @@ pub struct Affine {
     pub b: BigRational,
 }
 
-equality!(Affine; |x| [&x.c, &x.a, &x.b].map(ByValue));
+equality!(Affine; |Self { c, a, b }| [c, a, b].map(ByValue));
 
 impl Affine {
     /// Returns the function with the values at the tilts (0, 0), (1, 0) and (0, 1).
@@ -82,7 +82,7 @@ pub struct Tilts<C = (Site, Direction)> {
     pub corners: Vec<Tilt>,
 }
 
-equality!(Tilts<C>, C: PartialEq; |x| (&x.margin, x.corners.iter().map(by_value).collect::<Vec<_>>()));
+equality!(Tilts<C>, C: PartialEq; |Self { margin, corners }| (margin, corners.iter().map(by_value).collect::<Vec<_>>()));
 
 /// The least tilt at which a contact opens.
 #[derive(Clone, Debug)]
@@ -96,7 +96,7 @@ pub struct Margin<C = (Site, Direction)> {
     pub opens: C,
 }
 
-equality!(Margin<C>, C: PartialEq; |x| (ByValue(&x.squared), by_value(&x.tilt), &x.opens));
+equality!(Margin<C>, C: PartialEq; |Self { squared, tilt, opens }| (ByValue(squared), by_value(tilt), opens));
 
 fn by_value(tilt: &Tilt) -> [ByValue<'_>; 2] {
     tilt.each_ref().map(ByValue)

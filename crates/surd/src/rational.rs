@@ -197,12 +197,13 @@ impl Hash for ByValue<'_> {
 /// Implements `PartialEq` and `Eq`, after `Hash for` also `Hash`, for a type that contains rationals: two values are equal
 /// if and only if their keys are.
 ///
-/// The key contains every field, and rationals as [`ByValue`]. By default it is the `Debug` text, which serves all types but
-/// those of floats and of surds.
+/// The pattern of the key names every field, so that the compiler refuses a key without a new one. Rationals are in it as
+/// [`ByValue`]. By default the key is the `Debug` text. It is for types without floats and surds, whose rationals are in
+/// lowest terms.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! equality {
-    (Hash for $type:ty; |$value:ident| $key:expr) => {
+    (Hash for $type:ty; |$value:pat_param| $key:expr) => {
         $crate::equality!($type; |$value| $key);
         impl core::hash::Hash for $type {
             fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
@@ -211,7 +212,7 @@ macro_rules! equality {
             }
         }
     };
-    ($type:ty $(, $parameter:ident: $bound:path)?; |$value:ident| $key:expr) => {
+    ($type:ty $(, $parameter:ident: $bound:path)?; |$value:pat_param| $key:expr) => {
         impl $(<$parameter: $bound + Eq>)? Eq for $type {}
         impl $(<$parameter: $bound>)? PartialEq for $type {
             fn eq(&self, other: &Self) -> bool {

@@ -64,7 +64,8 @@ pub struct Samples {
     fault_probability: BigRational,
 }
 
-cannonpile::engine::equality!(Hash for Samples; |x| (x.count, x.seed, ByValue(&x.fault_probability)));
+cannonpile::engine::equality!(Hash for Samples; |Self { count, seed, fault_probability }|
+    (count, seed, ByValue(fault_probability)));
 
 impl Samples {
     /// Returns the parameters of `count` samples with this seed and fault probability.

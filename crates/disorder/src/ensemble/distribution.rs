@@ -102,7 +102,7 @@ pub struct Extreme {
     pub stacking: Stacking,
 }
 
-cannonpile::engine::equality!(Extreme; |x| (ByValue(&x.force), &x.stacking));
+cannonpile::engine::equality!(Extreme; |Self { force, stacking }| (ByValue(force), stacking));
 
 impl Histogram {
     /// Returns the total count of all bins.

@@ -40,7 +40,8 @@ pub struct Ensemble {
     bins: BigRational,
 }
 
-cannonpile::engine::equality!(Ensemble; |x| (&x.layer, &x.stackings, x.has_horizontal_contacts, ByValue(&x.bins)));
+cannonpile::engine::equality!(Ensemble; |Self { layer, stackings, has_horizontal_contacts, bins }|
+    (layer, stackings, has_horizontal_contacts, ByValue(bins)));
 
 impl Ensemble {
     /// Returns the ensemble of these stackings under a top layer, with bins of width 1/3.

@@ -56,7 +56,8 @@ pub struct TallyRecord {
     tally: Tally,
 }
 
-cannonpile::engine::equality!(TallyRecord; |x| (&x.version, ByValue(&x.fault_probability), &x.tally));
+cannonpile::engine::equality!(TallyRecord; |Self { version, fault_probability, tally }|
+    (version, ByValue(fault_probability), tally));
 
 /// The entries of a file from which the others follow.
 #[derive(Deserialize)]
