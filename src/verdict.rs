@@ -315,7 +315,7 @@ impl Pile {
         };
         let special: Vec<Site> = loading.extras().map(|(site, ..)| site).collect();
         let directions = self.dimension().directions();
-        // Every line through the top layer begins there. In each layer inside a run, lines begin in the first row.
+        // Every line through the top layer begins there, and some line of each direction begins in each layer inside a run.
         let layers = |sign| {
             let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
             let runs = runs.filter(move |run| run.sign == sign);
@@ -327,15 +327,12 @@ impl Pile {
             .iter()
             .flat_map(|direction| [Sign::Plus, Sign::Minus].each(|sign| (direction, sign)))
         {
-            let sites = layers(sign)
-                .filter_map(|k| shape.rows(Selection::Layer(k)).ok())
-                .flatten();
-            let mut fresh = sites
-                .flatten()
-                .filter(|site| begins(shape, *site, *direction));
-            if let Some(site) = fresh.find(|site| special.binary_search(site).is_err()) {
-                least.push(contact(site, *direction));
-            }
+            let fresh = layers(sign).find_map(|k| {
+                first_beginning(shape, k, *direction, |site| {
+                    special.binary_search(site).is_err()
+                })
+            });
+            least.extend(fresh.map(|site| contact(site, *direction)));
         }
         let special = special
             .into_iter()
@@ -507,4 +504,84 @@ fn least_transmitted(
 fn begins(shape: &Shape, site: Site, direction: Direction) -> bool {
     let changes = shape.sign_below(site.k) != shape.sign_below(site.k - 1);
     site.k == 0 || (!changes && shape.above(site, direction).is_none())
+}
+
+/// Returns the first site of a layer at which the line below it in a direction begins, among those that are `wanted`. Only a
+/// few sites more are visited than unwanted ones, because the rows may be long and many.
+fn first_beginning(
+    shape: &Shape,
+    k: i128,
+    direction: Direction,
+    wanted: impl Fn(&Site) -> bool,
+) -> Option<Site> {
+    let (layer, above) = (shape.layer(k).ok()?, shape.layer(k - 1).ok());
+    let up =
+        Site::new(0, 0, k).step(shape.sign_below(k - 1).unwrap_or(Sign::Plus), direction, -1)?;
+    // Lines begin at both ends of a row, where there is no sphere above.
+    let begin = |j: i128| {
+        let row = layer.row(j);
+        let covered = above.map_or(row.end..row.end, |above| above.row_within(j + up.j));
+        let covered = [covered.start, covered.end].each(|i| (i - up.i).clamp(row.start, row.end));
+        [row.start..covered[0], covered[1]..row.end]
+    };
+    let begins = |j: &i128| begin(*j).iter().any(|sites| !sites.is_empty());
+    let (first, last) = layer.y().into_inner();
+    // The rows in which lines begin are consecutive: the first ones, the last ones, or all.
+    let (mut without, mut with) = (first - 1, if begins(&first) { first } else { last });
+    while with - without > 1 {
+        let middle = without + (with - without) / 2;
+        *(if begins(&middle) {
+            &mut with
+        } else {
+            &mut without
+        }) = middle;
+    }
+    let sites = (with..=last).take_while(begins).flat_map(|j| {
+        let row = begin(j).into_iter().flatten();
+        row.map(move |i| Site { i, j, k })
+    });
+    sites.into_iter().find(wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn beginnings_are_those_of_a_search_of_all_sites() {
+        let mut found = 0;
+        for top in [
+            "0..0,0..0,0..0",
+            "0..3,0..2,2..4",
+            "0..2,0..4,0..2",
+            "0..3,0..3,3..6",
+            "0..5,0..1,0..6",
+        ] {
+            for stacking in ["++++", "----", "++--+--", "-++"] {
+                let top = top.parse().unwrap();
+                let shape = Shape::under(top, stacking.parse().unwrap()).unwrap();
+                for run in (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run)) {
+                    for k in run.from + i128::from(run.index > 0)..run.to {
+                        for direction in Direction::ALL {
+                            let sites = shape.rows(Selection::Layer(k)).unwrap().flatten();
+                            let all: Vec<_> = sites
+                                .filter(|site| begins(&shape, *site, direction))
+                                .collect();
+                            for least in 0..=all.len() {
+                                let wanted = |site: &Site| !all[..least].contains(site);
+                                let first = first_beginning(&shape, k, direction, wanted);
+                                assert_eq!(
+                                    first.as_ref(),
+                                    all.get(least),
+                                    "{shape:?} {k} {direction}"
+                                );
+                                found += 1;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        assert!(found > 1000, "{found}");
+    }
 }

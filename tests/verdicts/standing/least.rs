@@ -238,6 +238,24 @@ fn the_error_of_a_large_verdict_states_its_size() {
     refused(4_600_000, ratio(2, 1), |_| Site { i: 6, j: 3, k: 0 });
 }
 
+/// Rows of 10¹² spheres, and 10¹² of them, are not visited one by one. The stacking "-(10¹²,3)" is that of "(10¹²,3)" as seen
+/// in a mirror.
+#[test]
+fn long_rows_are_refused_at_once() {
+    let refused = |pile: Pile| matches!(pile.stands(), Err(Error::TooLarge { .. }));
+    for stacking in [
+        "(1000000000000,3)",
+        "-(1000000000000,3)",
+        "(3,1000000000000,2)",
+    ] {
+        let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
+        assert!(refused(pile), "{stacking}");
+        let base = Region::hexagon(20_000_000_000_000, 20_000_000_000_000).unwrap();
+        let pile = Pile::on(base, stacking.parse().unwrap()).unwrap();
+        assert!(refused(pile), "{stacking} on a base");
+    }
+}
+
 /// Here one limb each would fit, but the load needs two: 3·(√(36·K·N) + 6·W) ≥ 2⁶² for all ten layers, and for no fewer.
 #[test]
 fn the_limbs_of_the_last_layer_count_towards_the_limit() {
