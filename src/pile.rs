@@ -251,7 +251,8 @@ impl Pile {
         Ok(())
     }
 
-    /// Returns the pile with a new weight of one sphere, in mg.
+    /// Returns the pile with a new weight of one sphere, in mg. In a [`weightless`](Self::weightless) pile only these spheres
+    /// have a weight.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
@@ -271,7 +272,7 @@ impl Pile {
         Ok(self)
     }
 
-    /// Returns the pile with spheres without weight. Its forces are the response to its loads alone.
+    /// Returns the pile with spheres without weight, whatever it was before. Its forces are the response to its loads alone.
     ///
     /// # Examples
     /// ```
@@ -388,7 +389,7 @@ impl Pile {
         Ok(self.loading.weight(self.shape.check(site)?))
     }
 
-    /// Returns whether the spheres have no weight, so that only the loads act.
+    /// Returns whether spheres have no weight, except those that were given one [later](Self::weightless).
     #[must_use]
     pub fn is_weightless(&self) -> bool {
         self.loading.is_weightless()
@@ -574,8 +575,8 @@ impl Pile {
         self.loading.loads().into_iter()
     }
 
-    /// Returns the spheres whose weight was changed, with their weights, in mg. A [`weightless`](Self::weightless) pile
-    /// has none.
+    /// Returns the spheres whose weight is not that of the others, with their weights, in mg. The others weigh 1, or 0 in a
+    /// [`weightless`](Self::weightless) pile.
     ///
     /// # Examples
     /// ```
@@ -589,8 +590,7 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
-        let weights = (!self.loading.is_weightless()).then(|| self.loading.weights());
-        weights.into_iter().flatten()
+        self.loading.weights()
     }
 
     /// Returns the load on a sphere. It is 0 unless [`with_load`](Self::with_load) set it.

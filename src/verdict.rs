@@ -514,15 +514,22 @@ fn first_beginning(
     direction: Direction,
     wanted: impl Fn(&Site) -> bool,
 ) -> Option<Site> {
-    let (layer, above) = (shape.layer(k).ok()?, shape.layer(k - 1).ok());
-    let up =
-        Site::new(0, 0, k).step(shape.sign_below(k - 1).unwrap_or(Sign::Plus), direction, -1)?;
+    let layer = shape.layer(k).ok()?;
+    let above = shape.sign_below(k - 1).and_then(|sign| {
+        let up = Site::new(0, 0, k).step(sign, direction, -1)?;
+        Some((shape.layer(k - 1).ok()?, up))
+    });
     // Lines begin at both ends of a row, where there is no sphere above.
     let begin = |j: i128| {
         let row = layer.row(j);
-        let covered = above.map_or(row.end..row.end, |above| above.row_within(j + up.j));
-        let covered = [covered.start, covered.end].each(|i| (i - up.i).clamp(row.start, row.end));
-        [row.start..covered[0], covered[1]..row.end]
+        let Some((above, up)) = above else {
+            return [row.clone(), row.end..row.end];
+        };
+        let covered = above.row_within(j + up.j);
+        // What is covered beyond the row does not count.
+        let within = |i: i128| i.clamp(row.start, row.end);
+        let [start, end] = [covered.start, covered.end].each(|i| within(i - up.i));
+        [row.start..start, end..row.end]
     };
     let begins = |j: &i128| begin(*j).iter().any(|sites| !sites.is_empty());
     let (first, last) = layer.y().into_inner();

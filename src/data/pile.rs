@@ -102,6 +102,9 @@ impl Parts {
 
     fn pile(self) -> Result<Pile, Invalid> {
         let mut pile = self.bare()?;
+        if self.weightless {
+            pile = pile.weightless();
+        }
         pile = pile.with_tilt([self.tilt.x, self.tilt.y])?;
         for Weight { site, weight } in self.weights {
             pile = pile.with_weight(site, weight)?;
@@ -112,11 +115,7 @@ impl Parts {
         for (contact, force) in self.horizontal {
             pile = pile.with_horizontal_force(contact, force)?;
         }
-        Ok(if self.weightless {
-            pile.weightless()
-        } else {
-            pile
-        })
+        Ok(pile)
     }
 
     /// Returns the pile without weights, loads and horizontal forces.

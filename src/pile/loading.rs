@@ -22,7 +22,8 @@ pub(crate) struct Loading {
     weightless: bool,
     /// The horizontal part of gravity along x and y, per unit of its vertical part and tanθ.
     tilt: [BigRational; 2],
-    /// The spheres with a weight, a load or a horizontal contact force of their own.
+    /// The spheres with a weight, a load or a horizontal contact force of their own. None of these is an ordinary weight
+    /// or zero, so that equal piles have equal entries.
     spheres: BTreeMap<Site, Acting>,
 }
 
@@ -33,7 +34,7 @@ exact_surd::equality!(Hash for Acting);
 /// What acts on a sphere besides ordinary gravity.
 #[derive(Clone, Debug, Default)]
 struct Acting {
-    /// The weight, if it was set.
+    /// The weight, if it is not the ordinary one.
     weight: Option<BigRational>,
     load: Option<Load>,
     /// The forces of the horizontal contacts that stand with this sphere, by axis.
@@ -46,6 +47,14 @@ impl Loading {
     /// Sets the weight of every sphere to zero.
     pub(crate) fn set_weightless(&mut self) {
         self.weightless = true;
+        self.change_all(|sphere| sphere.weight = None);
+    }
+
+    fn change_all(&mut self, change: impl Fn(&mut Acting)) {
+        self.spheres.retain(|_, sphere| {
+            change(sphere);
+            *sphere != Acting::default()
+        });
     }
 
     /// Adds to the tilt of gravity.
@@ -58,20 +67,29 @@ impl Loading {
         &self.tilt
     }
 
-    fn sphere(&mut self, site: Site) -> &mut Acting {
-        self.spheres.entry(site).or_default()
+    fn change(&mut self, site: Site, change: impl FnOnce(&mut Acting)) {
+        // Nothing acts on a sphere that is not in the list.
+        let mut sphere = self.spheres.remove(&site).unwrap_or_default();
+        change(&mut sphere);
+        if sphere != Acting::default() {
+            self.spheres.insert(site, sphere);
+        }
     }
 
     /// Adds to the load on a sphere.
     pub(crate) fn add_load(&mut self, site: Site, load: &Load) {
-        let sum = self.sphere(site).load.get_or_insert_default();
-        *sum = core::mem::take(sum) + load;
+        self.change(site, |sphere| {
+            // A sphere without a load has none.
+            let sum = sphere.load.take().unwrap_or_default() + load;
+            sphere.load = Some(sum).filter(|sum| !sum.is_zero());
+        });
     }
 
     /// Sets the weight of a sphere.
     pub(crate) fn set_weight(&mut self, site: Site, weight: BigRational) -> Result<(), Error> {
         let weight = not_negative("weight", site, weight)?;
-        self.sphere(site).weight = Some(weight);
+        let weight = Some(weight).filter(|weight| *weight != self.ordinary_weight());
+        self.change(site, |sphere| sphere.weight = weight);
         Ok(())
     }
 
@@ -90,26 +108,22 @@ impl Loading {
         }
         let push = &force * BigRational::from_integer(sign.factor().into());
         for (site, leads_away) in [(contact.site, true), (neighbour, false)] {
-            let pushes = self.sphere(site).pushes.get_or_insert_default();
             let entries = formula::pushed(&push, contact.axis.ends(), leads_away);
-            pushes
-                .iter_mut()
-                .zip(entries)
-                .for_each(|(line, entry)| *line -= entry);
+            self.change(site, |sphere| {
+                let pushes = sphere.pushes.get_or_insert_default();
+                let lines = pushes.iter_mut().zip(entries);
+                lines.for_each(|(line, entry)| *line -= entry);
+            });
         }
-        let horizontal = &mut self.sphere(contact.site).horizontal;
-        *horizontal[contact.axis as usize].get_or_insert_default() += force;
+        self.change(contact.site, |sphere| {
+            *sphere.horizontal[contact.axis as usize].get_or_insert_default() += force;
+        });
         Ok(())
     }
 
     /// Removes all forces of horizontal contacts.
     pub(crate) fn release(&mut self) {
-        for (site, mut sphere) in core::mem::take(&mut self.spheres) {
-            (sphere.horizontal, sphere.pushes) = Default::default();
-            if sphere != Acting::default() {
-                self.spheres.insert(site, sphere);
-            }
-        }
+        self.change_all(|sphere| (sphere.horizontal, sphere.pushes) = Default::default());
     }
 
     /// Returns the horizontal contacts with a force, in their order.
@@ -161,11 +175,8 @@ impl Loading {
 
     /// Returns the weight of a sphere.
     pub(crate) fn weight(&self, site: Site) -> BigRational {
-        let weight = self
-            .spheres
-            .get(&site)
-            .and_then(|sphere| sphere.weight.clone());
-        let weight = weight.filter(|_| !self.weightless);
+        let sphere = self.spheres.get(&site);
+        let weight = sphere.and_then(|sphere| sphere.weight.clone());
         weight.unwrap_or_else(|| self.ordinary_weight())
     }
 
@@ -184,7 +195,7 @@ impl Loading {
         self.gravity_on(self.weight(site)) + &self.load(site)
     }
 
-    /// Returns the spheres whose weight was set, in their order, with their weights.
+    /// Returns the spheres whose weight is not the ordinary one, in their order, with their weights.
     pub(crate) fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
         let spheres = self.spheres.iter();
         spheres.filter_map(|(site, sphere)| Some((*site, sphere.weight.as_ref()?)))
@@ -204,11 +215,8 @@ impl Loading {
     /// Returns the weights that differ from that of an ordinary sphere, with the difference.
     pub(crate) fn extra_weights(&self) -> impl Iterator<Item = (Site, BigRational)> + '_ {
         let ordinary = self.ordinary_weight();
-        let weights = self.weights().filter(|_| !self.weightless);
-        weights.filter_map(move |(site, weight)| {
-            let extra = weight - &ordinary;
-            (!extra.is_zero()).then_some((site, extra))
-        })
+        self.weights()
+            .map(move |(site, weight)| (site, weight - &ordinary))
     }
 
     /// Returns the spheres on which a force acts besides gravity on an ordinary sphere, in their order: that force, and
@@ -219,7 +227,7 @@ impl Loading {
         self.spheres.iter().filter_map(|(site, sphere)| {
             // A sphere without a load has none.
             let mut extra = sphere.load.clone().unwrap_or_default();
-            if let (Some(weight), false) = (&sphere.weight, self.weightless) {
+            if let Some(weight) = &sphere.weight {
                 extra = self.gravity_on(weight - self.ordinary_weight()) + &extra;
             }
             let pushes = sphere.pushes.as_ref();

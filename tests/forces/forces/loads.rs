@@ -1,7 +1,8 @@
 //! Random tops, bases, stackings, weights and loads: every answer equals the oracle's.
 
-use cannonpile::Pile;
 use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::{Load, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -166,4 +167,45 @@ fn weights_replace_and_loads_add_up() {
     assert!(pile.clone().with_load(here, ratio(-1, 9)).is_err());
     assert!(pile.clone().with_weight(here, ratio(-1, 9)).is_err());
     assert!(pile.clone().with_load(at(2, 0, 1), ratio(1, 9)).is_err());
+}
+
+/// In a weightless pile the weight of one sphere has the forces of a load of this size.
+#[test]
+fn one_sphere_of_a_weightless_pile_has_a_weight() {
+    let site = Site { i: 1, j: 0, k: 1 };
+    let pile = Pile::under(Region::SITE, stacking("+-+-")).unwrap();
+    let tilt = [ratio(1, 7), ratio(0, 1)];
+    let pile = pile.with_weight(Site::APEX, ratio(3, 1)).unwrap();
+    let pile = pile.weightless().with_tilt(tilt).unwrap();
+    let heavy = pile.clone().with_weight(site, ratio(5, 1)).unwrap();
+    let gravity = Load::leaning(ratio(5, 1), heavy.tilt());
+    let loaded = pile.with_load(site, gravity).unwrap();
+    assert_eq!(heavy.weight(), ratio(5, 1));
+    let forces = |pile: &Pile| -> Vec<_> {
+        let contacts = pile.forces::<BigRational>().contacts(Selection::All);
+        contacts.unwrap().collect::<Result<_, _>>().unwrap()
+    };
+    assert_eq!(forces(&heavy), forces(&loaded));
+}
+
+/// A load of zero and a weight of 1 leave a pile as it is.
+#[test]
+fn ordinary_weights_and_no_loads_are_not_kept() {
+    let pile = Pile::triangular(3).unwrap();
+    let along = |x| Load {
+        x,
+        ..Load::default()
+    };
+    let kept = pile
+        .clone()
+        .with_load(Site::APEX, along(ratio(2, 1)))
+        .unwrap();
+    let kept = kept.with_load(Site::APEX, along(ratio(-2, 1))).unwrap();
+    assert_eq!(kept, pile);
+    let kept = pile.clone().with_load(Site::APEX, ratio(0, 1)).unwrap();
+    let kept = kept.with_weight(Site::APEX, ratio(4, 1)).unwrap();
+    assert_ne!(kept, pile);
+    let kept = kept.with_weight(Site::APEX, ratio(1, 1)).unwrap();
+    assert_eq!((kept.loads().len(), kept.weights().count()), (0, 0));
+    assert_eq!(kept, pile);
 }
