@@ -104,11 +104,13 @@ fn levels(
                 "ask for fewer layers or spheres",
             )?;
         }
-        let mut starts = Vec::new();
+        // Lines of one direction start at sorted places.
+        let mut starts = [(); 3].each(|()| Vec::new());
         if stretch.index > 0 {
             for site in &sites {
                 let counts = shape.spheres_above(&stretch, k, *site);
-                for (direction, count) in Direction::ALL.into_iter().zip(counts) {
+                let lines = Direction::ALL.into_iter().zip(counts).zip(&mut starts);
+                for ((direction, count), starts) in lines {
                     if count == k - stretch.from && wanted.includes(direction) {
                         starts.push(start_of(*site, direction, stretch.sign, count));
                     }
@@ -121,7 +123,7 @@ fn levels(
             sites,
             wanted,
         });
-        (k, sites, wanted) = (stretch.from, starts, LineSelection::All);
+        (k, sites, wanted) = (stretch.from, starts.concat(), LineSelection::All);
     }
     Ok(levels)
 }
