@@ -94,6 +94,23 @@ impl<'p, T: Algebra> Engine<'p, T> {
         }
     }
 
+    /// Returns the forces from above on each sphere of a piece of a row, and those that it transmits. The row is above
+    /// the floor, and a sweep must be at the layer of the row.
+    pub(crate) fn received_and_transmitted_in(
+        &self,
+        lines: &LineForces<'p, T>,
+        piece: &Row,
+        meter: Meter<'_>,
+    ) -> [Vec<Result<SphereForces<T>, Error>>; 2] {
+        let above = self.received_in(lines, piece, meter);
+        let below = match self {
+            Self::Lines => below_each(lines, piece, above.clone(), meter),
+            // The spheres are counted already. A sweep has no other work to count here.
+            Self::Cells(_) | Self::Limbs(_) => self.transmitted_in(lines, piece, Meter::NONE),
+        };
+        [above, below]
+    }
+
     /// Returns the forces that each sphere of a piece of a row transmits. The row is above the floor, and a sweep must
     /// be at the layer of the row.
     pub(crate) fn transmitted_in(
@@ -103,14 +120,7 @@ impl<'p, T: Algebra> Engine<'p, T> {
         meter: Meter<'_>,
     ) -> Vec<Result<SphereForces<T>, Error>> {
         match self {
-            Self::Lines => {
-                let increments = lines.increments_below(piece.k);
-                let above = by_lines(lines, piece, meter);
-                let below = |(site, above): (_, Result<_, _>)| {
-                    Ok(lines.below_layer(&increments, site, above?, meter))
-                };
-                piece.clone().into_iter().zip(above).map(below).collect()
-            }
+            Self::Lines => below_each(lines, piece, by_lines(lines, piece, meter), meter),
             Self::Cells(sweep) => {
                 let increments = sweep.lines.increments_below(piece.k);
                 of_row(piece, meter, |site| {
@@ -126,6 +136,19 @@ impl<'p, T: Algebra> Engine<'p, T> {
             }
         }
     }
+}
+
+/// Returns the forces that each sphere of a piece of a row transmits, from those that it receives.
+fn below_each<T: Algebra>(
+    lines: &LineForces<'_, T>,
+    piece: &Row,
+    above: Vec<Result<SphereForces<T>, Error>>,
+    meter: Meter<'_>,
+) -> Vec<Result<SphereForces<T>, Error>> {
+    let increments = lines.increments_below(piece.k);
+    let below =
+        |(site, above): (_, Result<_, _>)| Ok(lines.below_layer(&increments, site, above?, meter));
+    piece.clone().into_iter().zip(above).map(below).collect()
 }
 
 /// Returns the forces of each sphere of a piece of a row, from a sweep.

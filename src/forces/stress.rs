@@ -9,7 +9,7 @@ use super::walk::Source;
 use super::{Answers, Forces};
 use crate::Error;
 use crate::each::Each;
-use crate::engine::{LineForces, LineSelection, Meter, Quantity, numerators, to_scalar};
+use crate::engine::{LineForces, LineSelection, Quantity, numerators, to_scalar};
 use crate::geometry::{Vector, square_across};
 use crate::lattice::{Axis, Direction, HorizontalContact, Row, Site};
 use crate::scalar::{Algebra, Numerators, Ring};
@@ -55,7 +55,8 @@ impl<'p, T: Algebra> Forces<'p, T> {
             let above = above.clone();
             lines.contacts(lines.to_below(site, above, self.meter))
         });
-        lines.stress(site, lines.contacts(above)?, below.transpose()?)
+        let above = lines.contacts(above)?;
+        lines.stress(site, &lines.square_across(), above, below.transpose()?)
     }
 
     /// Iterates over the [`stress`](Self::stress) of the spheres of a part of the pile, in row order.
@@ -87,25 +88,42 @@ impl<'p, T: Algebra> Forces<'p, T> {
 impl<T: Algebra> Source<'_, T> {
     /// Returns the stress of each sphere of a piece of a row. A sweep must be at the layer of the row.
     fn stresses_in(&self, piece: &Row) -> Vec<Result<[T; 6], Error>> {
-        let is_floor = piece.k + 1 == self.lines.shape.layers();
-        let above = self.received_in(piece);
-        let below: Vec<_> = if is_floor {
-            above.iter().map(|_| Ok(None)).collect()
-        } else {
-            // The work of these spheres is already counted.
-            let below = self.transmitted_in(piece, Meter::NONE).into_iter();
-            below.map(|below| below.map(Some)).collect()
+        let Self {
+            lines,
+            engine,
+            meter,
+        } = self;
+        let across2 = lines.square_across();
+        let of_site = |site, above, below: Option<_>| {
+            let below = below.map(|below| lines.contacts(below?)).transpose()?;
+            lines.stress(site, &across2, lines.contacts(above?)?, below)
         };
-        let stress = |(site, (above, below)): (Site, (Result<_, _>, Result<Option<_>, _>))| {
-            self.lines.stress(site, above?, below?)
-        };
+        if piece.k + 1 == lines.shape.layers() {
+            let above = engine.received_in(lines, piece, *meter);
+            let stress = |(site, above)| of_site(site, above, None);
+            return zip(piece.clone(), above).map(stress).collect();
+        }
+        let [above, below] = engine.received_and_transmitted_in(lines, piece, *meter);
+        let stress = |(site, (above, below))| of_site(site, above, Some(below));
         zip(piece.clone(), zip(above, below)).map(stress).collect()
     }
 }
 
 impl<T: Algebra> LineForces<'_, T> {
+    /// Returns 4cos²φ and 1, over one denominator.
+    fn square_across(&self) -> [T::Numerator; 2] {
+        let ([across2], one) = T::Numerator::of(&[square_across(self.pile.sin_phi())]);
+        [across2, one]
+    }
+
     /// Returns the stress of a sphere, from its forces from above, and from those to below unless it is on the floor.
-    fn stress(&self, site: Site, above: [T; 3], below: Option<[T; 3]>) -> Result<[T; 6], Error> {
+    fn stress(
+        &self,
+        site: Site,
+        [across2, one]: &[T::Numerator; 2],
+        above: [T; 3],
+        below: Option<[T; 3]>,
+    ) -> Result<[T; 6], Error> {
         let (pile, k) = (&self.pile, site.k);
         let below = below.into_iter().flatten();
         let sloping = zip(above, self.directions_above(k));
@@ -133,20 +151,19 @@ impl<T: Algebra> LineForces<'_, T> {
                 *sum = part * force + &*sum;
             }
         }
-        let ([across2], one) = T::Numerator::of(&[square_across(pile.sin_phi())]);
         let directions2 = self.direction_scale.clone() * &self.direction_scale;
-        let unit = scale * &self.increment_sum * &directions2 * &one;
+        let unit = scale * &self.increment_sum * &directions2 * one;
         let part = |sum: T::Numerator, factor| {
             to_scalar("a stress", sum * &self.sum_scale * factor, &unit)
         };
         let [xx, yy, zz, xy, xz, yz] = sums;
         Ok([
-            part(xx, &one)?,
-            part(yy, &across2)?,
-            part(zz, &one)?,
-            part(xy, &one)?,
-            part(xz, &one)?,
-            part(yz, &one)?,
+            part(xx, one)?,
+            part(yy, across2)?,
+            part(zz, one)?,
+            part(xy, one)?,
+            part(xz, one)?,
+            part(yz, one)?,
         ])
     }
 }

@@ -33,25 +33,6 @@ impl<'p, T: Algebra> Source<'p, T> {
         self.engine.sites_at_once(&self.lines)
     }
 
-    /// Returns the forces of each sphere of a piece of a row on the spheres below. The row must be above the floor, and
-    /// a sweep must be at the layer of the row.
-    pub(super) fn transmitted_in(
-        &self,
-        piece: &Row,
-        meter: Meter<'_>,
-    ) -> Vec<Result<[T; 3], Error>> {
-        let below = self.engine.transmitted_in(&self.lines, piece, meter);
-        let forces = |below: Result<_, _>| self.lines.contacts(below?);
-        below.into_iter().map(forces).collect()
-    }
-
-    /// Returns the forces from above on each sphere of a piece of a row. A sweep must be at the layer of the row.
-    pub(super) fn received_in(&self, piece: &Row) -> Vec<Result<[T; 3], Error>> {
-        let above = self.engine.received_in(&self.lines, piece, self.meter);
-        let forces = |above: Result<_, _>| self.lines.contacts(above?);
-        above.into_iter().map(forces).collect()
-    }
-
     /// Returns the force on the floor of each sphere of a piece of a bottom row. A sweep must be at the bottom layer.
     pub(super) fn on_floor_in(&self, piece: &Row) -> Vec<Result<FloorForce<T>, Error>> {
         let above = self.engine.received_in(&self.lines, piece, self.meter);
@@ -63,10 +44,10 @@ impl<'p, T: Algebra> Source<'p, T> {
     /// layer of the row.
     pub(super) fn contacts_in(&self, piece: &Row) -> Vec<Result<ContactForce<T>, Error>> {
         let directions = self.lines.shape.dimension().directions();
-        let forces = self.transmitted_in(piece, self.meter);
-        let mut contacts = Vec::with_capacity(directions.len() * forces.len());
-        for (site, forces) in piece.clone().into_iter().zip(forces) {
-            let forces = match forces {
+        let below = self.engine.transmitted_in(&self.lines, piece, self.meter);
+        let mut contacts = Vec::with_capacity(directions.len() * below.len());
+        for (site, below) in piece.clone().into_iter().zip(below) {
+            let forces = match below.and_then(|below| self.lines.contacts(below)) {
                 Ok(forces) => forces.each(Ok),
                 Err(error) => [(); 3].each(|()| Err(error.clone())),
             };

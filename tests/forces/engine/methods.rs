@@ -139,6 +139,45 @@ fn work_stays_within_the_plan() {
     assert!(kept > 500, "{kept}");
 }
 
+/// A stress has one row. Its sphere is visited as often as for its contacts, or for its force on the floor.
+#[test]
+fn stresses_stay_within_their_plan() {
+    for pile in piles() {
+        for part in parts(&pile) {
+            for method in METHODS.map(Some).into_iter().chain([None]) {
+                let [counters, others] = [(); 2].map(|()| Counters::default());
+                let forces = pile.forces::<BigRational>();
+                let forces = match method.map(|method| forces.clone().with_method(method)) {
+                    Some(Err(_)) => continue,
+                    Some(Ok(forces)) => forces,
+                    None => forces,
+                };
+                let stresses = forces.clone().with_counters(&counters).stresses(part);
+                let stresses = stresses.unwrap();
+                let plan = stresses.plan().clone();
+                assert_eq!(plan.rows, stresses.count().into(), "{part:?} {method:?}");
+                assert_eq!(plan.rows, counters.rows().into(), "{part:?} {method:?}");
+                assert!(plan.visited >= counters.visited().into());
+
+                let forces = forces.with_counters(&others);
+                drop(all(forces.contacts(part).unwrap()).unwrap());
+                let floor = match part {
+                    Selection::All => Selection::Base,
+                    _ => part,
+                };
+                if let Ok(floor) = forces.base(floor) {
+                    drop(all(floor).unwrap());
+                }
+                let work = |counters: &Counters| (counters.visited(), counters.turned());
+                if method == Some(Method::Tree) {
+                    assert_eq!(work(&counters), work(&others), "{pile:?} {part:?}");
+                }
+                assert_eq!(counters.visited(), others.visited(), "{pile:?} {part:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn all_methods_agree() {
     for pile in piles() {
