@@ -39,7 +39,7 @@ pub use horizontal::{beside, pushed};
 pub use load::{disc_load_increments, load_increments};
 pub use turn::half_turn;
 
-pub use crate::scalar::{tripled_apart, tripled_half_turn};
+pub use crate::scalar::turn::{tripled_apart, tripled_half_turn};
 
 use core::ops::Add;
 

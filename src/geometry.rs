@@ -26,6 +26,7 @@ use alloc::boxed::Box;
 use num_rational::BigRational;
 use num_traits::One;
 
+use crate::each::Each;
 use crate::lattice::Dimension;
 use crate::scalar::{Algebra, ByValue, Ring, Surd, TWO};
 use crate::{Error, ratio};
@@ -319,5 +320,6 @@ pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
 /// ```
 #[must_use]
 pub fn square_across(sin_phi: &BigRational) -> BigRational {
-    ratio!(4) * (BigRational::one() - sin_phi * sin_phi)
+    let [p2, q2] = [sin_phi.numer(), sin_phi.denom()].each(|x| x * x);
+    BigRational::new((&q2 - p2) * 4, q2)
 }

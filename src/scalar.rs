@@ -135,7 +135,7 @@ pub mod laws;
 mod polynomial;
 mod ratio;
 mod rational;
-mod turn;
+pub(crate) mod turn;
 
 pub use exact_surd::rational::{ByValue, reduced};
 pub use exact_surd::{CorrectlyRounded, DoubleDouble, Surd, SurdSum, parse};
@@ -145,7 +145,7 @@ pub use polynomial::{Polynomial, Symbol};
 #[doc(hidden)]
 pub use ratio::quotient;
 
-pub use turn::{tripled_apart, tripled_half_turn};
+use turn::{tripled_apart, tripled_half_turn};
 
 pub(crate) use exact_surd::float_between;
 pub(crate) use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};

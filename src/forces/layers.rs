@@ -198,7 +198,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
 
 impl<'p, O: Output> Layers<'p, O> {
     /// Returns the layers with another output.
-    fn into_output<U: Output<Scalar = O::Scalar>>(
+    pub(crate) fn into_output<U: Output<Scalar = O::Scalar>>(
         self,
         unit: U::Unit,
     ) -> Result<Layers<'p, U>, Error> {
@@ -358,6 +358,17 @@ impl<'p, O: Output> Layers<'p, O> {
         row: &Row,
         slices: [&mut [O::Value]; 3],
     ) -> Result<(), Error> {
+        self.fill_row_with(asked, row, slices, |layers| layers.numbers(asked, row))
+    }
+
+    /// Writes a quantity for consecutive spheres. `numbers` returns their numerators, if they are needed.
+    fn fill_row_with(
+        &mut self,
+        asked: Quantities,
+        row: &Row,
+        slices: [&mut [O::Value]; 3],
+        numbers: impl FnOnce(&Self) -> RowNumbers<O>,
+    ) -> Result<(), Error> {
         let Row { k, j, i } = row.clone();
         check_lengths(row.length()?, &slices)?;
         if i.is_empty() {
@@ -381,15 +392,16 @@ impl<'p, O: Output> Layers<'p, O> {
         }
         let conversion = self.conversions.iter().find(|entry| known(entry));
         let (.., conversion) = conversion.ok_or_else(|| bug("a conversion is in the list"))?;
-        self.write_row((asked, conversion), row, slices)
+        self.write_row((asked, conversion), row, slices, || numbers(self))
     }
 
-    /// Writes a quantity for consecutive spheres of a row of the current layer.
+    /// Writes a quantity for consecutive spheres of a row of the current layer. `numbers` returns their numerators.
     fn write_row(
         &self,
         (asked, conversion): (Quantities, &O::Conversion),
         row: &Row,
         [a, b, c]: [&mut [O::Value]; 3],
+        numbers: impl FnOnce() -> RowNumbers<O>,
     ) -> Result<(), Error> {
         let lines = &self.source.lines;
         let out = [&mut *a, &mut *b, &mut *c];
@@ -404,7 +416,7 @@ impl<'p, O: Output> Layers<'p, O> {
             return Ok(());
         }
         let out = a.iter_mut().zip(b).zip(c);
-        for (numbers, ((a, b), c)) in self.numbers(asked, row).into_iter().zip(out) {
+        for (numbers, ((a, b), c)) in numbers().into_iter().zip(out) {
             [*a, *b, *c] = values::<O>(conversion, numbers?)?;
         }
         Ok(())
@@ -424,7 +436,7 @@ impl<'p, O: Output> Layers<'p, O> {
     }
 
     /// Returns a quantity of consecutive spheres of a row of the current layer, as numerators.
-    fn numbers(&self, asked: Quantities, row: &Row) -> Vec<Result<Numbers<O>, Error>> {
+    fn numbers(&self, asked: Quantities, row: &Row) -> RowNumbers<O> {
         let Source {
             lines,
             engine,
@@ -470,6 +482,9 @@ impl<'p, O: Output> Layers<'p, O> {
 
 /// Three numerators of a sphere.
 type Numbers<O> = [<<O as Write>::Scalar as Algebra>::Numerator; 3];
+
+/// The numerators of each sphere of a row.
+type RowNumbers<O> = Vec<Result<Numbers<O>, Error>>;
 
 /// Converts the numerators of one sphere.
 fn values<O: Output>(

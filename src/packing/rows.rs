@@ -81,7 +81,7 @@ impl<'p> Packing<'p> {
             vector: [along_x, along_y, -downwards],
             floor: basis(&self.sphere_weight()),
         };
-        self.forces.layers(part)?.nearest_in(units)
+        self.forces.layers(part)?.into_output(units)
     }
 
     /// Iterates over the contacts of a part of the pile. The contacts of a sphere are those with its supports.

@@ -150,7 +150,9 @@ impl<O: Output> Layer<'_, '_, O> {
         // The images of a contact force are equal to it, so the spheres that a sweep stores are enough.
         let Engine::Limbs(sweep) = &layers.source.engine else {
             return fill_rows(&self.region, k, out, |row, out| {
-                layers.write_row((asked, &conversion), row, out)
+                layers.write_row((asked, &conversion), row, out, || {
+                    layers.numbers(asked, row)
+                })
             });
         };
         let by_images = asked == Quantities::Contacts;
@@ -160,7 +162,9 @@ impl<O: Output> Layer<'_, '_, O> {
             } else {
                 (row.clone(), out)
             };
-            layers.write_row((asked, &conversion), &row, out)
+            layers.write_row((asked, &conversion), &row, out, || {
+                layers.numbers(asked, &row)
+            })
         })?;
         if by_images {
             sweep.copy_to_images(&mut [a, b, c])?;

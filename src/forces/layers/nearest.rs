@@ -88,19 +88,11 @@ impl<'p> Layers<'p, BigRational> {
     /// ```
     pub fn nearest<F: CorrectlyRounded>(self) -> Result<Layers<'p, Nearest<F>>, Error> {
         let one = || Surd::from(BigRational::one());
-        self.nearest_in(Units {
+        self.into_output(Units {
             contact: one(),
             vector: [one(), one(), one()],
             floor: [one(), one(), one()],
         })
-    }
-
-    /// Returns the layers with the forces times `units`, correctly rounded.
-    pub(crate) fn nearest_in<F: CorrectlyRounded>(
-        self,
-        units: Units,
-    ) -> Result<Layers<'p, Nearest<F>>, Error> {
-        self.into_output(units)
     }
 }
 
@@ -156,8 +148,14 @@ impl<F: CorrectlyRounded> Layers<'_, Nearest<F>> {
         row: &Row,
         slices: [[&mut [F]; 3]; 3],
     ) -> Result<(), Error> {
+        // The numerators of the forces are the same for all axes.
+        let mut numbers = None;
         for (axis, slices) in slices.into_iter().enumerate() {
-            self.fill_row_of(Quantities::Along(axis), row, slices)?;
+            let asked = Quantities::Along(axis);
+            self.fill_row_with(asked, row, slices, |layers| {
+                let numbers = numbers.get_or_insert_with(|| layers.numbers(asked, row));
+                numbers.clone()
+            })?;
         }
         Ok(())
     }

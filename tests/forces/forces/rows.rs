@@ -5,7 +5,7 @@ use std::ops::Range;
 use cannonpile::lattice::{Direction, Region, Row, Site};
 use cannonpile::scalar::{CorrectlyRounded, Surd};
 use cannonpile::shape::Selection;
-use cannonpile::{Error, FloorForce, Method, Packing, Pile};
+use cannonpile::{Counters, Error, FloorForce, Method, Packing, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -99,6 +99,33 @@ where
                 assert_eq!(point, exact.each_ref().map(nearest), "{site} {direction}");
             }
         }
+    }
+}
+
+/// The three components of the forces on a row take one computation of the row.
+#[test]
+fn vectors_visit_each_sphere_once() {
+    let pile = Pile::under(Region::SITE, "+-+--+".parse().unwrap()).unwrap();
+    for method in [Method::Tree, Method::Sweep] {
+        let [forces, vectors] = [false, true].map(|as_vectors| {
+            let counters = Counters::default();
+            let exact = pile.forces::<BigRational>().with_counters(&counters);
+            let layers = exact.with_method(method).unwrap().layers(Selection::All);
+            let mut layers = layers.unwrap().nearest::<f64>().unwrap();
+            for row in pile.rows(Selection::Layer(4)).unwrap() {
+                let mut out = [(); 3].map(|()| columns::<f64>(&row));
+                let [x, y, z] = out
+                    .each_mut()
+                    .map(|of| of.each_mut().map(Vec::as_mut_slice));
+                if as_vectors {
+                    layers.fill_row_of_vectors(&row, [x, y, z]).unwrap();
+                } else {
+                    layers.fill_row(&row, x).unwrap();
+                }
+            }
+            counters.to_string()
+        });
+        assert_eq!(vectors, forces, "{method}");
     }
 }
 
