@@ -13,7 +13,7 @@ use std::{fs, hash};
 
 use cannonpile::engine::{common_denominator, product, sum_of};
 use cannonpile::geometry::{Inclination, Spacing, Vector, square_across};
-use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
+use cannonpile::lattice::{Axis, Dimension, Direction, HorizontalContact, Region, Site};
 use cannonpile::num_bigint::BigInt;
 use cannonpile::num_rational::BigRational;
 use cannonpile::scalar::{
@@ -23,8 +23,8 @@ use cannonpile::scalar::{
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Load, Packing, Pile, ratio};
 use cannonpile_dem::Friction;
-use cannonpile_dem::scene::Scene;
-use cannonpile_dem::table::{self, FileFormat, NumberFormat, Table, Units};
+use cannonpile_dem::scene::{self, Scene};
+use cannonpile_dem::table::{self, Cell, FileFormat, NumberFormat, Table, Units};
 use cannonpile_disorder::{
     Choice, ContactSet, Ensemble, FirstSign, ForceKind, RandomPiles, RandomStackings, Samples,
     Shard, TallyRecord, Wave, check_fault_probability,
@@ -127,15 +127,17 @@ fn numbers() {
     let raw = BigRational::new_raw(-a.numer() * 6, a.denom() * -6);
     run! {
         "parse::rational": parse::rational(&text).unwrap();
+        "parse::rational, parse::tilt of a scene": (scene::parse::rational(&text).unwrap(), scene::parse::tilt(&text, Dimension::Two).unwrap());
         "rational: order and equality": assert!(ByValue(&a) != ByValue(&b) && ByValue(&a).max(ByValue(&b)) == ByValue(&b).max(ByValue(&a)));
         "rational: hash": assert_eq!(hashed(&ByValue(&a)), hashed(&ByValue(&raw)));
         "rational: reduced": assert!(ByValue(&reduced(raw.clone())) == ByValue(&a));
         "rational: nearest f64 and f32": (f64s(&a), f32s(&a), f64s(&raw));
         "DoubleDouble::from_rational": DoubleDouble::from_rational(&a);
         "rational: sums, products": (sum_of([a.clone(), b.clone()]), product(&a, &b), common_denominator([&a, &b]));
-        "rational: as a scalar": (a.clone().div_int(NonZeroI64::MIN), a.is_defined(), a.checked_div(&b), a.clone() - <BigRational as Ring>::from_integer(7), Algebra::half_turn(&[a.clone(), b.clone(), a.clone()]));
+        "rational: as a scalar": (a.clone().div_int(NonZeroI64::MIN), a.is_defined(), a.checked_div(&b), a.clone() - <BigRational as Ring>::from_integer(7), <BigRational as Algebra>::half_turn(&[a.clone(), b.clone(), a.clone()]));
+        "from_rational": (BigRational::from_rational(&a), f64::from_rational(&a), f32::from_rational(&a), Polynomial::from_rational(&a));
         "rational: laws": (laws::embedding(&a, &b, |x: &BigRational| Some([x.clone(), x.clone()])).unwrap(), laws::numerators::<BigRational>(&a, &b).unwrap());
-        "to_rational, to_constant": (Polynomial::constant(&a).to_constant().unwrap(), DoubleDouble::from_rational(&a).to_rational(), FixedRational::<i128>::from_rational(&a).to_rational());
+        "to_rational, to_constant": (Polynomial::constant(&a).to_constant().unwrap(), DoubleDouble::from_rational(&a).to_rational(), FixedRational::<i128>::from_rational(&a).to_rational(), x.to_rational());
         "Surd: from, order and equality": assert!(x != y && (x < y) == (y > x) && x == Surd::from(raw.clone()));
         "Surd: hash": assert_eq!(hashed(&x), hashed(&Surd::from(raw.clone())));
         "Surd: order of roots": assert!(root != other && (root < other) == (x < y));
@@ -144,9 +146,11 @@ fn numbers() {
         "Surd: sum, scaled, sign": (x.checked_add(&y), root.checked_add(&other), root.scaled(&b), root.sign());
         "Surd: nearest f64 and f32, order with f64": (root.nearest::<f64>(), root.nearest::<f32>(), x.nearest::<f64>(), root < 1.0);
         "Surd: parts, negation": (root.coefficient(), root.radicand(), root.to_f64(), -root.clone() == Surd::zero());
+        "Surd::new": Surd::new(a.clone(), b.clone()).unwrap();
         "Surd: text": assert_eq!(x.to_string().parse::<Surd>().unwrap(), x);
         "SurdSum: sum, sign, order with f64": (SurdSum::new(root.clone(), -other.clone()).sign(), sum < 1.0);
-        "SurdSum: to_surd": sum.to_surd();
+        "SurdSum: to_surd, terms, from": (sum.to_surd(), sum.terms(), SurdSum::from(x.clone()));
+        "Cell: from": (Cell::from(a.clone()), Cell::from(x.clone()), Cell::from(sum.clone()));
         "SurdSum: nearest, equality, hash, text": (sum.nearest::<f64>(), sum == sum.clone(), hashed(&sum), sum.to_string());
         "Interval: from, contains": assert!(Interval::from_rational(&a).contains(&a));
         "Polynomial: from, equality, text": assert!(Polynomial::constant(&a) != Polynomial::constant(&b) && !Polynomial::constant(&a).to_string().is_empty());
@@ -197,7 +201,7 @@ fn piles() -> Result<(), Error> {
         "Pile: loads, weights, tilt": loads(&a, &b).unwrap().with_weight(floor, a.clone()).unwrap().with_tilt(tilt.clone()).unwrap();
         "Pile: equality": assert!(pile == loads(&a, &b).unwrap() && pile != other);
         "Pile: hash": assert_eq!(hashed(&pile), hashed(&loads(&a, &b).unwrap()));
-        "Pile: text, weight": (pile.to_string(), pile.weight());
+        "Pile: text, weights, tilt": (pile.to_string(), pile.weight(), pile.weights().count(), pile.sphere_weight(floor).unwrap(), pile.tilt());
         "Pile: sin_phi, horizontal forces": (pile.sin_phi(), pile.horizontal_force(contact), pile.horizontal_forces().count());
         "Pile::isosceles": assert!(Pile::isosceles(3, b.recip()).unwrap() != Pile::isosceles(3, a.recip()).unwrap());
         "Load: equality, hash, text": { differ(&both.map(|pile| pile.load(Site::APEX).unwrap())); assert!(hashed(&pile.load(Site::APEX).unwrap()) == hashed(&pile.load(Site::APEX).unwrap()) && pile.load(floor).unwrap().to_string() == "0") };
@@ -205,6 +209,7 @@ fn piles() -> Result<(), Error> {
         "Spacing, Inclination: equality, hash, text": { differ(&[&a, &b].map(|x| Spacing::from_square(x.recip() * ratio!(2)).unwrap())); assert!(hashed(&spacing) == hashed(&spacing.clone()) && !spacing.to_string().is_empty() && Inclination::new(&spacing, pile.dimension()).unwrap() == packing.inclination().clone()) };
         "Inclination: sin, cos, tan": { let angle = packing.inclination(); ([angle.sin(), angle.cos(), angle.tan()], [angle.cos2(), angle.tan2()], angle.sin2()) };
         "Clearance: check": pile.clearance().check(&spacing);
+        "Spacing: ratio, square": (spacing.ratio(), spacing.square());
         "Forces: one contact": one();
         "Forces: contacts, equality": differ(&both.map(contacts));
         "Forces: base, equality": differ(&both.map(base));
@@ -219,9 +224,10 @@ fn piles() -> Result<(), Error> {
         "Packing: contacts, contact_forces": (packing.contacts(Selection::All).unwrap().count(), packing.contact_forces(Selection::All).unwrap().count());
         "Packing: to SI": (packing.contact_in_si(contacts(&pile)[0].clone()).unwrap(), packing.floor_force_in_si(base(&pile)[0].clone()), packing.stress_in_si(&forces.stress(Site::APEX).unwrap()), packing.horizontal_contact_in_si(contact, &a).is_ok());
         "Layer: error_bound": { let mut layers = pile.forces::<f64>().layers(Selection::Base).unwrap(); layers.next_layer().unwrap().map(|layer| layer.error_bound()) };
+        "Layers: numerators": forces.layers(Selection::All).unwrap().numerators::<BigInt>().unwrap();
         "Pile: standing, tensile_contact": (pile.standing().unwrap(), pile.tensile_contact().unwrap());
         "Pile: base_extremes": differ(&both.map(|pile| pile.base_extremes().unwrap()));
-        "square_across, Affine": (square_across(&a), Affine::through([a.clone(), b.clone(), a.clone()]));
+        "square_across, Affine": (square_across(&a), Affine::through([a.clone(), b.clone(), a.clone()]).at(&tilt));
         "Pile: margin": differ(&both.map(|pile| margin(pile).unwrap()));
         "Pile: stability, of half the digits": assert!(tilts(&short).unwrap() == tilts(&short).unwrap());
         "Packing: sensitivity, equality": differ(&both.map(|pile| sensitivity::<BigRational>(&Packing::new(pile, &spacing).unwrap(), Site::APEX).unwrap()));
@@ -230,7 +236,7 @@ fn piles() -> Result<(), Error> {
         "summary": written(Ok(table::Summary::new(&in_pile, None).unwrap().table()), NumberFormat::Exact);
         "figures": [cannonpile_figure::base, cannonpile_figure::section, cannonpile_figure::shear, cannonpile_figure::pile, cannonpile_figure::stability].map(|draw| draw(&Subject::of_pile(&pile, &Spacing::new(ratio!(6 / 5)).unwrap()).unwrap()).is_ok());
         "Scene: toml, equality": { let scene = Scene { mass: a.clone(), gravity: b.clone(), ..Scene::default() }; differ(&[scene.clone(), Scene { mass: b.clone(), ..scene.clone() }]); assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene) };
-        "RandomPiles: mean, equality": { let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus).unwrap()).with_load(Site::APEX, a.clone()).unwrap(); differ(&[piles.clone(), piles.clone().with_load(Site::APEX, b.clone()).unwrap()]); differ(&[&a, &b].map(|q| piles.exact(&q.recip()).unwrap())); piles.mean(&0.5).unwrap() };
+        "RandomPiles: mean, equality": { let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus).unwrap()).with_load(Site::APEX, a.clone()).unwrap(); differ(&[piles.clone(), piles.clone().with_load(Site::APEX, b.clone()).unwrap()]); differ(&[&a, &b].map(|q| piles.exact(&q.recip()).unwrap())); piles.by_faults().unwrap().at(&a.recip()).unwrap(); piles.mean(&0.5).unwrap() };
     }
     Ok(())
 }
@@ -272,9 +278,10 @@ fn random_stackings() -> Result<(), cannonpile_disorder::Error> {
     let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
     let record = TallyRecord::new(tally.clone(), q.clone())?;
     run! {
-        "Ensemble: bin_width, equality": differ(&[ensemble.clone(), ensemble.clone().with_bin_width(a.clone()).unwrap()]);
+        "Ensemble: bin_width": ensemble.bin_width();
+        "Ensemble: equality": differ(&[ensemble.clone(), ensemble.clone().with_bin_width(a.clone()).unwrap()]);
         "Ensemble: run": ensemble.run(&Choice::All, Shard::WHOLE).unwrap();
-        "Tally: standing_probability": tally.standing_probability(ContactSet::Sloping, &q).unwrap();
+        "Tally: standing_probability, weights": (tally.standing_probability(ContactSet::Sloping, &q).unwrap(), tally.weights(&q).unwrap());
         "TallyRecord: fault_probability, equality": { assert!(ByValue(record.fault_probability()) == ByValue(&q)); differ(&[record.clone(), TallyRecord::new(tally.clone(), b.recip()).unwrap()]) };
         "Samples: fault_probability, equality": { let samples = || Samples::new(3, 1, ratio!(1 / 3)).unwrap(); assert!(samples() == samples() && samples().fault_probability() == &ratio!(1 / 3)) };
         "check_fault_probability": check_fault_probability(&q).unwrap();
