@@ -2,7 +2,8 @@
 //!
 //! Each equation is implemented once. The engines call these functions with integers, floats, bounds and limbs. The
 //! proofs of [`theorem`](crate::theorem) and of the crate `cannonpile-proof` evaluate them on polynomials. So the
-//! theorems hold for the code that computes the forces. All equations and the mathematics behind them are in [`paper`](crate::paper).
+//! theorems hold for the code that computes the forces. All equations and the mathematics behind them are in
+//! [`paper`](crate::paper).
 //!
 //! The weight of a sphere with d supports is shared among d lines of contacts. The force on a line grows by one
 //! increment per sphere. A sphere with N spheres above it on a line receives N increments along that line and transmits

@@ -89,7 +89,8 @@
 //! which re-exports the crates as [`num_bigint`] and [`num_rational`].
 //!
 //! # Map
-//! A module uses the modules above it in the following table. No files use each other in a circle.
+//! The table lists the modules roughly in the order in which they build on each other. No files use each other in a
+//! circle, which CI checks.
 //!
 //! | layer | module | contents |
 //! |---|---|---|

@@ -237,8 +237,8 @@ pub trait Ring:
     /// Returns the integer `n` as a value of this type: exact, or correctly rounded.
     fn from_integer(n: i128) -> Self;
 
-    /// Returns whether two values are equal. Rationals override it, because their `==` calls itself once for each common term
-    /// of two continued fractions.
+    /// Returns whether two values are equal. Rationals override it, because their `==` calls itself once for each
+    /// common term of two continued fractions.
     #[doc(hidden)]
     fn equals(&self, other: &Self) -> bool {
         self == other

@@ -447,8 +447,8 @@ impl<'p, T: Algebra> LineForces<'p, T> {
         self.below_layer(&increments, site, above, meter)
     }
 
-    /// Returns [`to_below`](Self::to_below) with the [increments](Self::increments_below) of the layer, which are the same for
-    /// all its spheres.
+    /// Returns [`to_below`](Self::to_below) with the [increments](Self::increments_below) of the layer, which are the
+    /// same for all its spheres.
     pub(crate) fn below_layer(
         &self,
         increments: &[T::Numerator; 3],

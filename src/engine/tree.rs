@@ -4,9 +4,9 @@
 //! on the line: (8) and (9) of the paper. Each load on the line adds one term. So a force takes O(1) operations,
 //! whatever the height: *closed* is a tree without levels.
 //!
-//! Below sign changes a force depends on few other forces. Within a run the force on a line grows linearly with a count of spheres, so the
-//! recursion skips the run. It continues only where a line crosses a sign change. At the change it needs the three
-//! forces on the sphere there, so a node may need three nodes of the next level.
+//! Below sign changes a force depends on few other forces. Within a run the force on a line grows linearly with a count
+//! of spheres, so the recursion skips the run. It continues only where a line crosses a sign change. At the change it
+//! needs the three forces on the sphere there, so a node may need three nodes of the next level.
 //!
 //! Plain recursion would visit 3^d nodes below d sign changes. But many branches end at the same sphere. Let the sign
 //! change in every layer, and take a sphere at (0, 0):

@@ -137,8 +137,8 @@ pub fn under_one_sphere(
 /// the proof that it is stable or unstable at a = R.
 ///
 /// # Errors
-/// Returns [`TooManyRows`](cannonpile::Error::TooManyRows) if `cannonpile_stability::census::on_base` does so. Items contain the
-/// errors of [`equilibrium`](crate::equilibrium).
+/// Returns [`TooManyRows`](cannonpile::Error::TooManyRows) if `cannonpile_stability::census::on_base` does so. Items
+/// contain the errors of [`equilibrium`](crate::equilibrium).
 ///
 /// # Examples
 /// ```

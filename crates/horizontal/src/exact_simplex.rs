@@ -76,7 +76,8 @@ pub fn exact_pivots() -> u64 {
 
 /// A linear program: minimise Σ cost · x over x ≥ 0 with Σ column · x = sums.
 pub(crate) struct Program<'n> {
-    /// The columns of the matrix, by unknown: coefficients by equation. Those of the sloping forces come first, and are nonsingular.
+    /// The columns of the matrix, by unknown: coefficients by equation. Those of the sloping forces come first, and are
+    /// nonsingular.
     pub(crate) columns: Cow<'n, [Sparse]>,
     /// The right-hand sides, by equation.
     pub(crate) sums: Vec<BigRational>,

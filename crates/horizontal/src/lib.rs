@@ -52,9 +52,9 @@
 //! | [`Error`] | the errors of this crate |
 //!
 //! Private modules: `stand` decides stability, `bounds` and `base` compute the bounds, `elastic` and `springs` the
-//! elastic state. They share `network` (the balance equations), `program` (the interior-point solver), `exact` (rational
-//! elimination) and `exact_simplex`. The modules `straight`, `edge`, `upper`, `run` and `symmetry` cover special piles. `simplex`
-//! looks for the forces that attain an upper bound.
+//! elastic state. They share `network` (the balance equations), `program` (the interior-point solver), `exact`
+//! (rational elimination) and `exact_simplex`. The modules `straight`, `edge`, `upper`, `run` and `symmetry` cover
+//! special piles. `simplex` looks for the forces that attain an upper bound.
 //!
 //! # Method
 //! A simplex method in rationals solves the linear programs of stability and of the bounds. An interior-point method

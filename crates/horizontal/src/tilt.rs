@@ -12,10 +12,10 @@ use crate::{Each, Error, equilibrium};
 /// Returns the tilts of gravity that a pile bears at a = R, where horizontal contacts may help, in the units of
 /// [`Pile::with_tilt`].
 ///
-/// The polygon is found as in [`cannonpile_stability::tilts`], with [`equilibrium`] in place of the forces of the sloping contacts. A
-/// certificate that the pile is unstable under some tilt has the virtual work Σ w φ > 0. This work is an affine function
-/// of the tilt, so the same field proves the pile unstable on one side of a line. The margin names the certificate of
-/// its line, for a tilt beyond it.
+/// The polygon is found as in [`cannonpile_stability::tilts`], with [`equilibrium`] in place of the forces of the
+/// sloping contacts. A certificate that the pile is unstable under some tilt has the virtual work Σ w φ > 0. This work
+/// is an affine function of the tilt, so the same field proves the pile unstable on one side of a line. The margin
+/// names the certificate of its line, for a tilt beyond it.
 ///
 /// # Errors
 /// As for [`equilibrium`]; [`NoWeight`](cannonpile_stability::Error::NoWeight) for a pile that no tilt affects.
@@ -52,9 +52,9 @@ pub fn tilts(pile: &Pile) -> Result<Tilts<Certificate>, Error> {
 
 /// Returns the least tilt at which a pile becomes unstable at a = R, as [`tilts`] does.
 ///
-/// A pile under one sphere is cut off below its last sign change, like in [`cannonpile_stability::margin`], and the certificate is for the
-/// upper part. The top sphere has no horizontal contacts, so the margin is at most ½, and up to this tilt no further layer
-/// changes it.
+/// A pile under one sphere is cut off below its last sign change, like in [`cannonpile_stability::margin`], and the
+/// certificate is for the upper part. The top sphere has no horizontal contacts, so the margin is at most ½, and up to
+/// this tilt no further layer changes it.
 ///
 /// # Errors
 /// As for [`tilts`].

@@ -79,8 +79,8 @@ impl<T: Field> FirstOrder<T> {
     /// Returns the pile of a packing, with its forces in f₀ as [`Layers::fill`](cannonpile::Layers::fill) writes them.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if the spheres do not fit in memory. [`Error::Length`] unless each direction has one force for each
-    /// sphere above the floor. For discs the third list is not read.
+    /// [`Error::TooLarge`] if the spheres do not fit in memory. [`Error::Length`] unless each direction has one force
+    /// for each sphere above the floor. For discs the third list is not read.
     ///
     /// # Examples
     /// If the whole pile shrinks, no force changes but by the floor, which does not.

@@ -12,10 +12,10 @@ use num_traits::{One, Signed, Zero};
 
 /// Two layers on a rough floor.
 ///
-/// All other queries are about spheres without friction on a floor with glue. Here the lower of two layers lies on a plane,
-/// and its spheres may slide and roll. Each contact transmits a force with friction, and no moment. Neighbours in a layer do
-/// not touch: a > R. All loads are vertical. Then the forces are unique: they depend neither on the law of the springs nor on
-/// the history.
+/// All other queries are about spheres without friction on a floor with glue. Here the lower of two layers lies on a
+/// plane, and its spheres may slide and roll. Each contact transmits a force with friction, and no moment. Neighbours
+/// in a layer do not touch: a > R. All loads are vertical. Then the forces are unique: they depend neither on the law
+/// of the springs nor on the history.
 ///
 /// # Forces
 /// A contact transmits N along its line, and T across it, in its vertical plane. With T = N·tan(θ/2):
@@ -69,8 +69,8 @@ impl<'p> RoughFloor<'p> {
     /// touch, a > R.
     ///
     /// # Errors
-    /// [`RoughFloor`](crate::Error::RoughFloor) unless there are two layers, gravity and all loads are vertical, and no horizontal contact has
-    /// a force.
+    /// [`RoughFloor`](crate::Error::RoughFloor) unless there are two layers, gravity and all loads are vertical, and no
+    /// horizontal contact has a force.
     ///
     /// # Examples
     /// Four balls: each of the three lower ones carries 1/3 mg of the upper one.
@@ -176,7 +176,8 @@ impl<'p> RoughFloor<'p> {
         self.pile.forces::<T>().base(part)
     }
 
-    /// Returns the coefficient of friction that the floor needs, over tan(θ/2): the largest ratio of friction to normal force.
+    /// Returns the coefficient of friction that the floor needs, over tan(θ/2): the largest ratio of friction to normal
+    /// force.
     ///
     /// # Errors
     /// As for [`Pile::base_extremes`].

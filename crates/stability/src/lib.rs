@@ -1,8 +1,8 @@
 //! What regular sphere piles bear: tilts of gravity, unequal spheres, and friction in two layers. And the list of all
 //! stable stackings.
 //!
-//! The core, [`cannonpile`], says whether a [`Pile`](cannonpile::Pile) is stable: [`Pile::stands`](cannonpile::Pile::stands).
-//! This crate says how far it is from the limit, in exact numbers.
+//! The core, [`cannonpile`], says whether a [`Pile`](cannonpile::Pile) is stable:
+//! [`Pile::stands`](cannonpile::Pile::stands). This crate says how far it is from the limit, in exact numbers.
 //!
 //! | question | call |
 //! |---|---|

@@ -86,8 +86,8 @@ pub fn sensitivity<T: Field>(
 /// [`Spread::bearable_squared`].
 ///
 /// # Errors
-/// [`Error::TooLarge`] for more than ten thousand spheres. [`Error::Overflow`], also if the scalar cannot decide which of two
-/// forces is weaker, as overlapping intervals cannot.
+/// [`Error::TooLarge`] for more than ten thousand spheres. [`Error::Overflow`], also if the scalar cannot decide which
+/// of two forces is weaker, as overlapping intervals cannot.
 ///
 /// # Examples
 /// ```

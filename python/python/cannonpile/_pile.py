@@ -979,9 +979,9 @@ change that, or use a floor with glue
     ) -> Comparison:
         """Compare measured contact forces with the exact ones, contact by contact.
 
-        Contacts are identified by the ids of their spheres or by position. Positions may be shifted,
-        turned about the vertical, mirrored, and have any axis as their vertical: this is detected. The order of the contacts, and of the two spheres of each,
-        does not matter.
+        Contacts are identified by the ids of their spheres or by position. Positions may be shifted, turned about the
+        vertical, mirrored, and have any axis as their vertical: this is detected. The order of the contacts, and of the
+        two spheres of each, does not matter.
 
         Parameters
         ----------

@@ -10,7 +10,8 @@ pub(super) struct Text<R> {
     pub(super) input: R,
     /// The string that is being read, from its opening quote on.
     word: Option<Vec<u8>>,
-    /// The last token: a bracket, a comma or a colon, `"` for a string, `0` for a literal. Before the first token it is zero.
+    /// The last token: a bracket, a comma or a colon, `"` for a string, `0` for a literal. Before the first token it is
+    /// zero.
     last: u8,
     /// Whether a string that has ended is a key of a record.
     is_key: bool,
