@@ -160,6 +160,9 @@ impl<'p, T: Algebra, S: Layer<T>> Sweep<'p, T, S> {
     /// Returns [`received`](Self::received) at any layer. At a sign change, the numbers on the lines are already turned. The
     /// half-turn is its own inverse.
     ///
+    /// Only stresses are asked for at a sign change: forces on the floor are not turned. Exact numbers stay exact, floats
+    /// round once more, and the two half-turns may widen intervals by 25/9.
+    ///
     /// # Errors
     /// [`Error::Bug`] if the sphere belongs to another layer.
     pub(crate) fn received_before_turn(&self, site: Site) -> Result<SphereForces<T>, Error> {

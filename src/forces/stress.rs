@@ -61,6 +61,9 @@ impl<'p, T: Algebra> Forces<'p, T> {
 
     /// Iterates over the [`stress`](Self::stress) of the spheres of a part of the pile, in row order.
     ///
+    /// By a sweep, the intervals of forces from above may be 25/9 as wide in a layer at which the sign changes, because
+    /// the half-turn is undone there. They still contain the exact forces.
+    ///
     /// # Errors
     /// As for [`contacts`](Self::contacts).
     ///
