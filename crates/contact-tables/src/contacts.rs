@@ -37,14 +37,14 @@ enum Source<'r> {
 /// Reads the contacts of a file of any kind, which may be compressed by gzip.
 ///
 /// A text is read line by line. The rows of a LAMMPS dump, of a VTK file and of the last of several steps are kept in memory: eight
-/// bytes for each number that is read. Of a VTK file, the whole content is kept too.
+/// bytes for each number that is read. Of a VTK file, the whole content is kept too. [`Format::most_rows`] limits both.
 ///
 /// # Errors
 /// * [`Error::Kind`] for a file of another kind, such as a spreadsheet.
 /// * [`Error::Line`] for a table without the necessary columns, or whose dialect is not clear.
 /// * [`Error::Io`] for errors of the input.
 ///
-/// All other faults are items of the iterator.
+/// All other faults are items of the iterator, such as [`Error::NoStep`] and [`Error::Vtk`].
 ///
 /// # Examples
 /// ```
@@ -60,12 +60,13 @@ enum Source<'r> {
 /// ```
 pub fn read<'r>(input: impl Read + 'r, format: &Format) -> Result<Contacts<'r>, Error> {
     let encoding = format.dialect.encoding;
-    let input = Input::open(input, encoding)?;
+    let most = format.most_bytes();
+    let input = Input::open(input, encoding, most)?;
     let kind = FileKind::of(&input.sample);
     let mut contacts = Contacts {
         kind,
         dialect: None,
-        steps: Steps::new(format.step.clone()),
+        steps: Steps::new(format),
         source: Source::Read(Box::new(None.into_iter())),
     };
     let mut rows = Rows::default();
@@ -87,7 +88,9 @@ pub fn read<'r>(input: impl Read + 'r, format: &Format) -> Result<Contacts<'r>, 
         }
         FileKind::VtkXml | FileKind::VtkLegacy => {
             let open = format.folder.as_deref().map(|folder| {
-                move |name: &str| Input::open(File::open(folder.join(name))?, encoding)?.bytes()
+                move |name: &str| {
+                    Input::open(File::open(folder.join(name))?, encoding, most)?.bytes()
+                }
             });
             let open = open.as_ref().map(|open| open as vtk::Open<'_>);
             // These files have no steps.

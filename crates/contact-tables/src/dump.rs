@@ -175,7 +175,7 @@ fn entries(
         let cells: Vec<&str> = line.text.split_whitespace().collect();
         let row = columns.read(&cells, line.number);
         let row = row.map_err(|fault| fault.at(line.number))?;
-        if let Some(contact) = steps.rows.count(&row, line.number) {
+        if let Some(contact) = steps.count(&row, line.number)? {
             rows.push(&contact)?;
         }
     }

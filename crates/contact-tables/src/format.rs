@@ -19,6 +19,9 @@ pub struct Format {
     pub dialect: DialectOptions,
     /// The step that is read of a file with several. Without it, the last.
     pub step: Option<String>,
+    /// The largest number of rows in a step. A longer table is refused at the first row beyond it, so that a table without
+    /// end takes no more memory than that. Without it, all rows are read.
+    pub most_rows: Option<u64>,
     /// The folder of the file. Files of ParaView such as `.pvtp` name others in it.
     pub folder: Option<PathBuf>,
 }
@@ -38,6 +41,14 @@ impl Format {
             columns,
             ..Self::default()
         }
+    }
+}
+
+impl Format {
+    /// Returns the largest number of bytes of a file that is kept as a whole: 1 GiB, and 1 KiB for each row.
+    pub(crate) fn most_bytes(&self) -> Option<u64> {
+        let rows = self.most_rows?;
+        Some(rows.saturating_mul(1 << 10).saturating_add(1 << 30))
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, Cursor, Read};
 use flate2::bufread::GzDecoder;
 
 use crate::encoding::TextEncoding;
-use crate::error::Error;
+use crate::error::{Error, Fault};
 
 /// The number of bytes that are read before the kind and the dialect of a file are decided.
 const SAMPLE: usize = 1 << 18;
@@ -18,6 +18,8 @@ pub(crate) struct Input<'r> {
     pub(crate) sample: Vec<u8>,
     /// True if the sample is the whole file.
     pub(crate) is_whole: bool,
+    /// The largest number of bytes that are kept as a whole.
+    most: Option<u64>,
     rest: Box<dyn Read + 'r>,
 }
 
@@ -26,10 +28,11 @@ impl<'r> Input<'r> {
     pub(crate) fn open(
         input: impl Read + 'r,
         encoding: Option<TextEncoding>,
+        most: Option<u64>,
     ) -> Result<Self, Error> {
-        let raw = Self::sampled(Box::new(input))?;
+        let raw = Self::sampled(Box::new(input), most)?;
         let source = if raw.sample.starts_with(b"\x1f\x8b") {
-            Self::sampled(Box::new(Members(Some(GzDecoder::new(raw.all())))))?
+            Self::sampled(Box::new(Members(Some(GzDecoder::new(raw.all())))), most)?
         } else {
             raw
         };
@@ -37,17 +40,18 @@ impl<'r> Input<'r> {
             None => Ok(source),
             Some(encoding) => {
                 let text = encoding.decode(&source.bytes()?);
-                Self::sampled(Box::new(Cursor::new(text)))
+                Self::sampled(Box::new(Cursor::new(text)), most)
             }
         }
     }
 
-    fn sampled(mut rest: Box<dyn Read + 'r>) -> Result<Self, Error> {
+    fn sampled(mut rest: Box<dyn Read + 'r>, most: Option<u64>) -> Result<Self, Error> {
         let mut sample = Vec::new();
         (&mut rest).take(SAMPLE as u64).read_to_end(&mut sample)?;
         Ok(Self {
             is_whole: sample.len() < SAMPLE,
             sample,
+            most,
             rest,
         })
     }
@@ -60,8 +64,18 @@ impl<'r> Input<'r> {
 
     /// Returns all bytes in memory.
     pub(crate) fn bytes(self) -> Result<Vec<u8>, Error> {
+        // Without a limit, no file has so many bytes.
+        let most = self.most.unwrap_or(u64::MAX);
         let mut bytes = Vec::new();
-        self.all().read_to_end(&mut bytes)?;
+        self.all()
+            .take(most.saturating_add(1))
+            .read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > most {
+            return Err(Fault::new(format!(
+                "more than {most} bytes of a file that is kept as a whole: write a text in UTF-8, which is read line by line"
+            ))
+            .at(1));
+        }
         Ok(bytes)
     }
 }
@@ -127,7 +141,7 @@ mod tests {
     }
 
     fn all(bytes: &[u8]) -> Vec<u8> {
-        Input::open(bytes, None).unwrap().bytes().unwrap()
+        Input::open(bytes, None, None).unwrap().bytes().unwrap()
     }
 
     #[test]
@@ -151,13 +165,27 @@ mod tests {
             assert!(all(&packed) == bytes);
         }
         let more = [gzip(bytes), b"\n".to_vec()].concat();
-        let read = Input::open(&*more, None).and_then(Input::bytes);
+        let read = Input::open(&*more, None, None).and_then(Input::bytes);
         let said = "there are bytes after the end of the compressed data";
         assert!(matches!(read, Err(Error::Io(error)) if error.to_string() == said));
         let cut = gzip(bytes);
         let cut = cut.get(..cut.len() / 2).unwrap();
-        let read = Input::open(cut, None).and_then(Input::bytes);
+        let read = Input::open(cut, None, None).and_then(Input::bytes);
         assert!(matches!(read, Err(Error::Io(_))));
+    }
+
+    #[test]
+    fn files_without_end_are_not_kept() {
+        let endless = Input::open(io::repeat(b'<'), None, Some(1 << 20)).unwrap();
+        let refused = endless.bytes().unwrap_err().to_string();
+        assert!(
+            refused.contains("more than 1048576 bytes of a file"),
+            "{refused}"
+        );
+        let all = Input::open(&[b'<'; 1 << 10][..], None, Some(1 << 10)).unwrap();
+        assert_eq!(all.bytes().unwrap().len(), 1 << 10);
+        let endless = Input::open(io::repeat(b'1'), Some(TextEncoding::Utf16Le), Some(1 << 20));
+        assert!(endless.is_err());
     }
 
     #[test]

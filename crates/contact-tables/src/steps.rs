@@ -2,8 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use crate::contact::Contact;
 use crate::counts::RowCounts;
 use crate::error::{Error, Fault, shortened};
+use crate::format::Format;
+use crate::header::Row;
 use crate::number::number;
 
 /// The largest number of steps in a table. Each is kept, to refuse one that comes again.
@@ -14,16 +17,19 @@ pub(crate) struct Steps {
     pub(crate) rows: RowCounts,
     /// The step that the user asked for.
     wanted: Option<String>,
+    /// The largest number of rows in a step.
+    most_rows: Option<u64>,
     seen: BTreeSet<String>,
     current: Option<String>,
     has_begun: bool,
 }
 
 impl Steps {
-    pub(crate) fn new(wanted: Option<String>) -> Self {
+    pub(crate) fn new(format: &Format) -> Self {
         Self {
             rows: RowCounts::default(),
-            wanted,
+            wanted: format.step.clone(),
+            most_rows: format.most_rows,
             seen: BTreeSet::new(),
             current: None,
             has_begun: false,
@@ -65,6 +71,19 @@ impl Steps {
             self.rows.begin_step();
         }
         Ok(true)
+    }
+
+    /// Counts a row, and returns it if it is a contact. A row beyond the largest number of rows is refused.
+    pub(crate) fn count(&mut self, row: &Row<'_>, line: u64) -> Result<Option<Contact>, Error> {
+        let contact = self.rows.count(row, line);
+        match self.most_rows.filter(|most| *most < self.rows.used) {
+            None => Ok(contact),
+            Some(most) => Err(Fault::new(format!(
+                "more than {most} rows, the most that are read: leave out pairs that do not touch, or name the column of \
+                 the steps with step=COLUMN"
+            ))
+            .at(line)),
+        }
     }
 
     /// Returns whether a step has begun since the last call, so that earlier rows are discarded.

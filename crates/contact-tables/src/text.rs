@@ -100,7 +100,7 @@ impl<'r> Text<'r> {
                 // A text above the first row is one of units.
                 Row::Text if number < dialect.first_row && self.may_have_units => {}
                 row => {
-                    if let Some(contact) = steps.rows.count(&row, number) {
+                    if let Some(contact) = steps.count(&row, number)? {
                         return Ok(Some(contact));
                     }
                 }

@@ -96,7 +96,7 @@ mod tests {
                 None => Err(std::io::Error::from(std::io::ErrorKind::NotFound).into()),
             }
         };
-        let (mut steps, mut rows) = (Steps::new(None), Rows::default());
+        let (mut steps, mut rows) = (Steps::new(&Format::default()), Rows::default());
         let (first, format) = (files[0].1.as_bytes(), Format::default());
         let read = read(first, &format, Some(&open), &mut steps, &mut rows);
         read.map_err(|error| error.to_string())?;
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn without_access_to_other_files_they_are_named() {
         let whole = pieces("PUnstructuredGrid", &["chains.0.vtu", "chains.1.vtu"]);
-        let (mut steps, mut rows) = (Steps::new(None), Rows::default());
+        let (mut steps, mut rows) = (Steps::new(&Format::default()), Rows::default());
         let format = Format::default();
         let read = read(whole.as_bytes(), &format, None, &mut steps, &mut rows);
         assert_eq!(

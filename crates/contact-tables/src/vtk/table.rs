@@ -88,7 +88,7 @@ pub(super) fn read(
         let row = fields.collect::<Result<Vec<&str>, _>>();
         let row = row.and_then(|fields| header.read(&fields, *line));
         let row = row.map_err(|fault| fault.at(*line))?;
-        if let Some(contact) = steps.rows.count(&row, *line) {
+        if let Some(contact) = steps.count(&row, *line)? {
             rows.push(&contact)?;
         }
     }

@@ -79,7 +79,7 @@ impl Comparison {
     ) -> Result<Self, Refusal> {
         for (entry, measured) in (1..).zip(measured) {
             Interrupt::check()?;
-            ledger.refuse_when_full(entry).map_err(of_entry)?;
+            ledger.count(entry).map_err(of_entry)?;
             let admitted = ledger.admit(&measured, entry);
             admitted.map_err(|fault| Refusal::Entry { entry, fault })?;
         }

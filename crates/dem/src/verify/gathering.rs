@@ -78,7 +78,7 @@ impl<'p> Gathering<'p> {
         };
         let force = row.force.map(|vector| frame.turned(vector));
         let tangential = row.tangential.map(|vector| frame.turned(vector));
-        self.ledger.refuse_when_full(row.line)?;
+        self.ledger.count(row.line)?;
         let admitted = match found {
             Found::Floor { sphere, is_second } => {
                 let force = whole(force, tangential);

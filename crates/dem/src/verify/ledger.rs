@@ -33,6 +33,8 @@ pub(super) struct Ledger<'p> {
     spheres: u64,
     first_on_floor: u64,
     contacts: u64,
+    /// The number of rows.
+    taken: u64,
     /// The rows of pairs of spheres. They are sorted before they are judged.
     rows: Vec<Row>,
     floor: Floor,
@@ -112,6 +114,7 @@ impl<'p> Ledger<'p> {
             spheres: numbered.numbering().sphere_count(),
             first_on_floor: numbered.numbering().first_on_floor(),
             contacts: contacts.ok_or_else(|| bug("contacts that are compared fit in memory"))?,
+            taken: 0,
             rows: Vec::new(),
             floor: Floor::default(),
             repeated: 0,
@@ -173,15 +176,21 @@ impl<'p> Ledger<'p> {
         Ok(())
     }
 
-    /// Refuses a line after more rows than all pairs may have, so that a table without end is refused too. Among so many rows
-    /// one repeats a pair, as in a table of several steps, or pairs without a contact are too many.
-    pub(super) fn refuse_when_full(&mut self, line: u64) -> Result<(), Refusal> {
-        let limit = 2 * (self.contacts + self.limit());
-        if (self.rows.len() as u64) < limit {
+    /// Counts a row. Refuses the first one beyond the largest number, so that a table without end is refused too. Among so
+    /// many rows one repeats a pair, as in a table of several steps, or pairs without a contact are too many.
+    pub(super) fn count(&mut self, line: u64) -> Result<(), Refusal> {
+        let limit = self.most_rows();
+        self.taken += 1;
+        if self.taken <= limit {
             return Ok(());
         }
         self.sort()?;
         Err(Fault::TooMany { limit }.at(line))
+    }
+
+    /// Returns the largest number of rows of a table: two for each pair, and two for each contact with a wall.
+    pub(super) fn most_rows(&self) -> u64 {
+        2 * (self.contacts + 2 * self.limit())
     }
 
     fn is_at_bottom(&self, sphere: u64) -> bool {
@@ -432,7 +441,7 @@ impl<'p> Ledger<'p> {
 impl Ledger<'_> {
     /// Stores a row with the numbers of its spheres.
     pub(super) fn take(&mut self, row: &Contact) -> Result<(), Refusal> {
-        self.refuse_when_full(row.line)?;
+        self.count(row.line)?;
         let ids = numbers(row)?;
         let admitted = if let [Ok(one), Ok(other)] = ids.each(u64::try_from) {
             self.admit(&Measured::of([one, other], row), row.line)

@@ -36,21 +36,15 @@ use cannonpile::{Interrupt, Packing};
 /// ```
 pub fn read(input: impl Read) -> Result<Vec<Measured>, Refusal> {
     let mut all = Vec::new();
-    read_each(input, &Format::default(), |row| {
-        let fault = if all.len() as u64 >= MAX_ENTRIES {
-            let limit = MAX_ENTRIES;
-            Fault::TooMany { limit }
-        } else {
-            let measured = Measured::of(unsigned(row)?, row);
-            // The length of a vector may overflow.
-            if measured.force.is_finite() {
-                all.push(measured);
-                return Ok(());
-            }
+    read_each(input, &Format::default(), MAX_ENTRIES, |row| {
+        let measured = Measured::of(unsigned(row)?, row);
+        // The length of a vector may overflow.
+        if !measured.force.is_finite() {
             let (column, value) = ("force", measured.force);
-            Fault::NotFinite { column, value }
-        };
-        Err(fault.at(row.line))
+            return Err(Fault::NotFinite { column, value }.at(row.line));
+        }
+        all.push(measured);
+        Ok(())
     })?;
     Ok(all)
 }
@@ -340,7 +334,8 @@ impl Reader {
     /// * [`Refusal::Table`] for a file of another kind, such as a spreadsheet, for a VTK file without readable contacts, if the
     ///   wanted step is not there, and for errors of the input. [`Refusal::NoRows`] if no row is a contact of the pile.
     /// * [`Refusal::Line`] for a line that cannot be read, an unknown sphere number, or a position where no spheres touch.
-    /// * [`Refusal::Line`] for a third row of a pair, or a second one in the same order with another force.
+    /// * [`Refusal::Line`] for a third row of a pair, or a second one in the same order with another force. Also for more
+    ///   rows than two for each contact and eighty for each sphere.
     /// * [`Refusal::Elsewhere`] if no frame matches the positions to the pile.
     /// * [`Refusal::Scene`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) for a pile with too many contacts.
     ///   [`Refusal::OutOfRange`] for exact forces outside the normal range of `f64`.
@@ -409,15 +404,17 @@ impl Reader {
         };
         let mut frame = None;
         let format = &self.format;
+        // The ledger refuses one row too many with a better reason than the reader of the file.
+        let most = ledger.most_rows() + 1;
         let read = if let Some(within) = self.within {
             let mut gathering = Gathering::new(ledger, within)?;
-            let read = read_each(input, format, |row| gathering.take(row))?;
+            let read = read_each(input, format, most, |row| gathering.take(row))?;
             let (filled, fit) = gathering.settle()?;
             frame = Some(fit).filter(|frame| *frame != Frame::OWN);
             ledger = filled;
             read
         } else {
-            read_each(input, format, |row| ledger.take(row))?
+            read_each(input, format, most, |row| ledger.take(row))?
         };
         if let Some(floor) = floor {
             let of_floor = self.read_floor(floor, read.step(), &mut ledger);
@@ -465,7 +462,10 @@ impl Reader {
             ..self.format.clone()
         };
         let mut seen = BTreeSet::new();
-        let read = read_each(input, &format, |row| ledger.take_of_floor(row, &mut seen))?;
+        let most = ledger.most_rows();
+        let read = read_each(input, &format, most, |row| {
+            ledger.take_of_floor(row, &mut seen)
+        })?;
         if let (Some(wanted), Some(found)) = (step, read.step())
             && !is_same_step(wanted, found)
         {
@@ -496,13 +496,18 @@ impl Reader {
     }
 }
 
-/// Reads a file, and calls a function with each row.
+/// Reads a file with at most so many rows in a step, and calls a function with each row.
 fn read_each<'r>(
     input: impl Read + 'r,
     format: &Format,
+    most_rows: u64,
     mut take: impl FnMut(&Contact) -> Result<(), Refusal>,
 ) -> Result<Contacts<'r>, Refusal> {
-    let mut contacts = contact_tables::read(input, format)?;
+    let format = Format {
+        most_rows: Some(most_rows),
+        ..format.clone()
+    };
+    let mut contacts = contact_tables::read(input, &format)?;
     for contact in contacts.by_ref() {
         take(&contact?)?;
     }

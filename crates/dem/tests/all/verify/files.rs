@@ -3,6 +3,8 @@
 use cannonpile::Pile;
 use cannonpile_dem::verify::{self, Measured};
 
+use cannonpile_dem::verify::Reader;
+
 use super::{packing, ratio};
 
 #[track_caller]
@@ -314,4 +316,38 @@ fn reading_in_small_pieces_gives_the_same_result() {
         let slow = verify::read(std::io::BufReader::new(Slow(text.as_bytes()))).unwrap();
         assert_eq!(slow, verify::read(text.as_bytes()).unwrap());
     }
+}
+
+/// Four spheres have at most 2·(3 + 2·80) rows.
+#[test]
+fn tables_without_end_are_refused() {
+    let pile = Pile::triangular(2).unwrap();
+    let packing = packing(&pile, ratio(6, 5));
+    let compare = |reader: Reader, begin: &str, again: &str| {
+        let endless = begin.to_owned() + &again.repeat(10_000);
+        let refused = reader.compare(&packing, endless.as_bytes()).unwrap_err();
+        refused.to_string()
+    };
+    let [head, with_steps] = ["id1,id2,force\n", "step,id1,id2,force\n"];
+    let dump = HEAD.replace("\n2\n", "\n10000\n") + "ITEM: ENTRIES id1 id2 force\n";
+    let full = "more than 326 entries: leave out pairs that do not touch";
+    let again = "spheres 1 and 2 are already on line 2";
+    for (begin, row, said) in [
+        (head, "2,0,1\n", full),
+        (with_steps, "7,2,0,1\n", full),
+        (&dump, "2 0 1\n", full),
+        (head, "1,2,1\n", again),
+        (with_steps, "7,1,2,1\n", again),
+    ] {
+        let refused = compare(Reader::new(), begin, row);
+        assert!(refused.contains(said), "{refused}");
+        assert!(refused.starts_with("line "), "{refused}");
+    }
+    // A row without a force may have any position.
+    let by_place = Reader::new().by_place(0.1).unwrap();
+    let refused = compare(by_place, "x,y,z,force\n", "7,7,7,0\n");
+    assert!(
+        refused.starts_with("line 329: more than 327 rows"),
+        "{refused}"
+    );
 }

@@ -397,6 +397,8 @@ fn tables_of_the_floor_are_refused_with_a_reason() {
     // A sphere has one row.
     let twice = floor.clone() + "3,9,9,1.3333333333333333\n";
     assert!(refused(&contacts, &twice).contains("line 6: sphere 3 is in an earlier row too"));
+    let endless = "step,id,fx,fy,fz\n".to_owned() + &"1,1,0,0,0\n".repeat(1000);
+    assert!(refused(&contacts, &endless).contains("line 3: sphere 1 is in an earlier row too"));
     // Contacts may be missing, if the floor was measured.
     let compared = compare("id1,id2,force\n2,3,0\n", &floor)
         .unwrap()
