@@ -49,12 +49,6 @@ pub enum Error {
     Io(io::Error),
 }
 
-impl Error {
-    pub(crate) fn vtk(reason: impl Into<String>) -> Self {
-        Self::Vtk(reason.into())
-    }
-}
-
 /// A fault whose line is not known yet.
 #[derive(Debug)]
 pub(crate) struct Fault {

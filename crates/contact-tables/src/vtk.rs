@@ -6,8 +6,8 @@
 
 mod array;
 mod coding;
-mod collection;
 mod connections;
+mod files;
 mod legacy;
 mod piece;
 mod table;
@@ -15,9 +15,9 @@ mod values;
 mod words;
 mod xml;
 
-pub(crate) use collection::Open;
+pub(crate) use files::Open;
 
-use collection::gather;
+use files::{named, opened, parse};
 use piece::Kind;
 
 use crate::error::Error;
@@ -33,21 +33,32 @@ pub(crate) fn read(
     steps: &mut Steps,
     rows: &mut Rows,
 ) -> Result<(), Error> {
-    let files = gather(bytes, open)?;
+    let document = parse(bytes)?;
+    let files = opened(&document.files, open)?;
+    let mut documents = vec![("", document)];
+    for (name, bytes) in &files {
+        let document = named(name, parse(bytes))?;
+        if !document.files.is_empty() {
+            let reason = "it names other files in turn: give it instead";
+            return named(name, Err(Error::Vtk(reason.into())));
+        }
+        documents.push((name, document));
+    }
     // Beside lines, vertices and points are not rows: they are the spheres.
     let mut kind = Kind::None;
     let mut pieces = Vec::new();
-    for file in &files {
-        for piece in file.pieces()? {
-            let own = file.named(piece.kind())?;
+    for (name, document) in &documents {
+        for piece in &document.pieces {
+            let own = named(name, piece.kind())?;
             kind = kind.max(own);
-            pieces.push((file, own, piece));
+            pieces.push((name, own, piece));
         }
     }
     let mut line = 0;
-    for (file, _, piece) in pieces.iter().filter(|(_, own, _)| *own == kind) {
+    for (name, _, piece) in pieces.iter().filter(|(_, own, _)| *own == kind) {
         if kind >= Kind::Points {
-            file.named(table::read(piece, kind, format, &mut line, steps, rows))?;
+            let read = table::read(piece, kind, format, &mut line, steps, rows);
+            named(name, read)?;
         }
     }
     if line > 0 {
@@ -57,7 +68,7 @@ pub(crate) fn read(
         Kind::None => "no points",
         _ => "no lines and no vertices",
     };
-    Err(Error::vtk(format!(
+    Err(Error::Vtk(format!(
         "the file has {found}: contacts are lines between centres, or points with data"
     )))
 }
@@ -144,6 +155,12 @@ mod tests {
             picture.starts_with("a.vtu: a VTK file of type ImageData without files"),
             "{picture}"
         );
+        let other = line([1, 2], "0.5").replace("'force'", "'power'");
+        let lacks = refused(&[("it.pvtu", &whole), ("a.vtu", &other)]);
+        assert!(
+            lacks.starts_with("line 1: a.vtu: no column force, only"),
+            "{lacks}"
+        );
         for name in [
             "../a.vtu",
             "/data/a.vtu",
@@ -153,7 +170,7 @@ mod tests {
         ] {
             let outside = refused(&[("it.pvtu", &pieces("PPolyData", &[name]))]);
             assert!(
-                outside.contains("is not in the folder of the collection"),
+                outside.contains("is not in the folder of the file that names it"),
                 "{outside}"
             );
         }
@@ -178,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn collections_are_refused() {
+    fn files_that_only_name_others_are_refused() {
         let set = |name: &str| format!("<DataSet timestep='1' file='{name}'/>");
         for (kind, sets) in [
             ("Collection", set("run/a.vtp") + &set("run/b.vtp")),

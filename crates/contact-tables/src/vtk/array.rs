@@ -4,8 +4,7 @@ use std::borrow::Cow;
 
 use super::coding::Coding;
 use super::values::Values;
-use crate::error::Error;
-use crate::error::quoted;
+use crate::error::{Error, Syntax, quoted};
 
 /// An array: its name, the number of components, and its numbers as the file has them.
 pub(super) struct Array<'f> {
@@ -58,10 +57,18 @@ impl Array<'_> {
         }
     }
 
-    /// Returns the numbers of an array of integers.
+    /// Decodes an array of integers.
     pub(super) fn integers(&self, coding: &Coding<'_>) -> Result<Vec<i64>, Error> {
-        let values = self.decode(coding)?.integers();
-        values.ok_or_else(|| self.refused(&format!("{}, but it counts points or cells", self.kind)))
+        self.whole(self.decode(coding)?)
+    }
+
+    /// Returns the numbers of an array of integers.
+    pub(super) fn whole(&self, values: Values) -> Result<Vec<i64>, Error> {
+        let Values::Integers(values) = values else {
+            let refused = Syntax::new(&self.kind, "an integer type such as UInt8 or Int64");
+            return Err(self.refused(&refused.to_string()));
+        };
+        Ok(values)
     }
 
     fn refused(&self, reason: &str) -> Error {

@@ -6,7 +6,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
 
-use crate::error::quoted;
+use crate::error::{Error, Syntax, quoted};
 
 /// The largest size of an array, in bytes.
 const MOST: u64 = 1 << 33;
@@ -40,13 +40,18 @@ impl<'f> Coding<'f> {
     }
 
     /// Sets an attribute of the file.
-    pub(super) fn set(&mut self, key: &str, value: &str) {
+    pub(super) fn set(&mut self, key: &str, value: &str) -> Result<(), Error> {
         match (key, value) {
+            ("byte_order", "LittleEndian") => self.order = Order::Little,
             ("byte_order", "BigEndian") => self.order = Order::Big,
+            ("byte_order", _) => return Err(unknown(key, value, "LittleEndian or BigEndian")),
+            ("header_type", "UInt32") => self.has_long_header = false,
             ("header_type", "UInt64") => self.has_long_header = true,
+            ("header_type", _) => return Err(unknown(key, value, "UInt32 or UInt64")),
             ("compressor", name) => name.clone_into(&mut self.compressor),
             _ => {}
         }
+        Ok(())
     }
 
     /// Sets the appended data: what follows the start tag.
@@ -185,6 +190,11 @@ impl<'f> Coding<'f> {
             ))
         }
     }
+}
+
+/// Returns the error of an attribute with a value that is not read.
+pub(super) fn unknown(attribute: &str, value: &str, expected: &'static str) -> Error {
+    Error::Vtk(format!("{attribute} {}", Syntax::new(value, expected)))
 }
 
 /// Returns memory for an array of so many numbers.

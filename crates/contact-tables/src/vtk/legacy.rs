@@ -26,7 +26,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Piece<'_>, Error> {
         "ASCII" => false,
         "BINARY" => true,
         other => {
-            return Err(Error::vtk(format!(
+            return Err(Error::Vtk(format!(
                 "the third line of a legacy VTK file is ASCII or BINARY, not {}",
                 quoted(other)
             )));
@@ -55,7 +55,7 @@ impl<'f> Legacy<'f> {
                 "POLYDATA" => {}
                 "UNSTRUCTURED_GRID" => self.piece.announce(Section::Cells, 0),
                 other => {
-                    return Err(Error::vtk(format!(
+                    return Err(Error::Vtk(format!(
                         "the data set is {}: contacts are lines or vertices of POLYDATA or UNSTRUCTURED_GRID",
                         quoted(other)
                     )));
@@ -117,7 +117,7 @@ impl<'f> Legacy<'f> {
 
     /// Reads an attribute of the points or cells.
     fn attribute(&mut self, keyword: &str) -> Result<(), Error> {
-        let unknown = || Error::vtk(format!("the keyword {} is unknown", quoted(keyword)));
+        let unknown = || Error::Vtk(format!("the keyword {} is unknown", quoted(keyword)));
         let (section, count) = self.data.ok_or_else(unknown)?;
         if keyword == "COLOR_SCALARS" {
             let name = self.words.name()?;
@@ -147,7 +147,7 @@ impl<'f> Legacy<'f> {
             word = self.words.word()?;
         }
         if !is_table(word) {
-            return Err(Error::vtk(format!(
+            return Err(Error::Vtk(format!(
                 "the scalars {} have no LOOKUP_TABLE",
                 quoted(&name)
             )));
@@ -280,7 +280,7 @@ impl<'f> Legacy<'f> {
             "string" => "string",
             "variant" => "Variant",
             other => {
-                return Err(Error::vtk(format!(
+                return Err(Error::Vtk(format!(
                     "the number type {} is unknown",
                     quoted(other)
                 )));

@@ -100,7 +100,7 @@ impl<'f> Piece<'f> {
     /// Returns the coordinates of the points.
     pub(super) fn points(&self) -> Result<&Array<'f>, Error> {
         let points = self.arrays(Section::Points).first();
-        points.ok_or_else(|| Error::Vtk("a piece has no array of points".to_owned()))
+        points.ok_or_else(|| Error::Vtk("a piece has no array of points".into()))
     }
 
     /// Returns the number of points, or of the cells of a section.
@@ -140,7 +140,7 @@ impl<'f> Piece<'f> {
     /// Returns the number of the things with this data, and their name in errors.
     pub(super) fn things(&self, data: Section) -> Result<(usize, String), Error> {
         if data != Section::CellData {
-            return Ok((self.count(Section::Points)?, "points".to_owned()));
+            return Ok((self.count(Section::Points)?, "points".into()));
         }
         let count = self.cell_count()?;
         let mut parts = Vec::new();

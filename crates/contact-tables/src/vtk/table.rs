@@ -7,6 +7,7 @@
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::array::Array;
 use super::piece::{Kind, Piece, Row, Section, outside};
 use super::values::Values;
 use crate::error::{Error, Fault};
@@ -53,18 +54,23 @@ pub(super) fn read(
         let is_of_rows = kind == Kind::Points || column.section == Section::CellData;
         is_of_rows && column.name == GHOSTS
     });
-    let needed = header.columns().filter_map(|column| columns.get(column));
-    for column in needed.chain(ghosts) {
+    let ghosts = ghosts.map(|column| {
+        let (flags, _) = values(piece, column)?;
+        Ok::<_, Error>((column, array(piece, column)?.whole(flags)?))
+    });
+    let ghosts = ghosts.transpose()?;
+    for column in header.columns().filter_map(|column| columns.get(column)) {
         if let Entry::Vacant(place) = decoded.entry((column.section, column.array)) {
             place.insert(values(piece, column)?);
         }
     }
-    let array = |column: &Column| decoded.get(&(column.section, column.array));
-    let arrays: Vec<_> = columns.iter().map(array).collect();
+    let decoded = |column: &Column| decoded.get(&(column.section, column.array));
+    let arrays: Vec<_> = columns.iter().map(decoded).collect();
     let (mut text, mut ends) = (String::new(), Vec::new());
     for row in piece.rows(kind, *line)? {
         *line += 1;
-        let flags = ghosts.and_then(|column| array(column)?.0.integer(column.place(&row, 1)?));
+        let flags = ghosts.as_ref();
+        let flags = flags.and_then(|(column, flags)| flags.get(column.place(&row, 1)?));
         if flags.is_some_and(|flags| flags & 1 == 1) {
             steps.rows.leave_ghost();
             continue;
@@ -148,13 +154,18 @@ fn columns(piece: &Piece<'_>, kind: Kind) -> Result<Vec<Column>, Error> {
     Ok(columns)
 }
 
-/// Returns the numbers of the array of a column, and their number for each point or cell.
-fn values(piece: &Piece<'_>, column: &Column) -> Result<(Values, usize), Error> {
+/// Returns the array of a column.
+fn array<'p>(piece: &'p Piece<'_>, column: &Column) -> Result<&'p Array<'p>, Error> {
     let array = match column.section {
         Section::Points => Some(piece.points()?),
         section => piece.arrays(section).get(column.array),
     };
-    let array = array.ok_or_else(|| Fault::bug("a column has an array").at(1))?;
+    array.ok_or_else(|| Fault::bug("a column has an array").at(1))
+}
+
+/// Returns the numbers of the array of a column, and their number for each point or cell.
+fn values(piece: &Piece<'_>, column: &Column) -> Result<(Values, usize), Error> {
+    let array = array(piece, column)?;
     let (count, things) = piece.things(column.section)?;
     let values = array.decode_for(&piece.coding, count, &things)?;
     Ok((values, array.components))

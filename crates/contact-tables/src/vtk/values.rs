@@ -39,22 +39,6 @@ impl Values {
         Some(())
     }
 
-    /// Returns the numbers if their type is an integer type.
-    pub(super) fn integers(self) -> Option<Vec<i64>> {
-        match self {
-            Self::Integers(values) => Some(values),
-            Self::Floats(_) | Self::Texts(_) => None,
-        }
-    }
-
-    /// Returns the n-th number if the type is an integer type.
-    pub(super) fn integer(&self, n: usize) -> Option<i64> {
-        match self {
-            Self::Integers(values) => values.get(n).copied(),
-            Self::Floats(_) | Self::Texts(_) => None,
-        }
-    }
-
     /// Returns the texts of bytes in which a zero ends each text.
     fn texts(bytes: &[u8]) -> Self {
         let texts = bytes

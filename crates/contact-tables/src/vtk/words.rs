@@ -94,5 +94,5 @@ pub(super) fn number(word: &[u8]) -> Result<usize, Error> {
 
 /// Returns the error of a file that is not complete.
 pub(super) fn cut() -> Error {
-    Error::Vtk("the file ends within an array or a keyword: it is not complete".to_owned())
+    Error::Vtk("the file ends within an array or a keyword: it is not complete".into())
 }

@@ -1,4 +1,4 @@
-//! VTK's XML: the arrays of the pieces, and the files that a collection names.
+//! VTK's XML: the arrays of the pieces, and the files that are named in place of pieces.
 //!
 //! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>
 
@@ -10,10 +10,11 @@ use quick_xml::escape::{resolve_predefined_entity, unescape};
 use quick_xml::events::{BytesRef, BytesStart, Event};
 
 use super::array::{Array, Source};
-use super::coding::Coding;
+use super::coding::{Coding, unknown};
 use super::piece::{Piece, Section};
 use crate::error::Error;
 use crate::error::quoted;
+use crate::number::whole_number;
 
 /// The content of a file.
 #[derive(Default)]
@@ -50,15 +51,18 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Document<'_>, Error> {
                 match name.as_ref() {
                     _ if depth == 1 => document.kind = root(&tag, &mut coding)?,
                     b"AppendedData" => {
-                        let is_raw = attributes(&tag)?
-                            .get("encoding")
-                            .is_some_and(|it| it == "raw");
+                        let attributes = attributes(&tag)?;
+                        let is_raw = match attributes.get("encoding").map(String::as_str) {
+                            Some("raw") => true,
+                            None | Some("base64") => false,
+                            Some(other) => return Err(unknown("encoding", other, "raw or base64")),
+                        };
                         let begin = usize::try_from(xml.buffer_position()).unwrap_or(usize::MAX);
                         // Raw data are not XML, and nothing of interest follows them.
                         coding.append(bytes.get(begin..).unwrap_or_default(), is_raw);
                         break;
                     }
-                    b"Piece" | b"DataSet" => document.begin(&attributes(&tag)?),
+                    b"Piece" | b"DataSet" => document.begin(&attributes(&tag)?)?,
                     // Texts are in the element Array.
                     b"DataArray" | b"Array" => {
                         if let (Some((section, _)), None) = (section, &array) {
@@ -80,7 +84,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Document<'_>, Error> {
                 if let Some(array) = array.take_if(|array| array.depth == depth)
                     && let Some(piece) = document.pieces.last_mut()
                 {
-                    piece.push(array.section, array.close());
+                    piece.push(array.section, array.close()?);
                 }
                 section = section.filter(|(_, begin)| *begin != depth);
                 depth = depth.saturating_sub(1);
@@ -90,11 +94,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Document<'_>, Error> {
             Event::GeneralRef(name) => append(array.as_mut(), depth, character(&name)?),
             Event::DocType(name) if starts_with_html(&name) => return Err(html()),
             Event::Eof if document.kind.is_empty() => {
-                return Err(Error::vtk("the file has no element VTKFile"));
+                return Err(Error::Vtk("the file has no element VTKFile".into()));
             }
             Event::Eof if depth > 0 => {
-                return Err(Error::vtk(
-                    "the file ends within its XML: it is not complete",
+                return Err(Error::Vtk(
+                    "the file ends within its XML: it is not complete".into(),
                 ));
             }
             Event::Eof => break,
@@ -109,74 +113,87 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Document<'_>, Error> {
 
 impl Document<'_> {
     /// Begins a piece, or adds the file that is named in its place.
-    fn begin(&mut self, attributes: &BTreeMap<String, String>) {
+    fn begin(&mut self, attributes: &BTreeMap<String, String>) -> Result<(), Error> {
         let source = attributes.get("Source").or_else(|| attributes.get("file"));
         if let Some(path) = source {
             self.files.push(path.clone());
-            return;
+            return Ok(());
         }
-        let cells: &[_] = match &*self.kind {
-            "PolyData" => &[
-                ("NumberOfVerts", Section::Verts),
-                ("NumberOfLines", Section::Lines),
-                ("NumberOfPolys", Section::Polys),
-                ("NumberOfStrips", Section::Strips),
-            ],
-            _ => &[("NumberOfCells", Section::Cells)],
-        };
-        let mut piece = Piece::default();
-        for (key, section) in [("NumberOfPoints", Section::Points)].iter().chain(cells) {
-            let count = attributes
-                .get(*key)
-                .and_then(|count| count.trim().parse().ok());
-            if let Some(count) = count {
-                piece.announce(*section, count);
+        let (is_grid, mut piece) = (self.kind == "UnstructuredGrid", Piece::default());
+        for (key, count) in attributes {
+            let Some(counted) = key.strip_prefix("NumberOf") else {
+                continue;
+            };
+            let section = COUNTED.iter().find(|(name, _)| *name == counted);
+            let (_, section) = section.ok_or_else(|| unknown("the attribute", key, COUNTS))?;
+            // Kratos writes 12.0.
+            let number = whole_number(count.trim()).and_then(|count| usize::try_from(count).ok());
+            let number = number.ok_or_else(|| unknown(key, count, "a number such as 12"))?;
+            // Some programs write the number of cells of poly data, too.
+            if *section == Section::Points || is_grid == (*section == Section::Cells) {
+                piece.announce(*section, number);
             }
         }
         self.pieces.push(piece);
+        Ok(())
     }
 }
 
 impl<'f> OpenArray<'f> {
-    fn close(mut self) -> Array<'f> {
-        let count = self.attributes.get("NumberOfComponents");
-        let source = match self.attributes.get("format").map(String::as_str) {
-            Some("appended") => {
-                let offset = self.attributes.get("offset");
-                Source::Appended(offset.and_then(|offset| offset.trim().parse().ok()))
-            }
-            Some("binary") => Source::Base64(self.content),
-            _ => Source::Text(self.content),
-        };
-        let components = match self.section {
-            Section::Points => 3,
-            // Like VTK: one component, unless a number is given.
-            _ => count
-                .and_then(|count| count.trim().parse().ok())
-                .unwrap_or(1),
-        };
+    fn close(mut self) -> Result<Array<'f>, Error> {
         let mut text = |key| self.attributes.remove(key).unwrap_or_default();
-        Array {
-            name: text("Name"),
-            kind: text("type"),
+        let (name, kind, offset) = (text("Name"), text("type"), text("offset"));
+        let refused = |key, value: &str, expected| {
+            let array = format!("array {}: {key}", quoted(&name));
+            Err(unknown(&array, value, expected))
+        };
+        let source = match &*text("format") {
+            "appended" => Source::Appended(offset.trim().parse().ok()),
+            "binary" => Source::Base64(self.content),
+            "" | "ascii" => Source::Text(self.content),
+            other => return refused("format", other, "ascii, binary or appended"),
+        };
+        let components = match (self.section, &*text("NumberOfComponents")) {
+            (Section::Points, _) => 3,
+            // Like VTK: one component, unless a number is given.
+            (_, "") => 1,
+            (_, count) => match count.trim().parse() {
+                Ok(count) => count,
+                Err(_) => return refused("NumberOfComponents", count, "a number such as 3"),
+            },
+        };
+        Ok(Array {
+            name,
             components,
+            kind,
             source,
-        }
+        })
     }
 }
+
+/// The sections whose points or cells an attribute `NumberOf…` of a piece counts.
+const COUNTED: [(&str, Section); 6] = [
+    ("Points", Section::Points),
+    ("Verts", Section::Verts),
+    ("Lines", Section::Lines),
+    ("Polys", Section::Polys),
+    ("Strips", Section::Strips),
+    ("Cells", Section::Cells),
+];
+
+const COUNTS: &str = "one of a piece: NumberOfPoints, NumberOfVerts, NumberOfLines, NumberOfPolys, NumberOfStrips or \
+                      NumberOfCells";
 
 impl Section {
     fn named(tag: &[u8]) -> Option<Self> {
         match tag {
-            b"Points" => Some(Self::Points),
-            b"Verts" => Some(Self::Verts),
-            b"Lines" => Some(Self::Lines),
-            b"Polys" => Some(Self::Polys),
-            b"Strips" => Some(Self::Strips),
-            b"Cells" => Some(Self::Cells),
             b"PointData" => Some(Self::PointData),
             b"CellData" => Some(Self::CellData),
-            _ => None,
+            _ => {
+                let mut cells = COUNTED.iter();
+                let found = cells.find(|(name, _)| name.as_bytes() == tag);
+                found.map(|(_, section)| *section)
+            }
         }
     }
 }
@@ -216,10 +233,10 @@ fn root(tag: &BytesStart<'_>, coding: &mut Coding<'_>) -> Result<String, Error> 
     if name.as_ref() != b"VTKFile" {
         let is_spreadsheet = String::from_utf8_lossy(tag).contains("spreadsheet");
         return Err(if is_spreadsheet {
-            Error::vtk("an XML spreadsheet: save it as csv")
+            Error::Vtk("an XML spreadsheet: save it as csv".into())
         } else {
             let name = String::from_utf8_lossy(name.as_ref());
-            Error::vtk(format!(
+            Error::Vtk(format!(
                 "XML with the root element {}, not a VTK file",
                 quoted(&name)
             ))
@@ -227,10 +244,10 @@ fn root(tag: &BytesStart<'_>, coding: &mut Coding<'_>) -> Result<String, Error> 
     }
     let mut attributes = attributes(tag)?;
     for (key, value) in &attributes {
-        coding.set(key, value);
+        coding.set(key, value)?;
     }
     let kind = attributes.remove("type").filter(|kind| !kind.is_empty());
-    kind.ok_or_else(|| Error::vtk("the element VTKFile has no type, such as PolyData"))
+    kind.ok_or_else(|| Error::Vtk("the element VTKFile has no type, such as PolyData".into()))
 }
 
 fn attributes(tag: &BytesStart<'_>) -> Result<BTreeMap<String, String>, Error> {
@@ -251,9 +268,9 @@ fn starts_with_html(text: &[u8]) -> bool {
 }
 
 fn html() -> Error {
-    Error::vtk("an HTML page: save the table that it shows, or the file that it links to")
+    Error::Vtk("an HTML page: save the table that it shows, or the file that it links to".into())
 }
 
 fn invalid(error: &impl ToString) -> Error {
-    Error::vtk(format!("not valid XML: {}", quoted(&error.to_string())))
+    Error::Vtk(format!("not valid XML: {}", quoted(&error.to_string())))
 }

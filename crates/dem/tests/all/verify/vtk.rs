@@ -10,8 +10,6 @@ use super::{packing, ratio};
 
 /// Files of the kinds in which readers found faults, each with the expected result.
 mod cases;
-/// The rules of VTK, one small file each.
-mod rules;
 
 fn read(reader: &Reader, file: &[u8]) -> Result<Compared, Refusal> {
     let pile = Pile::triangular(3).unwrap();

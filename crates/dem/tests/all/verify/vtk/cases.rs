@@ -33,7 +33,7 @@ fn files_with_the_exact_forces_are_accepted() {
             0.0,
         ),
         (
-            "a piece of a collection",
+            "a piece of a parallel file",
             table!("pvtp/part0.vtp"),
             by_place(),
             0.0,

@@ -1,7 +1,6 @@
-use cannonpile_dem::verify;
-use cannonpile_dem::verify::{Compared, Reader, Refusal};
+//! The rules of VTK, one small file each.
 
-use super::read;
+use contact_tables::{Columns, Force, Format, Identity, RowCounts};
 
 const FORCE: &str = "0.46225016352102427 0.46225016352102427 0.46225016352102427";
 const POINTS: &str = "0 0 1 1 0 0 -1 1 0 -1 -1 0";
@@ -51,11 +50,37 @@ fn poly_data(attributes: &str, others: &str, force: &str) -> String {
     )
 }
 
+/// The forces of the rows that are read.
+fn read(file: &[u8], format: &Format) -> Result<(Vec<f64>, RowCounts), String> {
+    let mut forces = Vec::new();
+    let mut contacts = contact_tables::read(file, format).map_err(|error| error.to_string())?;
+    for row in contacts.by_ref() {
+        match row.map_err(|error| error.to_string())?.force {
+            Force::Along(force) | Force::Both(force, _) => forces.push(force),
+            Force::Vector(vector) => panic!("{vector:?}"),
+        }
+    }
+    Ok((forces, contacts.rows().clone()))
+}
+
+/// The forces of the rows that are read by the numbers of the spheres.
+fn forces(file: &str) -> Result<Vec<f64>, String> {
+    Ok(read(file.as_bytes(), &Format::default())?.0)
+}
+
 /// Returns the number of rows that are read, and what was left out.
 fn by_columns(file: &[u8], columns: &str) -> Result<(u64, String), String> {
-    let reader = Reader::new().with_columns(columns.parse().unwrap());
-    let read = read(&reader, file).map_err(|refusal| refusal.to_string())?;
-    Ok((read.rows.used, read.rows.to_string()))
+    let (_, rows) = read(file, &Format::of(columns.parse::<Columns>().unwrap()))?;
+    Ok((rows.used, rows.to_string()))
+}
+
+/// Returns why a file is refused, if spheres are known by position.
+fn by_place(file: &str) -> String {
+    let format = Format {
+        identity: Identity::Places,
+        ..Format::default()
+    };
+    read(file.as_bytes(), &format).unwrap_err()
 }
 
 #[test]
@@ -104,16 +129,6 @@ fn xml_in_utf_16_is_read() {
         let read = by_columns(&bytes, "force=force");
         assert_eq!(read, Ok((3, String::new())));
     }
-}
-
-/// The forces of the rows that are read by the numbers of the spheres.
-fn forces(file: &str) -> Result<Vec<f64>, String> {
-    let reading = verify::read(file.as_bytes()).map_err(|refusal| refusal.to_string())?;
-    Ok(reading.iter().map(|entry| entry.force).collect())
-}
-
-fn by_place(file: &str) -> Result<Compared, Refusal> {
-    read(&Reader::new().by_place(0.1).unwrap(), file.as_bytes())
 }
 
 #[test]
@@ -199,7 +214,7 @@ fn what_is_not_needed_is_not_decoded() {
     // The points are not needed with the numbers of spheres.
     let without_points = with_others.replace(POINTS, "1 2");
     assert_eq!(forces(&without_points), forces(&plain));
-    let refused = by_place(&without_points).unwrap_err().to_string();
+    let refused = by_place(&without_points);
     assert_eq!(
         refused,
         "array Points: 2 values for 0 points of 3 components"
@@ -212,10 +227,7 @@ fn what_is_not_needed_is_not_decoded() {
         ("gone", "array gone: it is not in the appended data"),
         ("cut", "array cut: it is cut off"),
     ] {
-        let reader = Reader::new().with_columns(format!("force={name}").parse().unwrap());
-        let refused = read(&reader, with_others.as_bytes())
-            .unwrap_err()
-            .to_string();
+        let refused = by_columns(with_others.as_bytes(), &format!("force={name}")).unwrap_err();
         assert!(refused.starts_with(said), "{refused}");
     }
 }
@@ -285,7 +297,7 @@ fn points_outside_the_file_are_refused() {
         let file = poly_data("", "", FORCE)
             .replace("0 1 0 2 0 3", connectivity)
             .replace("2 4 6", offsets);
-        let refused = by_place(&file).unwrap_err().to_string();
+        let refused = by_place(&file);
         assert_eq!(refused, "line 3: it has a point that is not in the file");
     }
     let three = poly_data("", "", FORCE).replace("2 4 6", "3 4 6");
@@ -296,7 +308,7 @@ fn points_outside_the_file_are_refused() {
     let floats = poly_data("", "", FORCE).replace("Int64", "Float64");
     assert_eq!(
         forces(&floats),
-        Err("array connectivity: Float64, but it counts points or cells".into())
+        Err("array connectivity: 'Float64' is not an integer type such as UInt8 or Int64".into())
     );
 }
 
@@ -438,8 +450,7 @@ fn legacy_files_are_read_by_their_rules() {
     ] {
         assert!(text.contains(from));
         let file = text.replace(from, to);
-        let read = by_place(&file).map(|_| ());
-        let refused = read.unwrap_err().to_string();
+        let refused = by_place(&file);
         assert!(refused.contains(said), "{refused}, not {said}");
     }
 }
@@ -458,7 +469,63 @@ fn every_component_of_an_array_is_a_column() {
             lines()
         ),
     );
-    let reader = Reader::new().with_columns("id1=ids_0,id2=ids_1".parse().unwrap());
-    let read = read(&reader, whole.as_bytes()).unwrap();
-    assert_eq!(read.comparison.matched(), 3);
+    let read = by_columns(whole.as_bytes(), "id1=ids_0,id2=ids_1");
+    assert_eq!(read, Ok((3, String::new())));
+}
+
+#[test]
+fn attributes_with_other_values_are_refused() {
+    let counts = "NumberOfPoints, NumberOfVerts, NumberOfLines, NumberOfPolys, NumberOfStrips or NumberOfCells";
+    let plain = poly_data("NumberOfPoints=\"4.0\" NumberOfCells=\"3\"", "", FORCE);
+    let plain = plain.replace(
+        "<VTKFile",
+        "<VTKFile byte_order=\"LittleEndian\" header_type=\"UInt32\"",
+    );
+    assert_eq!(forces(&plain).unwrap().len(), 3);
+    for (from, to, said) in [
+        (
+            "LittleEndian",
+            "MiddleEndian",
+            "byte_order 'MiddleEndian' is not LittleEndian or BigEndian".to_owned(),
+        ),
+        (
+            "\"UInt32\"",
+            "\"UInt16\"",
+            "header_type 'UInt16' is not UInt32 or UInt64".to_owned(),
+        ),
+        (
+            "NumberOfPoints",
+            "NumberOfPoint",
+            format!("the attribute 'NumberOfPoint' is not one of a piece: {counts}"),
+        ),
+        (
+            "NumberOfPoints=\"4.0\"",
+            "NumberOfPoints=\"four\"",
+            "NumberOfPoints 'four' is not a number such as 12".to_owned(),
+        ),
+        (
+            "Name=\"force\" format=\"ascii\"",
+            "Name=\"force\" format=\"hex\"",
+            "array force: format 'hex' is not ascii, binary or appended".to_owned(),
+        ),
+        (
+            "Name=\"force\"",
+            "Name=\"force\" NumberOfComponents=\"one\"",
+            "array force: NumberOfComponents 'one' is not a number such as 3".to_owned(),
+        ),
+        (
+            "</VTKFile>",
+            "<AppendedData encoding=\"hex\">_</AppendedData></VTKFile>",
+            "encoding 'hex' is not raw or base64".to_owned(),
+        ),
+        (
+            "<CellData>",
+            "<CellData><DataArray type=\"Float32\" Name=\"vtkGhostType\">0 1 0</DataArray>",
+            "array vtkGhostType: 'Float32' is not an integer type such as UInt8 or Int64"
+                .to_owned(),
+        ),
+    ] {
+        assert!(plain.contains(from), "{from}");
+        assert_eq!(forces(&plain.replacen(from, to, 1)), Err(said));
+    }
 }
