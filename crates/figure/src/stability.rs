@@ -21,7 +21,7 @@ use crate::Error;
 /// degrees, at the spacing of the subject. A dashed circle shows the margin.
 ///
 /// # Errors
-/// The errors of [`tilts`].
+/// The errors of [`tilts`]. [`Error::Core`] for tilts beyond the range of `f64`.
 ///
 /// # Examples
 /// ```
@@ -39,7 +39,8 @@ pub fn stability(subject: &Subject<'_>) -> Result<Figure, Error> {
     let pile = subject.pile();
     let tilts = tilts(pile)?;
     let plane = Plane::of(subject)?;
-    let corners: Vec<Point> = tilts.corners.iter().map(|tilt| plane.point(tilt)).collect();
+    let corners = tilts.corners.iter().map(|tilt| plane.point(tilt));
+    let corners: Vec<Point> = corners.collect::<Result<_, _>>()?;
     let farthest = corners.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
     let reach = if farthest > 0.0 { 1.3 * farthest } else { 1.0 };
     let panel = Panel::around([[-reach, -reach], [reach, reach]], 0.0, [0.0; 2], AXES);
@@ -102,13 +103,13 @@ impl Plane {
         let square = square_across(pile.sin_phi());
         Ok(Self {
             tan: subject.tan()?,
-            across: float(&square).sqrt(),
+            across: float(&square)?.sqrt(),
             square,
         })
     }
 
-    fn point(&self, [x, y]: &Tilt) -> Point {
-        [float(x), self.across * float(y)]
+    fn point(&self, [x, y]: &Tilt) -> Result<Point, Error> {
+        Ok([float(x)?, self.across * float(y)?])
     }
 
     /// Returns |t|².
@@ -143,8 +144,8 @@ fn of_margin(
     margin: &Margin,
 ) -> Result<Vec<Glyph>, Error> {
     let centre = panel.at([0.0; 2]);
-    let radius = panel.length(float(&margin.squared).sqrt());
-    let at = panel.at(plane.point(&margin.tilt));
+    let radius = panel.length(float(&margin.squared)?.sqrt());
+    let at = panel.at(plane.point(&margin.tilt)?);
     let circle_of = ring(centre, radius, ORANGE, 1.5).class("margin");
     let circle_of = circle_of.set("stroke-dasharray", "6 4");
     let mut glyphs = vec![
@@ -195,9 +196,9 @@ fn degrees(angle: f64) -> String {
 }
 
 /// Returns a rational as a float for a position on the page.
-fn float(number: &BigRational) -> f64 {
-    // A position outside the floats is beyond every page.
-    number.to_f64().unwrap_or(f64::MAX)
+fn float(number: &BigRational) -> Result<f64, Error> {
+    let float = number.to_f64().filter(|float| float.is_finite());
+    float.ok_or_else(|| cannonpile::Error::overflow("a tilt of gravity", "f64").into())
 }
 
 #[cfg(test)]
@@ -205,6 +206,20 @@ mod tests {
     use cannonpile::Pile;
 
     use super::*;
+
+    #[test]
+    fn tilts_beyond_the_floats_are_refused() {
+        let pile = Pile::discs(2).unwrap();
+        let far = BigRational::from_integer(num_bigint::BigInt::from(10).pow(400));
+        let load = cannonpile::Load {
+            down: far,
+            ..cannonpile::Load::zero()
+        };
+        let pile = pile.with_load(Site::APEX, load).unwrap();
+        let subject = Subject::of_pile(&pile, &"6/5".parse().unwrap()).unwrap();
+        let refused = stability(&subject).unwrap_err().to_string();
+        assert!(refused.contains("a tilt of gravity"), "{refused}");
+    }
 
     #[test]
     fn unstable_piles_and_discs_have_figures() {

@@ -127,6 +127,7 @@ pub(super) fn short(number: f64) -> f64 {
 
 fn rounded(number: f64, decimals: usize) -> f64 {
     let text = format!("{number:.decimals$e}");
+    // Every float that is written can be read.
     text.parse().unwrap_or(number)
 }
 

@@ -411,6 +411,7 @@ impl<'p> Ledger<'p> {
         let is_whole = contacts as u64 == self.contacts && contacts <= MAX_FITTED && !is_rough;
         let stiffness = is_whole
             .then(|| soft::stiffness(self.numbered.packing(), &relative_errors, with_vectors));
+        let stiffness = stiffness.transpose()?.flatten();
         let floor = self
             .floor
             .judge(&self.numbered, tally.largest_force(), is_rough)?;
@@ -420,7 +421,7 @@ impl<'p> Ledger<'p> {
         let mut judged = tally.close(relative_errors, &strays, self.numbered.numbering());
         judged.friction = friction;
         judged.off_floor = floor.missing;
-        (judged.loads, judged.stiffness) = (loads, stiffness.flatten());
+        (judged.loads, judged.stiffness) = (loads, stiffness);
         for (repeated, are_shares) in repeated.into_iter().zip([are_shares, floor.are_shares]) {
             *(if are_shares {
                 &mut judged.shares

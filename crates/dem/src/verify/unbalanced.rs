@@ -323,7 +323,8 @@ impl<'p> Balance<'p> {
 
     /// Returns the residual forces, and what they have in common.
     pub(super) fn close(self) -> Result<(Unbalanced, Loads), Error> {
-        let spheres = self.spheres.get(..self.above).unwrap_or_default();
+        let spheres = self.spheres.get(..self.above);
+        let spheres = spheres.ok_or_else(|| bug("every sphere above the floor has a sum"))?;
         let loads = Loads::of(&self.pile, spheres, self.unit)?;
         let forces = spheres.iter().map(|sphere| sphere.force);
         let forces = forces.collect();
@@ -377,8 +378,28 @@ fn place(spheres: &mut [Sphere], id: u64) -> Option<&mut Sphere> {
     spheres.get_mut(usize::try_from(id.checked_sub(1)?).ok()?)
 }
 
-/// Returns the exact value of a float.
-pub(super) fn float(x: f64) -> Cell {
+/// Returns the exact value of a float. A sum of large forces may be infinite, or not a number.
+fn float(x: f64) -> Cell {
     let exact = BigRational::from_float(x);
-    exact.map_or(Cell::Word("inf".into()), Cell::from)
+    exact.map_or_else(|| Cell::Word(x.to_string().into()), Cell::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{FileFormat, NumberFormat};
+
+    #[test]
+    fn infinite_sums_keep_their_sign() {
+        let pile = cannonpile::Pile::triangular(2).unwrap();
+        let packing = Packing::new(&pile, &"1.2".parse().unwrap()).unwrap();
+        let forces = vec![[f64::NEG_INFINITY, f64::NAN, 0.5]];
+        let (unbalanced, mut csv) = (Unbalanced { forces }, Vec::new());
+        let table = unbalanced.table(&packing).unwrap();
+        table
+            .write(FileFormat::Csv, NumberFormat::F64, &mut csv)
+            .unwrap();
+        let csv = String::from_utf8(csv).unwrap();
+        assert!(csv.ends_with("\n1,0,0,0,-inf,NaN,0.5,NaN\n"), "{csv}");
+    }
 }
