@@ -41,7 +41,8 @@ enum Source<'r> {
 ///
 /// # Errors
 /// * [`Error::Kind`] for a file of another kind, such as a spreadsheet.
-/// * [`Error::Line`] for a table without the necessary columns, or whose dialect is not clear.
+/// * [`Error::NoColumn`] for a text without the necessary columns, and [`Error::Line`] if its dialect is not clear.
+/// * [`Error::NoStep`] for a VTK file, if a step is asked for: these files have none.
 /// * [`Error::Io`] for errors of the input.
 ///
 /// All other faults are items of the iterator, such as [`Error::NoStep`] and [`Error::Vtk`].

@@ -103,6 +103,8 @@ pub struct Compared {
     pub dialect: Option<Dialect>,
     /// The number of rows that were compared, and of those that were left out.
     pub rows: RowCounts,
+    /// The same of the table of the floor, if there was one.
+    pub floor_rows: Option<RowCounts>,
     /// The number of steps of the file; 0 if it names none.
     pub steps: u64,
     /// The step that was read.
@@ -416,10 +418,11 @@ impl Reader {
         } else {
             read_each(input, format, most, |row| ledger.take(row))?
         };
-        if let Some(floor) = floor {
+        let floor_rows = floor.map(|floor| {
             let of_floor = self.read_floor(floor, read.step(), &mut ledger);
-            of_floor.map_err(|refusal| Refusal::FloorTable(Box::new(refusal)))?;
-        }
+            of_floor.map_err(|refusal| Refusal::FloorTable(Box::new(refusal)))
+        });
+        let floor_rows = floor_rows.transpose()?;
         let rows = read.rows().clone();
         let walls = rows.other_kinds - rows.ghosts + ledger.unjudged_walls();
         let (judged, unbalanced) = ledger.judge()?;
@@ -435,6 +438,7 @@ impl Reader {
             kind: read.kind,
             dialect: read.dialect.clone(),
             rows,
+            floor_rows,
             steps: read.steps(),
             step: read.step().map(str::to_owned),
             walls,
@@ -442,13 +446,14 @@ impl Reader {
         })
     }
 
-    /// Reads a table with the force of the floor on each sphere. The columns have their usual names.
+    /// Reads a table with the force of the floor on each sphere, and returns the number of its rows. The columns have their
+    /// usual names.
     fn read_floor(
         &self,
         input: impl Read,
         step: Option<&str>,
         ledger: &mut Ledger<'_>,
-    ) -> Result<(), Refusal> {
+    ) -> Result<RowCounts, Refusal> {
         if self.within.is_some() {
             return Err(Refusal::FloorByPlace);
         }
@@ -476,7 +481,7 @@ impl Reader {
             let reason = read.rows().why_none();
             return Err(Refusal::NoRows { reason });
         }
-        Ok(())
+        Ok(read.rows().clone())
     }
 
     /// Returns why no contact was matched, with the likeliest remedy.

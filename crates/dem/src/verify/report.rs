@@ -1,6 +1,6 @@
 //! A comparison as a table and as json.
 
-use crate::Each;
+use core::iter;
 use std::io::Write;
 
 use serde_json::{Map, Value, json};
@@ -10,6 +10,7 @@ use super::difference::{Difference, Extra};
 use super::finding::{counted, short};
 use super::read::Compared;
 use super::shown::{Entries, Shown, cells, object};
+use crate::Each;
 use crate::table::{Cell, FileFormat, NumberFormat, Table, WriteError};
 use cannonpile::lattice::{Dimension, Site};
 
@@ -26,7 +27,8 @@ const SHOWN: usize = 5;
 /// rows, left_out, table, step`. On a rough floor, `tangential, tangential_error, floor_friction_error, net_moment` come after
 /// `floor_error`. An error of nothing is missing, in json `null`.
 ///
-/// The json is an array of one object with the same keys, `reason`, `shares`, `scene_file` and `largest_force`. Its entry `worst` is an object, and the
+/// The json is an array of one object with the same keys, `reason`, `shares`, `not_judged`, `scene_file` and
+/// `largest_force`. Its entry `worst` is an object, and the
 /// arrays `missing_contacts` and `extra_pairs` have at most a thousand entries. An infinite error is `inf`, in json
 /// `null`. On a rough floor, an object `friction` has those of tangential forces, and `net_moment_sphere`.
 ///
@@ -328,8 +330,18 @@ impl<'c> Report<'c> {
     }
 
     fn left_out(self) -> Option<String> {
-        let rows = self.file?.rows.to_string();
-        Some(rows).filter(|rows| !rows.is_empty())
+        let file = self.file?;
+        let of_floor = file
+            .floor_rows
+            .iter()
+            .map(|rows| ("table of the floor: ", rows));
+        let tables = iter::once(("", &file.rows)).chain(of_floor);
+        let parts = tables.map(|(table, rows)| (table, rows.to_string()));
+        let parts = parts.filter(|(_, rows)| !rows.is_empty());
+        let parts: Vec<_> = parts
+            .map(|(table, rows)| table.to_owned() + &rows)
+            .collect();
+        Some(parts.join("; ")).filter(|parts| !parts.is_empty())
     }
 
     /// Returns the dialect of a text table, or the kind of another file.

@@ -3,7 +3,8 @@
 use cannonpile::shape::Selection;
 use cannonpile::{Load, Packing, Pile};
 use cannonpile_dem::scene::Floor;
-use cannonpile_dem::verify::{Comparison, Finding, FindingKind, Measured, Reader, Refusal};
+use cannonpile_dem::table::FileFormat;
+use cannonpile_dem::verify::{Comparison, Finding, FindingKind, Measured, Reader, Refusal, Report};
 use cannonpile_stability::RoughPacking;
 use num_rational::BigRational;
 
@@ -399,6 +400,20 @@ fn tables_of_the_floor_are_refused_with_a_reason() {
     assert!(refused(&contacts, &twice).contains("line 6: sphere 3 is in an earlier row too"));
     let endless = "step,id,fx,fy,fz\n".to_owned() + &"1,1,0,0,0\n".repeat(1000);
     assert!(refused(&contacts, &endless).contains("line 3: sphere 1 is in an earlier row too"));
+    // Rows of the floor that are left out are reported.
+    let with_steps = floor.replace('\n', "\n5,").replace("id,", "step,id,");
+    let with_steps = with_steps.trim_end_matches("5,").to_owned();
+    let earlier = with_steps.replace("step,id,fx,fy,fz\n5,", "step,id,fx,fy,fz\n4,9,9,9,9\n5,");
+    let compared = compare(&contacts, &(earlier + "#5,1,0,0,0\nend\n")).unwrap();
+    let rows = compared.floor_rows.as_ref().unwrap();
+    assert_eq!((rows.used, compared.rows.other_steps), (4, 0));
+    let mut text = Vec::new();
+    Report::of_file(&compared, 1e-9)
+        .write(FileFormat::Text, &mut text)
+        .unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let said = "left_out: table of the floor: 1 row of another step, 1 comment that looks like a row, 1 line of text (line 8)";
+    assert!(text.contains(said), "{text}");
     // Contacts may be missing, if the floor was measured.
     let compared = compare("id1,id2,force\n2,3,0\n", &floor)
         .unwrap()
