@@ -123,19 +123,19 @@ impl RowCounts {
         }
         if self.commented > 0 {
             return format!(
-                "no row was read, but {} lines are comments that look like rows: --comment none reads them",
+                "no row was read, but {} lines are comments that look like rows: set comment to none to read them",
                 self.commented
             );
         }
         if self.other_steps > 0 {
             return format!(
-                "the step has no rows, but other steps have {}: --step names one of them",
+                "the step has no rows, but other steps have {}: choose one of them as step",
                 self.other_steps
             );
         }
         if let Some(line) = self.first_text {
             return format!(
-                "no row was read, only text from line {line} on: are the columns those of --columns?"
+                "no row was read, only text from line {line} on: are these the columns of the table?"
             );
         }
         "the file has no rows: did the simulation write any contact?".to_owned()

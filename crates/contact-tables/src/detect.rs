@@ -195,7 +195,7 @@ impl Cutting {
         }
         match unclear {
             Some((line, number)) if !are_certain => Err(Fault::new(format!(
-                "the comma of {} is a decimal sign or separates thousands: use --decimal comma, or leave out such commas",
+                "the comma of {} is a decimal sign or separates thousands: set decimal to comma, or leave out such commas",
                 shortened(&[number])
             ))
             .at(line)),
@@ -211,7 +211,7 @@ impl Cutting {
             Some((line, number)) if rows.all(|row| row.is_some()) => {
                 let number = shortened(&[&number]);
                 Err(Fault::new(format!(
-                    "{number} is two cells or one number with a decimal comma: use --decimal point, or separate cells by \
+                    "{number} is two cells or one number with a decimal comma: set decimal to point, or separate cells by \
                      semicolons"
                 ))
                 .at(line))

@@ -110,7 +110,8 @@ impl fmt::Display for Error {
                 f,
                 "no step {wanted}: {}",
                 if found.is_empty() {
-                    "the file has no steps, so leave out --step, or name their column by step=COLUMN".to_owned()
+                    "the file has no steps, so ask for none, or name their column by step=COLUMN"
+                        .to_owned()
                 } else {
                     format!("the steps are {found}")
                 }

@@ -485,7 +485,7 @@ fn usual(quantity: Quantity, names: &[&str]) -> Result<Vec<(usize, f64)>, Fault>
 fn twice(quantity: Quantity, first: &str, second: &str) -> Fault {
     let name = quantity.name();
     Fault::new(format!(
-        "two columns, {} and {}, for {name}: choose one with --columns {name}=#N",
+        "two columns, {} and {}, for {name}: choose one by its number, {name}=#N",
         shortened(&[first]),
         shortened(&[second])
     ))

@@ -49,7 +49,7 @@ impl Steps {
         if is_new {
             if self.seen.len() >= MOST_STEPS {
                 return Err(Fault::new(format!(
-                    "more than {MOST_STEPS} steps: name the column of the steps with step=COLUMN in --columns"
+                    "more than {MOST_STEPS} steps: name the column of the steps with step=COLUMN"
                 )));
             }
             self.seen.insert(step.to_owned());
@@ -60,7 +60,7 @@ impl Steps {
             }
         } else if !is_new {
             return Err(Fault::new(format!(
-                "step {} again, after another step: --step reads one of them",
+                "step {} again, after another step: choose one of them as step",
                 shortened(&[step])
             )));
         }

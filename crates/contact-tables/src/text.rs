@@ -110,7 +110,7 @@ impl<'r> Text<'r> {
     }
 }
 
-const QUOTE: &str = "a quote does not end on its line: close it, use --quote none, or begin the line with # if it is not a row";
+const QUOTE: &str = "a quote does not end on its line: close it, set quote to none, or begin the line with # if it is not a row";
 
 /// The line of a quote that is still open.
 struct OpenQuote(Option<u64>);

@@ -85,7 +85,7 @@ fn unusable_headers_are_rejected() {
         ),
         (
             "ID1,Id1,id2,force\n",
-            "line 1: two columns, 'ID1' and 'Id1', for id1: choose one with --columns id1=#N".into(),
+            "line 1: two columns, 'ID1' and 'Id1', for id1: choose one by its number, id1=#N".into(),
         ),
         (
             "id1,id2,fx,fz\n",
@@ -93,11 +93,11 @@ fn unusable_headers_are_rejected() {
         ),
         (
             "id1,id2,force,force\n",
-            "line 1: two columns, 'force' and 'force', for force: choose one with --columns force=#N".into(),
+            "line 1: two columns, 'force' and 'force', for force: choose one by its number, force=#N".into(),
         ),
         (
             "id1,patom1,id2,force\n",
-            "line 1: two columns, 'id1' and 'patom1', for id1: choose one with --columns id1=#N".into(),
+            "line 1: two columns, 'id1' and 'patom1', for id1: choose one by its number, id1=#N".into(),
         ),
     ] {
         assert_eq!(refused(text), want);
@@ -171,7 +171,7 @@ fn errors_in_csv_tables_name_the_line() {
         ),
         (
             "id1,id2,force\n1,\"2,1\n",
-            "line 2: a quote does not end on its line: close it, use --quote none, or begin the line with # if it is not a row"
+            "line 2: a quote does not end on its line: close it, set quote to none, or begin the line with # if it is not a row"
                 .into(),
         ),
     ] {

@@ -353,10 +353,23 @@ impl Verify {
             refusal @ Refusal::Table(Error::NoColumn { .. }) if is_measured => {
                 format!("{name}, {refusal}; --columns can name them")
             }
-            refusal => format!("{name}, {refusal}"),
+            refusal => {
+                let options = OPTIONS.iter().filter(|_| is_measured);
+                options.fold(format!("{name}, {refusal}"), |text, (said, option)| {
+                    text.replace(said, option)
+                })
+            }
         })
     }
 }
+
+/// The remedies of the reader of tables, and the options for them.
+const OPTIONS: [(&str, &str); 4] = [
+    ("set quote to", "use --quote"),
+    ("set comment to", "use --comment"),
+    ("set decimal to", "use --decimal"),
+    ("as step", "with --step"),
+];
 
 /// Reads a file or stdin and compares it. For json output the result includes the source of the data.
 fn compare(

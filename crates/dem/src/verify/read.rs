@@ -202,7 +202,7 @@ impl Reader {
     /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
     /// let table = "id1,id2,force\n#1,2,0.46\n#1,3,0.46\n#1,4,0.46\n";
     /// let error = Reader::new().compare(&packing, table.as_bytes()).unwrap_err();
-    /// assert!(error.to_string().ends_with("3 lines are comments that look like rows: --comment none reads them"));
+    /// assert!(error.to_string().ends_with("3 lines are comments that look like rows: set comment to none to read them"));
     /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
     /// ```
     #[must_use]

@@ -132,6 +132,23 @@ fn refinement_has_an_order() {
 }
 
 #[test]
+fn errors_in_tables_name_the_option() {
+    for (table, said) in [
+        ("id1,id2,force\n1,\"2,1\n", "use --quote none"),
+        ("id1;id2;force\n1;2;1,234\n", "use --decimal comma"),
+        ("id1,id2,force\n#1,2,1\n#1,3,1\n", "use --comment none"),
+        (
+            "step,id1,id2,force\n1,1,2,1\n2,1,2,1\n1,1,3,1\n",
+            "choose one of them with --step",
+        ),
+    ] {
+        let folder = Folder::with("in.csv", table);
+        let line = folder.refusal("verify in.csv --layers 2 --spacing 1.2");
+        assert!(line.contains(said), "{line}");
+    }
+}
+
+#[test]
 fn usage_errors_of_tables() {
     let exported = Folder::exported();
     for (options, said) in [

@@ -233,7 +233,7 @@ fn commas_that_may_separate_thousands_are_refused() {
     let unclear = ["5", "1,234", "12,345"];
     assert_eq!(
         refused(&Reader::new(), &table(unclear)),
-        "line 3: the comma of '1,234' is a decimal sign or separates thousands: use --decimal comma, or leave out such commas"
+        "line 3: the comma of '1,234' is a decimal sign or separates thousands: set decimal to comma, or leave out such commas"
     );
     let dialect = |decimal_comma| DialectOptions {
         decimal_comma: Some(decimal_comma),
@@ -272,7 +272,7 @@ fn numbers_that_may_be_cut_at_decimal_commas_are_refused() {
         assert_eq!(
             line,
             format!(
-                "line 1: {said} is two cells or one number with a decimal comma: use --decimal point, or separate cells by semicolons"
+                "line 1: {said} is two cells or one number with a decimal comma: set decimal to point, or separate cells by semicolons"
             )
         );
         let comma = DialectOptions {
