@@ -1,6 +1,6 @@
 //! A scalar of one's own: dual numbers, which carry a derivative through every formula.
 //!
-//! A dual number a + a′ε has ε² = 0. The forty lines below are all that the library needs. Every query then returns a force
+//! A dual number a + a′ε has ε² = 0. The 45 lines below are all that the library needs. Every query then returns a force
 //! and its derivative, here by a load and by the tilt of gravity. Run it with `cargo run --example own_scalar`.
 
 use core::num::NonZeroI64;

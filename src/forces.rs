@@ -78,6 +78,7 @@ use terms::{horizontal, of_direction};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Forces<'p, T: Algebra> {
+    /// The given pile. The pile in `lines` also has the rational loads of these forces.
     pile: &'p Pile,
     lines: LineForces<'p, T>,
     /// The requested method, or `None` for the cheapest.
@@ -387,7 +388,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     /// ```
     pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
         let site = self.pile.shape().check(site)?;
-        let floor = self.floor();
+        let floor = self.bottom();
         if site.k != floor {
             return Err(Error::NotOnFloor { site, floor });
         }
@@ -478,7 +479,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
         let run = self.check_contact(site, direction)?;
         if run.index == 0 && self.method != Some(Method::Sweep) {
             self.meter.visit(1);
-            return Ok((self.lines.closed(run, site, direction), 0));
+            return Ok((self.lines.closed(&run, site, direction), 0));
         }
         // A sign change at the sphere mixes its three lines.
         let wanted = if run.index > 0 && run.from == site.k {
@@ -505,18 +506,15 @@ impl<'p, T: Algebra> Forces<'p, T> {
 
     /// Returns the run of the step below the site, or an error unless the pile has the site above its bottom layer.
     #[inline]
-    fn check_off_the_floor(&self, site: Site) -> Result<&'p RunLayers, Error> {
+    fn check_off_the_floor(&self, site: Site) -> Result<RunLayers, Error> {
         let shape = self.lines.shape;
         let Site { k, .. } = shape.check(site)?;
-        match shape.run_below(k) {
-            Some(run) => Ok(run),
-            None => Err(Error::OnFloor { site }),
-        }
+        shape.run_below(k).ok_or(Error::OnFloor { site })
     }
 
     /// Returns the run of the step below the site, or an error unless a sphere lies below it in `direction`.
     #[inline]
-    fn check_contact(&self, site: Site, direction: Direction) -> Result<&'p RunLayers, Error> {
+    fn check_contact(&self, site: Site, direction: Direction) -> Result<RunLayers, Error> {
         let run = self.check_off_the_floor(site)?;
         if self
             .lines
@@ -667,7 +665,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     }
 
     /// Returns the index of the bottom layer.
-    fn floor(&self) -> i128 {
+    fn bottom(&self) -> i128 {
         self.pile.layers() - 1
     }
 }

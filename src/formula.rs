@@ -17,7 +17,7 @@
 //! | (6), (7) | increments of one sphere | [`increments`] |
 //! | (8) | force after N spheres of a line | [`force`] |
 //! | (9) | N, in the paper's pile and in any other | [`count::above`](crate::lattice::count::above), [`count::bounds_above`](crate::lattice::count::bounds_above) |
-//! | (10) | force of a contact | [`transmitted`], with [`force`] for the spheres above |
+//! | (10) | forces from above, and what a sphere adds to them | [`force`], [`transmitted`] |
 //! | (11)–(14) | force on the floor | [`support_load`] |
 //! | | transfer across a sign change, not in the paper | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
 //! | | horizontal contacts, not in the paper | [`pushed`], [`beside`] |

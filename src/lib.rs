@@ -90,7 +90,7 @@
 //!
 //! # Map
 //! The table lists the modules roughly in the order in which they build on each other. No files use each other in a
-//! circle, which CI checks.
+//! circle, which CI checks. `Error` is excepted: its variants name types of all modules.
 //!
 //! | layer | module | contents |
 //! |---|---|---|

@@ -8,8 +8,7 @@
 //! | [`Algebra`] | conversion from rationals, division by a nonzero machine integer, other divisions if they exist | all scalar types |
 //! | [`Field`] | division by any nonzero value | all but [`Polynomial`] |
 //!
-//! Signs and bounds are not theirs: `<` is asked of the types that have it. The traits
-//! do not require `num_traits::{Num, Float}` or `Copy`, and the formulas contain no float literal. So a polynomial and
+//! The traits have no order: a function that needs `<` asks for `PartialOrd`. They do not require `num_traits::{Num, Float}` or `Copy`, and the formulas contain no float literal. So a polynomial and
 //! an `f64` use the same function bodies.
 //!
 //! | scalar | exactness | use |
@@ -219,7 +218,8 @@ pub enum Exactness {
 /// * [`from_integer`](Self::from_integer) respects `+`, `*` and 1.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a ring of cannonpile",
-    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring` and `Algebra`"
+    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring` and `Algebra`",
+    note = "implement `Add<&Self>`, `Sub<&Self>` and `Mul<&Self>`; `cannonpile::ring!` adds the other operators"
 )]
 pub trait Ring:
     Clone
@@ -364,6 +364,10 @@ mod numerators {
     use super::{Algebra, Ring, tripled_half_turn};
 
     /// The numerators of a scalar type `T`.
+    #[diagnostic::on_unimplemented(
+        message = "`{Self}` cannot be the numerators of `{T}`",
+        note = "write `type Numerator = Self;`"
+    )]
     pub trait Numerators<T>: Ring {
         /// Whether these are integers, so that a sign change multiplies the denominator by 3.
         const ARE_INTEGERS: bool;

@@ -52,7 +52,7 @@ pub struct Shape {
     dimension: Dimension,
     stacking: Stacking,
     /// The runs of the stacking, from the top.
-    stretches: Vec<RunLayers>,
+    runs: Vec<RunLayers>,
     /// The total numbers of steps.
     whole: Steps,
     anchor: Anchor,
@@ -215,22 +215,22 @@ impl Shape {
 
     fn new(dimension: Dimension, stacking: Stacking, anchor: Anchor) -> Self {
         let (mut from, mut above) = (0, Steps::default());
-        let stretch = |(index, Run { sign, steps }): (usize, Run)| {
-            let stretch = RunLayers {
+        let run = |(index, Run { sign, steps }): (usize, Run)| {
+            let run = RunLayers {
                 index,
                 sign,
                 from,
                 to: from + steps,
                 above,
             };
-            (from, above) = (stretch.to, above.and(sign, steps));
-            stretch
+            (from, above) = (run.to, above.and(sign, steps));
+            run
         };
-        let stretches = stacking.runs().enumerate().map(stretch).collect();
+        let runs = stacking.runs().enumerate().map(run).collect();
         Self {
             dimension,
             stacking,
-            stretches,
+            runs,
             whole: above,
             anchor,
         }

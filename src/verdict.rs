@@ -262,7 +262,7 @@ impl Pile {
         let shape = self.shape();
         let falls = |sign| self.ordinary(sign).iter().any(Signed::is_negative);
         let falls = [Sign::Plus, Sign::Minus].each(|sign| (sign, falls(sign)));
-        let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
+        let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.run(run));
         let layers = runs.flat_map(|run| {
             let begin = (run.index > 0).then_some(run.from);
             let falls = falls.contains(&(run.sign, true)) && run.to - 1 > run.from;
@@ -317,7 +317,7 @@ impl Pile {
         let directions = self.dimension().directions();
         // Every line through the top layer begins there, and some line of each direction begins in each layer inside a run.
         let layers = |sign| {
-            let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
+            let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.run(run));
             let runs = runs.filter(move |run| run.sign == sign);
             let layers = runs.flat_map(|run| run.from + i128::from(run.index > 0)..run.to);
             layers.take_while(|k| *k < floor)
@@ -567,7 +567,7 @@ mod tests {
             for stacking in ["++++", "----", "++--+--", "-++"] {
                 let top = top.parse().unwrap();
                 let shape = Shape::under(top, stacking.parse().unwrap()).unwrap();
-                for run in (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run)) {
+                for run in (0..=shape.stacking().changes()).filter_map(|run| shape.run(run)) {
                     for k in run.from + i128::from(run.index > 0)..run.to {
                         for direction in Direction::ALL {
                             let sites = shape.rows(Selection::Layer(k)).unwrap().flatten();

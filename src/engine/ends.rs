@@ -32,7 +32,7 @@ impl<T: Algebra> LineForces<'_, T> {
     pub(crate) fn most_ends_of_pieces(&self, k: i128) -> Result<BigUint, Error> {
         let region = self.shape.layer(k)?;
         let rows = BigUint::from((region.y().end() - region.y().start() + 1).unsigned_abs());
-        let starts = match self.shape.stretch_to(k) {
+        let starts = match self.shape.run_to(k) {
             Some(run) if run.index > 0 => self.shape.layer(run.from)?.site_count(),
             _ => BigUint::ZERO,
         };
@@ -47,7 +47,7 @@ impl<T: Algebra> LineForces<'_, T> {
         &self,
         k: i128,
     ) -> Result<impl Iterator<Item = (i128, Vec<[i128; 2]>)> + use<'_, T>, Error> {
-        let run = self.shape.stretch_to(k);
+        let run = self.shape.run_to(k);
         let special = self.ends_of_extras(k, run);
         let rows = self.shape.layer(k)?.rows(k);
         Ok(rows.map(move |row| {

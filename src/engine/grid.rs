@@ -156,7 +156,7 @@ impl<'p> Grid<'p> {
         if from >= to {
             return Ok(None);
         }
-        let run = self.shape.stretch_to(from + 1);
+        let run = self.shape.run_to(from + 1);
         let run = run.ok_or_else(|| bug("a run leads to every layer below the top"))?;
         let k = run.to.min(to);
         let pass = Pass {

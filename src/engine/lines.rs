@@ -294,8 +294,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
     fn add(&mut self, forces: Vec<Own<T::Numerator>>) {
         let (mut extras, mut loads) = (Vec::new(), Vec::new());
         for Own { site, lines, load } in forces {
-            let run_below = self.shape.stretch_to(site.k + 1);
-            if let Some(run) = run_below.filter(|run| site.k < run.to) {
+            if let Some(run) = self.shape.run_below(site.k) {
                 for (direction, own) in Direction::ALL.into_iter().zip(lines) {
                     let place = (Line::through(site, direction, &run), site.k);
                     extras.push((place, own));
@@ -356,6 +355,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
     pub(crate) fn closed(&self, run: &RunLayers, site: Site, direction: Direction) -> T::Numerator {
         let Site { i, j, k } = site;
         let above = self.shape.spheres_above(run, k, [i, j])[direction.index()];
+        // The force below a sphere is that from above on its support, which has one sphere more on the line.
         let [i, j] = start_of([i, j], direction, run.sign, -1);
         let below = Site { i, j, k: k + 1 };
         self.counted(run, below, direction, above + 1)
@@ -393,7 +393,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
 
     /// Returns the increments of a sphere in the run below it, less those of an ordinary weight.
     pub(crate) fn extra(&self, site: Site) -> [T::Numerator; 3] {
-        let Some(run) = self.shape.stretch_to(site.k + 1) else {
+        let Some(run) = self.shape.run_to(site.k + 1) else {
             return Direction::ALL.each(|_| T::Numerator::zero());
         };
         Direction::ALL.each(|direction| {
@@ -456,7 +456,7 @@ impl<'p, T: Algebra> LineForces<'p, T> {
         above: SphereForces<T>,
         meter: Meter<'_>,
     ) -> SphereForces<T> {
-        let Some(run) = self.shape.stretch_to(site.k + 1) else {
+        let Some(run) = self.shape.run_to(site.k + 1) else {
             return above;
         };
         let received = if run.index > above.changes {

@@ -214,11 +214,11 @@ impl<T: Algebra> LineForces<'_, T> {
         let most = BigUint::from(MAX_NODES);
         let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());
         let mut above = BigUint::zero();
-        let mut run = self.shape.stretch_to(last).filter(|run| run.index > 0);
-        while let (Some(stretch), true) = (run, above <= most) {
-            level = (level * 3_u32).min(self.shape.layer(stretch.from)?.site_count());
+        let mut run = self.shape.run_to(last).filter(|run| run.index > 0);
+        while let (Some(lowest), true) = (run, above <= most) {
+            level = (level * 3_u32).min(self.shape.layer(lowest.from)?.site_count());
             above += &level;
-            run = self.shape.stretch(stretch.index - 1);
+            run = self.shape.run(lowest.index - 1);
             run = run.filter(|run| run.index > 0);
         }
         if above > most {

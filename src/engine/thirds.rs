@@ -86,8 +86,8 @@ impl<'p> Grid<'p> {
 
     fn window(shape: &'p Shape, end: i128, first: i128) -> Result<Self, Error> {
         let mut last = end;
-        if let Some(run) = shape.stretch_to(first + 1) {
-            let within = |index| shape.stretch(index).filter(|run| run.to - first <= LAYERS);
+        if let Some(run) = shape.run_to(first + 1) {
+            let within = |index| shape.run(index).filter(|run| run.to - first <= LAYERS);
             let more = (run.index + 1..).map_while(within);
             last = more.fold(run.to, |_, run| run.to).min(end);
         }

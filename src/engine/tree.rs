@@ -49,7 +49,7 @@ const BYTES_A_NODE: usize = 256;
 
 /// A level of a tree: spheres of one layer whose forces from above are needed, sorted and distinct.
 struct Level {
-    stretch: RunLayers,
+    run: RunLayers,
     k: i128,
     sites: Vec<[i128; 2]>,
     /// The lines whose forces are needed.
@@ -92,7 +92,7 @@ fn levels(
     let mut levels = Vec::new();
     let (mut k, mut sites, mut wanted) = (k, sites.to_vec(), wanted);
     let mut nodes = 0;
-    while let (Some(stretch), false) = (shape.stretch_to(k), sites.is_empty()) {
+    while let (Some(run), false) = (shape.run_to(k), sites.is_empty()) {
         check_interrupt()?;
         sites = distinct(sites);
         nodes += sites.len();
@@ -106,24 +106,24 @@ fn levels(
         }
         // Lines of one direction start at sorted places.
         let mut starts = [(); 3].each(|()| Vec::new());
-        if stretch.index > 0 {
+        if run.index > 0 {
             for site in &sites {
-                let counts = shape.spheres_above(&stretch, k, *site);
+                let counts = shape.spheres_above(&run, k, *site);
                 let lines = Direction::ALL.into_iter().zip(counts).zip(&mut starts);
                 for ((direction, count), starts) in lines {
-                    if count == k - stretch.from && wanted.includes(direction) {
-                        starts.push(start_of(*site, direction, stretch.sign, count));
+                    if count == k - run.from && wanted.includes(direction) {
+                        starts.push(start_of(*site, direction, run.sign, count));
                     }
                 }
             }
         }
         levels.push(Level {
-            stretch,
+            run,
             k,
             sites,
             wanted,
         });
-        (k, sites, wanted) = (stretch.from, starts.concat(), LineSelection::All);
+        (k, sites, wanted) = (run.from, starts.concat(), LineSelection::All);
     }
     Ok(levels)
 }
@@ -140,7 +140,7 @@ impl<T: Algebra> LineForces<'_, T> {
         meter: Meter<'_>,
     ) -> Result<SphereForces<T>, Error> {
         let (k, place) = (site.k, [site.i, site.j]);
-        let run = self.shape.stretch_to(k);
+        let run = self.shape.run_to(k);
         // Without a sign change above, the tree has no level.
         let forces = match run {
             Some(run) if run.index > 0 => {
@@ -193,7 +193,7 @@ impl<T: Algebra> LineForces<'_, T> {
             let missing = || bug("the last level of a tree has every sphere asked for");
             Ok(SphereForces {
                 forces: forces.ok_or_else(missing)?,
-                changes: level.stretch.index,
+                changes: level.run.index,
             })
         };
         sites.iter().map(of_site).collect()
@@ -207,7 +207,7 @@ impl<T: Algebra> LineForces<'_, T> {
         starts: &[[i128; 2]],
         turned: &[[T::Numerator; 3]],
     ) -> Result<Vec<[T::Numerator; 3]>, Error> {
-        let (run, k) = (&level.stretch, level.k);
+        let (run, k) = (&level.run, level.k);
         let unit = self.power(run.index);
         let mut forces = Vec::with_capacity(level.sites.len());
         for &[i, j] in &level.sites {

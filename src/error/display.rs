@@ -78,7 +78,7 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::RegionTooLarge { region } => write!(
                 f,
-                "the region {region} reaches beyond +-10^{}: use a smaller one, or fewer layers",
+                "the region {region} reaches or grows beyond +-10^{}: use a smaller one, or fewer layers",
                 MAX_LAYERS.ilog10()
             ),
             Error::RegionSide { given } => write!(
@@ -87,7 +87,10 @@ impl fmt::Display for Whole<'_> {
                 MAX_LAYERS.ilog10()
             ),
             Error::RunLength { given } => {
-                write!(f, "a run cannot have {given} steps: use a positive number")
+                write!(
+                    f,
+                    "a run cannot have {given} steps: use 0 or a positive number"
+                )
             }
             Error::TooManyRuns { limit } => write!(
                 f,

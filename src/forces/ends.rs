@@ -31,7 +31,7 @@ impl Forces<'_, BigRational> {
         mut visit: impl FnMut(&Vector<BigInt>),
     ) -> Result<BigInt, Error> {
         const MOST: u64 = 100_000_000;
-        let (lines, floor) = (&self.lines, self.floor());
+        let (lines, floor) = (&self.lines, self.bottom());
         let shape = lines.shape;
         let unit = lines.floor_unit(shape.changes_above(floor));
         let mut visit = |site, above: &SphereForces<BigRational>| {
@@ -102,8 +102,8 @@ impl Forces<'_, BigRational> {
     /// last sign change, so the tree of the middle sphere there stands for all of them.
     fn trees_of_base(&self) -> Result<BigUint, Error> {
         let shape = self.lines.shape;
-        let floor = self.floor();
-        let Some(run) = shape.stretch_to(floor) else {
+        let floor = self.bottom();
+        let Some(run) = shape.run_to(floor) else {
             return Ok(BigUint::ZERO);
         };
         let region = shape.layer(run.from)?;
@@ -126,7 +126,7 @@ impl Forces<'_, BigRational> {
         above: impl Fn(&[[i128; 2]]) -> Result<Vec<SphereForces<BigRational>>, Error>,
         visit: &mut impl FnMut(Site, &SphereForces<BigRational>),
     ) -> Result<(), Error> {
-        let k = self.floor();
+        let k = self.bottom();
         for (_, row) in self.lines.ends_of_pieces(k)? {
             check_interrupt()?;
             for ([i, j], above) in row.iter().zip(above(&row)?) {
@@ -144,7 +144,7 @@ impl Forces<'_, BigRational> {
     ) -> Result<(), Error> {
         // Symmetric images have the same normal force and the same magnitude of shear, so one part is enough.
         let mut last = None;
-        for site in sweep.part().rows(self.floor()).flatten() {
+        for site in sweep.part().rows(self.bottom()).flatten() {
             check_interrupt()?;
             // On a uniform base most spheres are extreme, so repeated values are skipped.
             let is_repeated = match last {

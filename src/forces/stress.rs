@@ -51,7 +51,7 @@ impl<'p, T: Algebra> Forces<'p, T> {
     pub fn stress(&self, site: Site) -> Result<[T; 6], Error> {
         let lines = &self.lines;
         let above = self.received(self.pile.shape().check(site)?, LineSelection::All)?;
-        let below = (site.k != self.floor()).then(|| {
+        let below = (site.k != self.bottom()).then(|| {
             let above = above.clone();
             lines.contacts(lines.to_below(site, above, self.meter))
         });

@@ -45,7 +45,7 @@ impl Forces<'_, BigRational> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn sum_of_contacts(&self, part: Selection) -> Result<BigRational, Error> {
-        let (lines, floor) = (&self.lines, self.floor());
+        let (lines, floor) = (&self.lines, self.bottom());
         let layers = match part {
             Selection::All => 0..floor,
             Selection::Layer(k) => {
@@ -101,7 +101,7 @@ impl Forces<'_, BigRational> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn sum_on_floor(&self, part: Selection) -> Result<[BigRational; 3], Error> {
-        let (lines, floor) = (&self.lines, self.floor());
+        let (lines, floor) = (&self.lines, self.bottom());
         if let Selection::One(site) = part {
             let force = self.on_floor(site)?;
             return Ok([force.normal, force.shear_x, force.shear_y]);
@@ -134,7 +134,7 @@ impl LineForces<'_, BigRational> {
     ) -> ([BigInt; 3], usize) {
         let mut sums = [(); 3].each(|()| BigInt::zero());
         let mut changes = 0;
-        let runs = (0..).map_while(|run| self.shape.stretch(run));
+        let runs = (0..).map_while(|run| self.shape.run(run));
         for run in runs.take_while(|run| run.from < layers.end) {
             if run.index > changes {
                 sums = half_turn::<BigRational>(&sums);

@@ -65,7 +65,7 @@ impl Shape {
 
     /// Returns the first layer of the next piece after layer `k`.
     fn end_of_piece(&self, k: i128) -> i128 {
-        let Some(RunLayers { sign, to, .. }) = self.stretch_to(k + 1) else {
+        let Some(RunLayers { sign, to, .. }) = self.run_to(k + 1) else {
             return k + 1;
         };
         let (Anchor::Base(_), Some(bottom)) = (self.anchor, self.region(to)) else {

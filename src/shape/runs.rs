@@ -6,19 +6,17 @@ use crate::lattice::Sign;
 impl Shape {
     /// Returns the index of the run whose steps lead down to layer k, or `None` for the top layer.
     #[inline]
-    fn run_to(&self, k: i128) -> Option<usize> {
-        if let [_] = *self.stretches {
+    fn index_of_run_to(&self, k: i128) -> Option<usize> {
+        if let [_] = *self.runs {
             return (k > 0).then_some(0);
         }
-        self.stretches
-            .partition_point(|stretch| stretch.from < k)
-            .checked_sub(1)
+        self.runs.partition_point(|run| run.from < k).checked_sub(1)
     }
 
     /// Returns the steps from the top to layer k.
     #[inline]
     pub(super) fn steps_to(&self, k: i128) -> Steps {
-        match self.stretch_to(k) {
+        match self.run_to(k) {
             Some(run) => run.above.and(run.sign, k - run.from),
             None => Steps::default(),
         }
@@ -43,21 +41,21 @@ impl Shape {
 
     /// Returns the run whose steps lead down to layer k, or `None` for the top layer.
     #[inline]
-    pub(crate) fn stretch_to(&self, k: i128) -> Option<RunLayers> {
-        self.stretch(self.run_to(k)?)
+    pub(crate) fn run_to(&self, k: i128) -> Option<RunLayers> {
+        self.run(self.index_of_run_to(k)?)
     }
 
     /// Returns the number of sign changes above layer k. A sign change at layer k itself does not count.
     pub(crate) fn changes_above(&self, k: i128) -> usize {
-        let run = self.run_to(k);
+        let run = self.index_of_run_to(k);
         // The top layer has no run and no sign change above it.
         run.unwrap_or(0)
     }
 
     /// Returns the run with this many sign changes above it.
     #[inline]
-    pub(crate) fn stretch(&self, index: usize) -> Option<RunLayers> {
-        self.stretches.get(index).copied()
+    pub(crate) fn run(&self, index: usize) -> Option<RunLayers> {
+        self.runs.get(index).copied()
     }
 
     /// Returns the sign of the step down from layer k, or `None` for the bottom layer.
@@ -81,9 +79,8 @@ impl Shape {
 
     /// Returns the run of the step down from layer k, or `None` for the bottom layer.
     #[inline]
-    pub(crate) fn run_below(&self, k: i128) -> Option<&RunLayers> {
+    pub(crate) fn run_below(&self, k: i128) -> Option<RunLayers> {
         let inside = (0..self.layers() - 1).contains(&k);
-        let run = inside.then(|| self.run_to(k + 1))??;
-        self.stretches.get(run)
+        inside.then(|| self.run_to(k + 1))?
     }
 }

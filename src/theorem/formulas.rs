@@ -19,7 +19,7 @@ type Unbalanced<P> = fn(&Three<P>, &Directions<P>, &Three<P>, &Directions<P>, &P
 /// The formulas of the crate. On polynomials they prove theorems. They also run on any scalar `P` that is its own ring
 /// of numerators. Each field links to the meaning of its formula.
 ///
-/// Engines call exactly these functions. A test checks this in the source code.
+/// Each is called by an engine or by a query of some crate. A test checks this in the source code.
 // Not `non_exhaustive`, because other crates build changed values, `Formulas { weight, ..Formulas::LIBRARY }`, and the
 // attribute would forbid this. With `..`, such code also compiles after a formula is added.
 #[derive(Debug)]
