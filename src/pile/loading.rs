@@ -51,10 +51,12 @@ impl Loading {
     }
 
     fn change_all(&mut self, change: impl Fn(&mut Acting)) {
-        self.spheres.retain(|_, sphere| {
-            change(sphere);
-            *sphere != Acting::default()
-        });
+        for (site, mut sphere) in core::mem::take(&mut self.spheres) {
+            change(&mut sphere);
+            if sphere != Acting::default() {
+                self.spheres.insert(site, sphere);
+            }
+        }
     }
 
     /// Adds to the tilt of gravity.
@@ -68,16 +70,18 @@ impl Loading {
     }
 
     fn change(&mut self, site: Site, change: impl FnOnce(&mut Acting)) {
-        // Nothing acts on a sphere that is not in the list.
-        let mut sphere = self.spheres.remove(&site).unwrap_or_default();
-        change(&mut sphere);
-        if sphere != Acting::default() {
-            self.spheres.insert(site, sphere);
+        let sphere = self.spheres.entry(site).or_default();
+        change(sphere);
+        if *sphere == Acting::default() {
+            self.change_all(|_| ());
         }
     }
 
     /// Adds to the load on a sphere.
     pub(crate) fn add_load(&mut self, site: Site, load: &Load) {
+        if load.is_zero() {
+            return;
+        }
         self.change(site, |sphere| {
             // A sphere without a load has none.
             let sum = sphere.load.take().unwrap_or_default() + load;
@@ -89,7 +93,9 @@ impl Loading {
     pub(crate) fn set_weight(&mut self, site: Site, weight: BigRational) -> Result<(), Error> {
         let weight = not_negative("weight", site, weight)?;
         let weight = Some(weight).filter(|weight| *weight != self.ordinary_weight());
-        self.change(site, |sphere| sphere.weight = weight);
+        if weight.is_some() || self.spheres.contains_key(&site) {
+            self.change(site, |sphere| sphere.weight = weight);
+        }
         Ok(())
     }
 
@@ -108,16 +114,15 @@ impl Loading {
         }
         let push = &force * BigRational::from_integer(sign.factor().into());
         for (site, leads_away) in [(contact.site, true), (neighbour, false)] {
+            let sphere = self.spheres.entry(site).or_default();
+            let pushes = sphere.pushes.get_or_insert_default();
             let entries = formula::pushed(&push, contact.axis.ends(), leads_away);
-            self.change(site, |sphere| {
-                let pushes = sphere.pushes.get_or_insert_default();
-                let lines = pushes.iter_mut().zip(entries);
-                lines.for_each(|(line, entry)| *line -= entry);
-            });
+            for (line, entry) in pushes.iter_mut().zip(entries) {
+                *line -= entry;
+            }
         }
-        self.change(contact.site, |sphere| {
-            *sphere.horizontal[contact.axis as usize].get_or_insert_default() += force;
-        });
+        let horizontal = &mut self.spheres.entry(contact.site).or_default().horizontal;
+        *horizontal[contact.axis as usize].get_or_insert_default() += force;
         Ok(())
     }
 
