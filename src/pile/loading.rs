@@ -29,7 +29,9 @@ pub(crate) struct Loading {
 
 exact_surd::equality!(Hash for Loading; |Self { weightless, tilt, spheres }|
     (weightless, tilt.each_ref().map(ByValue), spheres));
-exact_surd::equality!(Hash for Acting);
+exact_surd::equality!(Hash for Acting; |Self { weight, load, horizontal, pushes }|
+    (weight.as_ref().map(ByValue), load, horizontal.each_ref().map(|force| force.as_ref().map(ByValue)),
+        pushes.as_ref().map(|pushes| pushes.each_ref().map(ByValue))));
 
 /// What acts on a sphere besides ordinary gravity.
 #[derive(Clone, Debug, Default)]
@@ -43,6 +45,13 @@ struct Acting {
     pushes: Option<[BigRational; 3]>,
 }
 
+impl Acting {
+    fn is_ordinary(&self) -> bool {
+        let acts = self.weight.is_some() || self.load.is_some() || self.pushes.is_some();
+        !acts && self.horizontal.iter().all(Option::is_none)
+    }
+}
+
 impl Loading {
     /// Sets the weight of every sphere to zero.
     pub(crate) fn set_weightless(&mut self) {
@@ -53,7 +62,7 @@ impl Loading {
     fn change_all(&mut self, change: impl Fn(&mut Acting)) {
         for (site, mut sphere) in core::mem::take(&mut self.spheres) {
             change(&mut sphere);
-            if sphere != Acting::default() {
+            if !sphere.is_ordinary() {
                 self.spheres.insert(site, sphere);
             }
         }
@@ -72,7 +81,7 @@ impl Loading {
     fn change(&mut self, site: Site, change: impl FnOnce(&mut Acting)) {
         let sphere = self.spheres.entry(site).or_default();
         change(sphere);
-        if *sphere == Acting::default() {
+        if sphere.is_ordinary() {
             self.change_all(|_| ());
         }
     }

@@ -252,10 +252,18 @@ fn contacts_of_weightless_spheres_are_decided() {
         .unwrap()
         .weightless();
     let [top, below] = [[0, 1, -1], [3, 1, 3]].map(|[k, i, j]| Site { i, j, k });
-    let pile = pile.with_weight(top, ratio(5, 4)).unwrap();
     let pile = pile.with_load(below, ratio(6, 1)).unwrap();
     let springs = elastic(&pile, &ratio(1, 4)).unwrap();
     assert_eq!(springs.certificate().unwrap().check(), Ok(()));
+
+    // The weight of one sphere acts as its load would.
+    let heavy = pile.clone().with_weight(top, ratio(5, 4)).unwrap();
+    let loaded = pile.with_load(top, ratio(5, 4)).unwrap();
+    for pile in [heavy, loaded] {
+        assert_eq!(elastic(&pile, &ratio(1, 4)), Err(Error::CannotStand));
+        let certificate = equilibrium(&pile).unwrap();
+        assert_eq!(certificate.check(), Ok(()));
+    }
 }
 
 /// The stiffness ratios range from very soft to very stiff horizontal springs.
