@@ -14,7 +14,9 @@ macro_rules! named {
             type Err = $crate::Error;
 
             fn from_str(text: &str) -> Result<Self, $crate::Error> {
-                let found = $all.into_iter().find(|found| found.name() == text);
+                let found = $all
+                    .into_iter()
+                    .find(|found| found.name().eq_ignore_ascii_case(text));
                 found.ok_or_else(|| $crate::Error::syntax(text, $expected))
             }
         }

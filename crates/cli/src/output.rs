@@ -96,7 +96,7 @@ impl<E: Into<Error>> From<E> for InputError {
 }
 
 /// The remedy for a file that cannot be written.
-const WRITABLE_FOLDER: &str = "choose an existing, writable folder with free space";
+const WRITABLE_FOLDER: &str = "choose a file in an existing, writable folder with free space";
 /// The remedy for a file that cannot be read.
 pub(crate) const READABLE_FILE: &str = "give a readable file";
 pub(crate) const READABLE_FILE_OR_STDIN: &str = "give a readable file, or - for stdin";

@@ -179,10 +179,11 @@ impl FromStr for Preset {
 
     fn from_str(text: &str) -> Result<Self, Syntax> {
         let expected = "lammps, yade, exadem, exadem-vtp, dem-engine, kratos, mddem (or dirt), lethe or mercurydpm";
-        let name = if text == "dirt" { "mddem" } else { text };
-        let mut all = Self::ALL.into_iter();
-        all.find(|preset| preset.name() == name)
-            .ok_or_else(|| Syntax::new(text, expected))
+        let is_dirt = text.eq_ignore_ascii_case("dirt");
+        let name = if is_dirt { "mddem" } else { text };
+        let found = |preset: &Self| preset.name().eq_ignore_ascii_case(name);
+        let known = Self::ALL.into_iter().find(found);
+        known.ok_or_else(|| Syntax::new(text, expected))
     }
 }
 

@@ -76,7 +76,7 @@ impl fmt::Display for State {
 impl FromStr for State {
     type Err = Error;
 
-    /// Reads a state by its [`name`](Self::name).
+    /// Reads a state by its [`name`](Self::name), in any case.
     ///
     /// # Errors
     /// [`Error::Syntax`](cannonpile::Error::Syntax).
@@ -85,12 +85,14 @@ impl FromStr for State {
     /// ```
     /// use cannonpile_dem::scene::State;
     ///
+    /// assert_eq!("Elastic".parse::<State>()?, State::Elastic);
     /// assert!("plastic".parse::<State>().is_err());
+    /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     fn from_str(text: &str) -> Result<Self, Error> {
         let found = [Self::Isostatic, Self::Elastic]
             .into_iter()
-            .find(|state| state.name() == text);
+            .find(|state| state.name().eq_ignore_ascii_case(text));
         found.ok_or_else(|| Error::syntax(text, "a state: isostatic or elastic"))
     }
 }

@@ -52,7 +52,7 @@ impl fmt::Display for Floor {
 impl FromStr for Floor {
     type Err = Error;
 
-    /// Reads a floor by its [`name`](Self::name).
+    /// Reads a floor by its [`name`](Self::name), in any case.
     ///
     /// # Errors
     /// [`Error::Syntax`](cannonpile::Error::Syntax).
@@ -61,12 +61,14 @@ impl FromStr for Floor {
     /// ```
     /// use cannonpile_dem::scene::Floor;
     ///
+    /// assert_eq!("Rough".parse::<Floor>()?, Floor::Rough);
     /// assert!("wet".parse::<Floor>().is_err());
+    /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     fn from_str(text: &str) -> Result<Self, Error> {
         let found = [Self::Glued, Self::Rough]
             .into_iter()
-            .find(|floor| floor.name() == text);
+            .find(|floor| floor.name().eq_ignore_ascii_case(text));
         found.ok_or_else(|| Error::syntax(text, "a floor: glued or rough"))
     }
 }
