@@ -143,13 +143,19 @@ impl Dialect {
 
 /// Splits a line at a comment behind a row, which begins after a blank.
 pub(crate) fn behind_row<'l>(line: &'l str, signs: &[String]) -> Option<(&'l str, &'l str)> {
-    let starts = signs
-        .iter()
-        .flat_map(|sign| line.match_indices(sign.as_str()));
-    let parts = starts.filter_map(|(place, _)| line.split_at_checked(place));
-    let is_behind =
-        |(row, _): &(&str, &str)| row.ends_with(char::is_whitespace) && !row.trim().is_empty();
-    parts.filter(is_behind).min_by_key(|(row, _)| row.len())
+    // Most rows have no blank. This test of all bytes is fast.
+    let may_be_blank = |byte: u8| !(b'!'..0x80).contains(&byte);
+    if !line
+        .bytes()
+        .fold(false, |any, byte| any | may_be_blank(byte))
+    {
+        return None;
+    }
+    let blanks = line.char_indices().filter(|(_, c)| c.is_whitespace());
+    let parts = blanks.map(|(place, blank)| line.split_at(place + blank.len_utf8()));
+    let is_comment = |text: &str| signs.iter().any(|sign| text.starts_with(sign.as_str()));
+    let mut comments = parts.filter(|(_, text)| is_comment(text));
+    comments.find(|(row, _)| !row.trim().is_empty())
 }
 
 /// Returns a line to be read. If no line is a comment, rows may still begin with the sign of one.

@@ -82,7 +82,9 @@ impl Loads {
         let mut turned: Vec<Site> = Vec::new();
         for ((id, site), sphere) in (1..).zip(pile.sites()?).zip(spheres) {
             if sphere.turn > LEFT * loads.turn {
-                turned.retain(|other| other.k == site.k);
+                if turned.last().is_some_and(|other| other.k != site.k) {
+                    turned.clear();
+                }
                 turned.push(site);
             }
             if sphere.is_open {
