@@ -14,9 +14,7 @@ macro_rules! named {
             type Err = $crate::Error;
 
             fn from_str(text: &str) -> Result<Self, $crate::Error> {
-                let found = $all
-                    .into_iter()
-                    .find(|found| found.name().eq_ignore_ascii_case(text));
+                let found = $all.into_iter().find(|found| found.name() == text);
                 found.ok_or_else(|| $crate::Error::syntax(text, $expected))
             }
         }

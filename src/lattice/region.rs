@@ -513,7 +513,6 @@ impl FromStr for Region {
     /// assert_eq!("triangle:4".parse(), Region::triangle(4));
     /// assert_eq!("region:0..3,0..3,0..3".parse(), Region::triangle(4));
     /// assert_eq!("0..3,0..3,0..3".parse(), Region::triangle(4));
-    /// assert_eq!("Hexagon:2".parse(), Region::hexagon(2, 2));
     /// assert!("circle:4".parse::<Region>().is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -525,7 +524,7 @@ impl FromStr for Region {
             )
         };
         let (kind, sizes) = text.split_once(':').unwrap_or(("region", text));
-        match kind.to_ascii_lowercase().as_str() {
+        match kind {
             "hexagon" => {
                 let (p, q) = sizes.split_once(',').unwrap_or((sizes, sizes));
                 Self::hexagon(integer(p)?, integer(q)?)

@@ -18,7 +18,7 @@ use num_bigint::BigUint;
 use crate::output::{Failure, InputError, creates_folder_of, write_around, write_to};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
-pub(crate) use scene::{SceneOptions, Top, in_state};
+pub(crate) use scene::{SceneOptions, Top, in_state, shape};
 
 /// The option `--at`, for one sphere of the base.
 #[derive(Args)]

@@ -30,9 +30,15 @@ pub(crate) enum Top {
     Region(Region),
 }
 
+/// Reads a shape in any case. The error quotes the text as it was given.
+pub(crate) fn shape(text: &str) -> Result<Region, cannonpile::Error> {
+    let lower = text.to_ascii_lowercase().parse();
+    lower.or_else(|_| text.parse())
+}
+
 impl Top {
     fn region(text: &str) -> Result<Self, cannonpile::Error> {
-        text.parse().map(Self::Region)
+        shape(text).map(Self::Region)
     }
 
     pub(crate) fn region_or_plane(text: &str) -> Result<Self, String> {
@@ -70,7 +76,7 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = Top::region, conflicts_with = "base")]
     pub(super) top: Option<Top>,
     /// Bottom layer, with the pile above it; shapes as for --top
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = shape)]
     base: Option<Region>,
     /// Dimension: 2 for discs, 3 for spheres [default: 3]
     #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = str::parse::<Dimension>)]

@@ -13,7 +13,7 @@ use clap::Args;
 
 use super::has_horizontal_contacts;
 use crate::Error;
-use crate::args::{Number, Output};
+use crate::args::{Number, Output, shape};
 use crate::output::{Failure, InputError};
 use crate::progress::Progress;
 use crate::tables;
@@ -56,7 +56,7 @@ pub(crate) struct Census {
     layers: i128,
     /// Bottom layer, for all its stackings up to the greatest height: hexagon:P,Q, hexagon:N, triangle:N or
     /// region:x0..x1,y0..y1,s0..s1 [default: piles under one sphere]
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "layers")]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = shape, conflicts_with = "layers")]
     base: Option<Region>,
     /// Half the distance between horizontal neighbours over the radius, a/R, such as 6/5 or sqrt(2): 1 includes horizontal contacts [default: no horizontal contacts]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = str::parse::<Spacing>)]
