@@ -355,7 +355,7 @@ fn commands() {
         "bounds --scene short.toml",
         "plot bounds --scene short.toml",
     ] {
-        let mut shell = Command::new("sh");
+        let mut shell = Command::new("/bin/sh");
         let script = format!(
             "ulimit -s {}; exec \"$0\" {command}",
             STACK_OF_COMMANDS / 1024

@@ -11,9 +11,11 @@ use tempfile::{TempDir, tempdir};
 const TABLE: &str =
     "i,j,normal,shear_x,shear_y\n0,0,4/3,-1/6,-1/6\n1,0,4/3,-1/6,1/6\n0,1,4/3,1/3,0\n";
 
-/// Runs a line of a shell in which `$0` is the binary, and returns its stdout and stderr.
+/// Runs a line of a shell in which `$0` is the binary, and returns its stdout and stderr. Its programs, such as `cat`, are where
+/// every Unix has them, whatever path the parent has.
 fn shell(folder: &TempDir, line: &str) -> String {
-    let mut shell = Command::new("sh");
+    let mut shell = Command::new("/bin/sh");
+    shell.env("PATH", "/bin:/usr/bin");
     shell.args(["-c", line, env!("CARGO_BIN_EXE_cannonpile")]);
     let output = shell.current_dir(folder.path()).output().expect("a shell");
     let [out, error] =
