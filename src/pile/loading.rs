@@ -101,7 +101,8 @@ impl Loading {
     /// Sets the weight of a sphere.
     pub(crate) fn set_weight(&mut self, site: Site, weight: BigRational) -> Result<(), Error> {
         let weight = not_negative("weight", site, weight)?;
-        let weight = Some(weight).filter(|weight| *weight != self.ordinary_weight());
+        let ordinary = self.ordinary_weight();
+        let weight = Some(weight).filter(|weight| ByValue(weight) != ByValue(&ordinary));
         if weight.is_some() || self.spheres.contains_key(&site) {
             self.change(site, |sphere| sphere.weight = weight);
         }
