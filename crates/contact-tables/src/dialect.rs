@@ -145,10 +145,9 @@ impl Dialect {
 pub(crate) fn behind_row<'l>(line: &'l str, signs: &[String]) -> Option<(&'l str, &'l str)> {
     // Most rows have no blank. This test of all bytes is fast.
     let may_be_blank = |byte: u8| !(b'!'..0x80).contains(&byte);
-    if !line
-        .bytes()
-        .fold(false, |any, byte| any | may_be_blank(byte))
-    {
+    let bytes = line.bytes();
+    let has_blank = bytes.fold(false, |any, byte| any | may_be_blank(byte));
+    if !has_blank {
         return None;
     }
     let blanks = line.char_indices().filter(|(_, c)| c.is_whitespace());

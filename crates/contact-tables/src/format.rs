@@ -42,9 +42,7 @@ impl Format {
             ..Self::default()
         }
     }
-}
 
-impl Format {
     /// Returns the largest number of bytes of a file that is kept as a whole: 1 GiB, and 1 KiB for each row.
     pub(crate) fn most_bytes(&self) -> Option<u64> {
         let rows = self.most_rows?;

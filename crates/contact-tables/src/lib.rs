@@ -15,7 +15,7 @@
 //! ```
 //!
 //! # Map
-//! The way of a file, from its bytes to its rows. A module may use the modules above it, never one below.
+//! The way of a file, from its bytes to its rows. The modules are roughly in the order in which they build on each other.
 //!
 //! | module | contents |
 //! |---|---|

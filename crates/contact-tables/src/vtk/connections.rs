@@ -22,6 +22,7 @@ impl Connections {
     pub(super) fn interleaved(mut numbers: &[i64]) -> Self {
         let (mut points, mut ends) = (Vec::new(), Vec::new());
         while let Some((count, rest)) = numbers.split_first() {
+            // A count that is no index is beyond the end of the points.
             let count = usize::try_from(*count).unwrap_or(usize::MAX);
             let (cell, rest) = rest.split_at(count.min(rest.len()));
             points.extend_from_slice(cell);

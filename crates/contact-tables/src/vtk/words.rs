@@ -50,14 +50,15 @@ impl<'f> Words<'f> {
         let mut name = Vec::new();
         let mut rest = word;
         while let Some((byte, after)) = rest.split_first() {
-            let code = after.get(..2).filter(|_| *byte == b'%');
-            let code = code.and_then(|code| core::str::from_utf8(code).ok());
-            let code = code.and_then(|code| u8::from_str_radix(code, 16).ok());
-            name.push(code.unwrap_or(*byte));
-            rest = match code {
-                Some(_) => after.get(2..).unwrap_or_default(),
-                None => after,
-            };
+            let coded = after.split_at_checked(2).filter(|_| *byte == b'%');
+            let coded = coded.and_then(|(code, behind)| {
+                let code = core::str::from_utf8(code).ok()?;
+                Some((u8::from_str_radix(code, 16).ok()?, behind))
+            });
+            // A percent sign without a code is one.
+            let (byte, behind) = coded.unwrap_or((*byte, after));
+            name.push(byte);
+            rest = behind;
         }
         Ok(String::from_utf8_lossy(&name).into_owned())
     }

@@ -57,9 +57,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Document<'_>, Error> {
                             None | Some("base64") => false,
                             Some(other) => return Err(unknown("encoding", other, "raw or base64")),
                         };
-                        let begin = usize::try_from(xml.buffer_position()).unwrap_or(usize::MAX);
+                        let begin = usize::try_from(xml.buffer_position()).ok();
+                        let data = begin.and_then(|begin| bytes.get(begin..));
+                        let data =
+                            data.ok_or_else(|| Error::Vtk("a tag ends behind the file".into()))?;
                         // Raw data are not XML, and nothing of interest follows them.
-                        coding.append(bytes.get(begin..).unwrap_or_default(), is_raw);
+                        coding.append(data, is_raw);
                         break;
                     }
                     b"Piece" | b"DataSet" => document.begin(&attributes(&tag)?)?,
@@ -141,6 +144,7 @@ impl Document<'_> {
 
 impl<'f> OpenArray<'f> {
     fn close(mut self) -> Result<Array<'f>, Error> {
+        // A missing attribute reads as an empty one, which has a meaning or is refused.
         let mut text = |key| self.attributes.remove(key).unwrap_or_default();
         let (name, kind, offset) = (text("Name"), text("type"), text("offset"));
         let refused = |key, value: &str, expected| {

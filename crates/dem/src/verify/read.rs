@@ -103,7 +103,7 @@ pub struct Compared {
     pub dialect: Option<Dialect>,
     /// The number of rows that were compared, and of those that were left out.
     pub rows: RowCounts,
-    /// The same of the table of the floor, if there was one.
+    /// The number of rows of the table of the floor, as in `rows`, if there was one.
     pub floor_rows: Option<RowCounts>,
     /// The number of steps of the file; 0 if it names none.
     pub steps: u64,
