@@ -32,8 +32,7 @@ pub(crate) enum Top {
 
 /// Reads a shape in any case. The error quotes the text as it was given.
 pub(crate) fn shape(text: &str) -> Result<Region, cannonpile::Error> {
-    let lower = text.to_ascii_lowercase().parse();
-    lower.or_else(|_| text.parse())
+    (text.to_ascii_lowercase().parse()).or_else(|_| text.parse())
 }
 
 impl Top {

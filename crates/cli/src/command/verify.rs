@@ -354,10 +354,11 @@ impl Verify {
                 format!("{name}, {refusal}; --columns can name them")
             }
             refusal => {
-                let options = OPTIONS.iter().filter(|_| is_measured);
-                options.fold(format!("{name}, {refusal}"), |text, (said, option)| {
-                    text.replace(said, option)
-                })
+                let mut text = refusal.to_string();
+                for (said, option) in OPTIONS.iter().filter(|_| is_measured) {
+                    text = text.replace(said, option);
+                }
+                format!("{name}, {text}")
             }
         })
     }
@@ -368,7 +369,7 @@ const OPTIONS: [(&str, &str); 4] = [
     ("set quote to", "use --quote"),
     ("set comment to", "use --comment"),
     ("set decimal to", "use --decimal"),
-    ("as step", "with --step"),
+    ("one of them as step", "one of them with --step"),
 ];
 
 /// Reads a file or stdin and compares it. For json output the result includes the source of the data.
