@@ -389,7 +389,7 @@ impl Pile {
         Ok(self.loading.weight(self.shape.check(site)?))
     }
 
-    /// Returns whether spheres have no weight, except those that were given one [later](Self::weightless).
+    /// Returns whether spheres have no weight, except those that [`with_weight`](Self::with_weight) gave one later.
     #[must_use]
     pub fn is_weightless(&self) -> bool {
         self.loading.is_weightless()

@@ -8,8 +8,9 @@
 //! | [`Algebra`] | conversion from rationals, division by a nonzero machine integer, other divisions if they exist | all scalar types |
 //! | [`Field`] | division by any nonzero value | all but [`Polynomial`] |
 //!
-//! The traits have no order: a function that needs `<` asks for `PartialOrd`. They do not require `num_traits::{Num, Float}` or `Copy`, and the formulas contain no float literal. So a polynomial and
-//! an `f64` use the same function bodies.
+//! The traits have no order: a function that needs `<` asks for `PartialOrd`. They do not require
+//! `num_traits::{Num, Float}` or `Copy`, and the formulas contain no float literal. So a polynomial and an `f64` use the
+//! same function bodies.
 //!
 //! | scalar | exactness | use |
 //! |---|---|---|

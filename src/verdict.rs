@@ -506,8 +506,9 @@ fn begins(shape: &Shape, site: Site, direction: Direction) -> bool {
     site.k == 0 || (!changes && shape.above(site, direction).is_none())
 }
 
-/// Returns the first site of a layer at which the line below it in a direction begins, among those that are `wanted`. Only a
-/// few sites more are visited than unwanted ones, because the rows may be long and many.
+/// Returns the first `wanted` site of a layer at which the line below it in a direction begins.
+///
+/// Rows may be long and many. So the sites visited are the unwanted ones and one more, and the rows are searched by halving.
 fn first_beginning(
     shape: &Shape,
     k: i128,
@@ -526,7 +527,7 @@ fn first_beginning(
             return [row.clone(), row.end..row.end];
         };
         let covered = above.row_within(j + up.j);
-        // What is covered beyond the row does not count.
+        // Sites beyond the row do not count.
         let within = |i: i128| i.clamp(row.start, row.end);
         let [start, end] = [covered.start, covered.end].each(|i| within(i - up.i));
         [row.start..start, end..row.end]
@@ -543,11 +544,11 @@ fn first_beginning(
             &mut without
         }) = middle;
     }
-    let sites = (with..=last).take_while(begins).flat_map(|j| {
+    let mut sites = (with..=last).take_while(begins).flat_map(|j| {
         let row = begin(j).into_iter().flatten();
         row.map(move |i| Site { i, j, k })
     });
-    sites.into_iter().find(wanted)
+    sites.find(wanted)
 }
 
 #[cfg(test)]

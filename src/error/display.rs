@@ -87,10 +87,7 @@ impl fmt::Display for Whole<'_> {
                 MAX_LAYERS.ilog10()
             ),
             Error::RunLength { given } => {
-                write!(
-                    f,
-                    "a run cannot have {given} steps: use 0 or a positive number"
-                )
+                write!(f, "a run cannot have {given} steps: use 0 or more")
             }
             Error::TooManyRuns { limit } => write!(
                 f,

@@ -5,7 +5,7 @@
 //! accompanies the csv files, and states the unit and the meaning of each column.
 //!
 //! # Map
-//! A module may use the modules above it in this table, never one below.
+//! The modules are roughly in the order in which they build on each other.
 //!
 //! | module | contents |
 //! |---|---|

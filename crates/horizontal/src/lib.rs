@@ -111,6 +111,7 @@ pub use exact_simplex::exact_pivots;
 pub use stand::equilibrium;
 pub use tilt::{margin, tilts};
 
+// The compiler evaluates the `unwrap`, and rejects zero.
 const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 
 #[cfg(doctest)]

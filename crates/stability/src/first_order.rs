@@ -12,6 +12,7 @@ use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing};
 use num_rational::BigRational;
 
+// The compiler evaluates the `unwrap`, and rejects zero.
 const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 
 /// A contact force, and its change to first order.
