@@ -16,6 +16,7 @@ mod shape {
     mod grown;
     mod mixed;
     mod numbering;
+    mod round_base;
 }
 
 mod geometry {
