@@ -311,32 +311,6 @@ mod tests {
     }
 
     #[test]
-    fn errors_of_test_exports() {
-        let refused = |scene: &Scene, file| {
-            let pile = scene.pile().unwrap();
-            let packing = scene.packing(&pile).unwrap();
-            let export = PileExport::new(&packing).unwrap();
-            match export.write_file(file, &mut Vec::new(), &mut |_| {}) {
-                Err(WriteError::Answer(error)) => error,
-                written => panic!("{file:?}: {written:?}"),
-            }
-        };
-        let falls = Scene {
-            stacking: Some(Pattern::Hcp),
-            layers: Some(7),
-            ..Scene::default()
-        };
-        blames(None, refused(&falls, PileFile::LammpsTest));
-        let large = Scene {
-            layers: Some(22),
-            ..Scene::default()
-        };
-        for file in [PileFile::LammpsTest, PileFile::YadeCheck] {
-            blames(Culprit::Key(Key::Layers), refused(&large, file));
-        }
-    }
-
-    #[test]
     fn errors_of_random_stackings() {
         let one = || ratio(1, 1);
         let stackings = |layers| RandomStackings::new(layers, FirstSign::Plus);

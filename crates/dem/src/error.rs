@@ -79,11 +79,6 @@ pub enum Error {
         /// The quantity.
         quantity: &'static str,
     },
-    /// A test for the suite of another code needs a state at rest, but some contact of the pile needs a tensile force.
-    MustPull {
-        /// The remedy.
-        remedy: &'static str,
-    },
     /// A file that only exists for a floor with glue.
     GluedOnly {
         /// The file.
@@ -152,10 +147,6 @@ impl fmt::Display for Whole<'_> {
             Error::GluedOnly { file } => write!(
                 f,
                 "{file} is only written for a floor with glue: use the formats lammps, yade and card, or a floor with glue"
-            ),
-            Error::MustPull { remedy } => write!(
-                f,
-                "this test needs a pile that comes to rest, but some contacts need a tensile force: {remedy}"
             ),
         }
     }

@@ -9,7 +9,7 @@ use super::card::CardTitle;
 use super::file::{OtherFile, PileFile, PileFormat, Written};
 use super::numbered::NumberedPile;
 use super::rough::{self, Friction};
-use super::{card, csv, lammps, lammps_test, vtp, yade, yade_check};
+use super::{card, csv, lammps, vtp, yade};
 use crate::Error;
 use crate::table::{Progress, WriteError, write_all};
 use cannonpile::Packing;
@@ -255,8 +255,6 @@ impl<'p> PileExport<'p> {
     /// # Errors
     /// * [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number does not fit in an
     ///   `f64`.
-    /// * [`WriteError::Answer`] with [`Error::TooLarge`](cannonpile::Error::TooLarge) if a suite test would have too
-    ///   many spheres, and with [`Error::MustPull`] if it would have no state at rest.
     /// * [`WriteError::Answer`] with [`Error::GluedOnly`] for a file that a rough floor does not support.
     /// * [`WriteError::Io`] if writing to `out` fails.
     ///
@@ -313,10 +311,6 @@ impl<'p> PileExport<'p> {
             PileFile::CardJson => {
                 card::write_json(pile, &self.title, self.friction.as_ref(), scene, out)
             }
-            PileFile::LammpsTest => {
-                lammps_test::write(pile, &card::heading(pile, &self.title), out)
-            }
-            PileFile::YadeCheck => yade_check::write(pile, &card::heading(pile, &self.title), out),
             PileFile::Scene => Ok(out.write_all(scene.unwrap_or("").as_bytes())?),
         }
     }

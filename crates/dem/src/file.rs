@@ -32,25 +32,11 @@ pub enum PileFormat {
     /// A benchmark card: `card.md` for readers, `card.json` for programs. It contains the pile, the exact answers,
     /// their accuracy, the criteria for a code, and the references.
     Card,
-    /// The test suite of LAMMPS: `dem-pile.yaml`, in the style of `unittest/granular`. It needs a pile that springs of
-    /// equal stiffness bring to rest, with at most 2000 spheres.
-    LammpsTest,
-    /// The test suite of YADE: `checkPile.py`, in the style of `scripts/checks-and-tests/checks`, for up to 2000
-    /// spheres. For an unstable pile the script checks that contacts are lost.
-    YadeCheck,
 }
 
 impl PileFormat {
     /// All formats.
-    pub const ALL: [Self; 7] = [
-        Self::Csv,
-        Self::Lammps,
-        Self::Vtp,
-        Self::Yade,
-        Self::Card,
-        Self::LammpsTest,
-        Self::YadeCheck,
-    ];
+    pub const ALL: [Self; 5] = [Self::Csv, Self::Lammps, Self::Vtp, Self::Yade, Self::Card];
 
     /// Returns the files of the format, in writing order.
     ///
@@ -59,7 +45,7 @@ impl PileFormat {
     /// use cannonpile_dem::{PileFile, PileFormat};
     ///
     /// assert_eq!(PileFormat::Yade.files(), [PileFile::YadeSpheres, PileFile::YadeScript]);
-    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2, 2, 1, 1]);
+    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2, 2]);
     /// ```
     #[must_use]
     pub const fn files(self) -> &'static [PileFile] {
@@ -74,8 +60,6 @@ impl PileFormat {
             Self::Vtp => &[PileFile::SpheresVtp, PileFile::ContactsVtp],
             Self::Yade => &[PileFile::YadeSpheres, PileFile::YadeScript],
             Self::Card => &[PileFile::CardMarkdown, PileFile::CardJson],
-            Self::LammpsTest => &[PileFile::LammpsTest],
-            Self::YadeCheck => &[PileFile::YadeCheck],
         }
     }
 }
@@ -117,10 +101,6 @@ pub enum PileFile {
     /// `card.json`: the benchmark for programs. Each number is `{"exact": …, "float": …}`, with the exact number as
     /// text. Lists of more than 10,000 rows are only in the csv files.
     CardJson,
-    /// `dem-pile.yaml`: the pile, and the positions at rest.
-    LammpsTest,
-    /// `checkPile.py`: the pile and its exact forces. The script raises `YadeCheckError` with the worst contact.
-    YadeCheck,
     /// `scene.toml`: the scene of the pile, written with any format if it is [given](super::PileExport::with_scene).
     Scene,
 }
@@ -149,8 +129,6 @@ impl PileFile {
             Self::YadeScript => "pile.py",
             Self::CardMarkdown => "card.md",
             Self::CardJson => "card.json",
-            Self::LammpsTest => "dem-pile.yaml",
-            Self::YadeCheck => "checkPile.py",
             Self::Scene => "scene.toml",
         }
     }

@@ -55,15 +55,12 @@ mod file;
 pub mod grown;
 mod key;
 mod lammps;
-mod lammps_test;
 #[doc(hidden)]
 pub mod numbered;
 mod polydata;
 mod rough;
 pub mod scene;
 mod springs;
-mod suite;
-mod sunk;
 pub mod table;
 #[doc(hidden)]
 pub mod template;
@@ -73,7 +70,6 @@ mod vtp;
 #[doc(hidden)]
 pub mod weights;
 mod yade;
-mod yade_check;
 
 use cannonpile::each::Each;
 

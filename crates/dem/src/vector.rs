@@ -29,12 +29,3 @@ pub(crate) fn unit(vector: [f64; 3]) -> [f64; 3] {
     let length = dot(vector, vector).sqrt();
     vector.each(|x| x / length)
 }
-
-/// Returns the solution x of A x = b for a matrix A, by Cramer's rule.
-pub(crate) fn solved(matrix: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
-    let [u, v, w] = matrix;
-    // The rows of the adjugate matrix are the columns of these products.
-    let [vw, wu, uv] = [cross(v, w), cross(w, u), cross(u, v)];
-    let determinant = dot(u, vw);
-    [0, 1, 2].each(|n| (b[0] * vw[n] + b[1] * wu[n] + b[2] * uv[n]) / determinant)
-}

@@ -178,11 +178,9 @@ fn format_named(name: &str) -> PyResult<Format> {
         "yade" => PileFormat::Yade,
         "card" => PileFormat::Card,
         "html" => return Ok(Format::Page),
-        "lammps-test" => PileFormat::LammpsTest,
-        "yade-check" => PileFormat::YadeCheck,
         _ => {
             return Err(PyValueError::new_err(format!(
-                "formats: '{name}' is not one of csv, lammps, vtp, yade, card, html, lammps-test, yade-check"
+                "formats: '{name}' is not one of csv, lammps, vtp, yade, card, html"
             )));
         }
     }))

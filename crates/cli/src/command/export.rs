@@ -24,7 +24,7 @@ All numbers are in SI. Each export also writes scene.toml, which --scene reads. 
 complete.
 
 A card is a benchmark on one page: the pile, the exact forces, the error of springs, the acceptance criteria, and how to
-cite it. lammps-test and yade-check are regression tests for the test suites of these codes, with the exact forces inside.
+cite it.
 
 The HTML viewer is one file that a browser opens offline. It rotates and cuts the pile and shows the forces. If DIR ends in
 .html, only this file is written. With --state elastic it shows the isostatic and the elastic state.
@@ -34,7 +34,6 @@ Examples:
   cannonpile export pile --to csv,vtp --layers 40 --list files.csv
   cannonpile export C2 --case C2 --to csv,card
   cannonpile export four --layers 2 --floor rough --to lammps,yade --friction 0.41 --floor-friction 0.11
-  cannonpile export checks --case C4 --to yade-check,lammps-test
   cannonpile export pile.html --to html --top hexagon:3 --stacking hcp --layers 4";
 
 #[derive(Args)]
@@ -88,10 +87,6 @@ enum Target {
     Yade,
     /// Benchmark card: card.md for people and card.json for programs
     Card,
-    /// Test for the LAMMPS suite unittest/granular: dem-pile.yaml; stable piles of at most 2000 spheres
-    LammpsTest,
-    /// Test for the YADE suite scripts/checks-and-tests/checks: checkPile.py; at most 2000 spheres
-    YadeCheck,
     /// HTML viewer: pile.html, or FILE.html alone; at most 100000 spheres
     Html,
     /// csv, lammps, vtp, yade and card
@@ -106,8 +101,6 @@ impl Target {
             Self::Vtp => &[PileFormat::Vtp],
             Self::Yade => &[PileFormat::Yade],
             Self::Card => &[PileFormat::Card],
-            Self::LammpsTest => &[PileFormat::LammpsTest],
-            Self::YadeCheck => &[PileFormat::YadeCheck],
             Self::Html => &[],
             Self::All => &[
                 PileFormat::Csv,
@@ -385,12 +378,7 @@ fn check_stress(formats: &[PileFormat]) -> Result<(), Failure> {
 
 /// Checks that scripts for DEM codes, which have a single spring stiffness, can represent the scene.
 fn check_springs(scene: &Scene, formats: &[PileFormat]) -> Result<(), Failure> {
-    let scripts = [
-        PileFormat::Lammps,
-        PileFormat::Yade,
-        PileFormat::LammpsTest,
-        PileFormat::YadeCheck,
-    ];
+    let scripts = [PileFormat::Lammps, PileFormat::Yade];
     let is_alike = scene.state == State::Isostatic || scene.stiffness_ratio == One::one();
     if is_alike || !formats.iter().any(|format| scripts.contains(format)) {
         return Ok(());

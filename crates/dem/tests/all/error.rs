@@ -63,47 +63,6 @@ fn cases() {
 }
 
 #[test]
-fn tests_of_suites() {
-    let refused = |scene: &Scene, file| {
-        let pile = scene.pile().expect("a pile");
-        let packing = scene.packing(&pile).expect("room");
-        let export = PileExport::new(&packing).expect("files");
-        match export.write_file(file, &mut Vec::new(), &mut |_| {}) {
-            Err(WriteError::Answer(error)) => error,
-            written => panic!("{file:?}: {written:?}"),
-        }
-    };
-    let falls = Scene {
-        stacking: Some(Pattern::Hcp),
-        layers: Some(7),
-        ..Scene::default()
-    };
-    let error = refused(&falls, PileFile::LammpsTest);
-    assert!(matches!(error, Error::MustPull { .. }));
-    says(&error, &["need a tensile force", "--to yade-check"]);
-    // Without weights the pile is not unstable, but the tests need a state at rest.
-    let response = Scene {
-        loads: vec![parse::load("0,0,0=1", Dimension::Three).expect("a load")],
-        weightless: true,
-        ..falls
-    };
-    let error = refused(&response, PileFile::YadeCheck);
-    says(&error, &["need a tensile force", "--to yade"]);
-    let large = Scene {
-        layers: Some(22),
-        ..Scene::default()
-    };
-    for file in [PileFile::LammpsTest, PileFile::YadeCheck] {
-        let error = refused(&large, file);
-        assert!(matches!(
-            error,
-            Error::Core(cannonpile::Error::TooLarge { .. })
-        ));
-        says(&error, &["2024", "2000", "fewer layers"]);
-    }
-}
-
-#[test]
 fn options_that_exclude_each_other() {
     let message = |scene: Scene| {
         let error = scene.pile().unwrap_err();
