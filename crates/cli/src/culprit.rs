@@ -181,8 +181,6 @@ mod tests {
     use cannonpile::stacking::Pattern;
     use cannonpile::{Load, Packing, Pile};
     use cannonpile_dem::scene::{Case, Scene, parse};
-    use cannonpile_dem::table::WriteError;
-    use cannonpile_dem::{PileExport, PileFile};
     use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings, check_fault_probability};
     use num_rational::BigRational;
 

@@ -3,8 +3,7 @@
 use cannonpile::lattice::Dimension;
 use cannonpile::stacking::Pattern;
 use cannonpile_dem::scene::{Case, Scene, parse};
-use cannonpile_dem::table::WriteError;
-use cannonpile_dem::{Error, Key, PileExport, PileFile};
+use cannonpile_dem::{Error, Key};
 use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::errors::says;
 

@@ -43,7 +43,7 @@ macro_rules! console {
 console! {
     base: 114;
     bounds: 20;
-    cases: 25;
+    cases: 20;
     census: 21;
     check: 12;
     completions: 2;
