@@ -79,6 +79,9 @@ pub use nearest::float_between;
 pub use sum::SurdSum;
 pub use surd::Surd;
 
+#[cfg(feature = "half")]
+#[cfg_attr(docsrs, doc(cfg(feature = "half")))]
+pub use half;
 pub use {num_bigint, num_rational};
 
 /// The example of README.md, compiled as a doc test.

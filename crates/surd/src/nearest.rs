@@ -1,4 +1,4 @@
-//! Correct rounding of rationals and square roots to `f32` and `f64` (to nearest, ties to even).
+//! Correct rounding of rationals and square roots to binary floats (to nearest, ties to even).
 //!
 //! A rational n/d, or a root √(n/d), is scaled by a power of two until its integer part has a few bits more
 //! than the significand of the float. One *sticky* bit records whether the fractional part is zero. The
@@ -16,34 +16,62 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-mod sealed {
-    pub trait Assemble: Sized {
-        /// Returns the float ±`significand` · 2^`exponent`, or `None` if it overflows.
-        ///
-        /// The significand has at most one bit more than the format, and the exponent is at least
-        /// `MIN_EXPONENT`.
-        fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
-
-        /// Returns the common rounding of all numbers between `ends[0]`·2^`exponent` and `ends[1]`·2^`exponent`, or
-        /// `None` if the two ends round differently.
-        fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self>;
-    }
-}
-
 use crate::DoubleDouble;
 use crate::error_free::{fast_two_sum, power_of_two};
 use crate::screen::enclose;
-use sealed::Assemble;
 
-/// A binary floating-point format to round to: `f32` or `f64`. The trait is sealed.
+/// A binary floating-point format to round to: `f32`, `f64`, with the feature `half` also `half::f16` and `half::bf16`, or a
+/// format of your own.
 ///
-/// Rounding to `f32` is direct. Rounding to `f64` first and then to `f32` can miss the nearest `f32`.
-pub trait CorrectlyRounded: Assemble + Copy + Send + Sync {
-    /// The number of bits of the significand, including the leading bit.
+/// Rounding is to nearest, ties to even, in one step. Rounding to `f64` first and then to a shorter format can give
+/// another float.
+///
+/// # Examples
+/// The eight-bit format E4M3, whose greatest float is 448 and which has no infinity:
+/// ```
+/// use exact_surd::{CorrectlyRounded, Surd};
+///
+/// #[derive(Clone, Copy, Debug, PartialEq)]
+/// struct E4M3(u8);
+///
+/// impl CorrectlyRounded for E4M3 {
+///     const PRECISION: u32 = 4;
+///     const MIN_EXPONENT: i64 = -9;
+///
+///     fn from_parts(negative: bool, significand: u64, exponent: i64) -> Option<Self> {
+///         let biased = if significand < 8 { 0 } else { exponent + 10 };
+///         let bits = (u8::try_from(biased).ok()?.checked_mul(8)?) + u8::try_from(significand % 8).ok()?;
+///         (bits < 0x7f).then_some(Self(bits | u8::from(negative) << 7))
+///     }
+/// }
+///
+/// // 4/3·√2 = 1.886 is between 1.875 and 2.
+/// let root: Surd = "4/3*sqrt(2)".parse()?;
+/// assert_eq!(root.nearest(), Some(E4M3(0b0_0111_111)));
+/// assert_eq!("465".parse::<Surd>()?.nearest::<E4M3>(), None);
+/// # Ok::<(), exact_surd::Error>(())
+/// ```
+pub trait CorrectlyRounded: Copy + Send + Sync {
+    /// The number of bits of the significand, including the leading bit: 2 to 63.
     const PRECISION: u32;
 
     /// The exponent of the last bit of a subnormal: the smallest positive float is 2 to this power.
     const MIN_EXPONENT: i64;
+
+    /// Returns the float ±`significand`·2^`exponent`, or `None` if it overflows. Other parts than these may give `None` too.
+    ///
+    /// The significand is below 2^[`PRECISION`](Self::PRECISION). The exponent is at least
+    /// [`MIN_EXPONENT`](Self::MIN_EXPONENT), and equal to it if the significand has fewer bits than `PRECISION`.
+    fn from_parts(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
+
+    /// Returns the common rounding of all numbers between `ends[0]`·2^`exponent` and `ends[1]`·2^`exponent`, or `None` if it
+    /// is not known whether both ends round to the same float.
+    #[doc(hidden)]
+    #[must_use]
+    fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self> {
+        let _ = (negative, ends, exponent);
+        None
+    }
 
     /// Returns the float nearest to `r`, ties to even, or `None` if it overflows.
     ///
@@ -145,50 +173,49 @@ pub fn float_between<F: CorrectlyRounded>(
 }
 
 macro_rules! correctly_rounded {
-    ($float:ident, $bits:ident, $ends:expr) => {
+    ($float:ty, $bits:ty $(, $ends:expr)?) => {
         impl CorrectlyRounded for $float {
-            const PRECISION: u32 = $float::MANTISSA_DIGITS;
-            const MIN_EXPONENT: i64 = $float::MIN_EXP as i64 - $float::MANTISSA_DIGITS as i64;
-        }
+            const PRECISION: u32 = <$float>::MANTISSA_DIGITS;
+            const MIN_EXPONENT: i64 = <$float>::MIN_EXP as i64 - <$float>::MANTISSA_DIGITS as i64;
 
-        impl Assemble for $float {
-            fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self> {
+            fn from_parts(negative: bool, significand: u64, exponent: i64) -> Option<Self> {
                 let hidden = 1_u64 << (Self::PRECISION - 1);
-                // Rounding up can carry into one further bit.
-                let (significand, exponent) = if significand == 2 * hidden {
-                    (hidden, exponent.saturating_add(1))
-                } else {
-                    (significand, exponent)
-                };
+                if significand >= 2 * hidden || (significand < hidden && exponent != Self::MIN_EXPONENT) {
+                    return None;
+                }
                 // Without the hidden bit the value is subnormal, and its biased exponent is 0.
                 let biased = if significand < hidden {
                     0
                 } else {
-                    exponent
-                        .saturating_sub(Self::MIN_EXPONENT)
-                        .saturating_add(1)
+                    exponent.checked_sub(Self::MIN_EXPONENT)?.checked_add(1)?
                 };
-                let largest = i64::from($float::MAX_EXP) - i64::from($float::MIN_EXP) + 1;
+                let largest = i64::from(<$float>::MAX_EXP) - i64::from(<$float>::MIN_EXP) + 1;
                 if biased > largest {
                     return None;
                 }
-                let field = $bits::try_from(biased).ok()? << (Self::PRECISION - 1);
-                let magnitude = field | $bits::try_from(significand & (hidden - 1)).ok()?;
-                let float = $float::from_bits(magnitude);
+                let field = <$bits>::try_from(biased).ok()? << (Self::PRECISION - 1);
+                let magnitude = field | <$bits>::try_from(significand & (hidden - 1)).ok()?;
+                let float = <$float>::from_bits(magnitude);
                 Some(if negative { -float } else { float })
             }
 
-            #[expect(clippy::float_cmp, reason = "the test is for identical floats")]
-            fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self> {
-                let [down, up] = $ends(ends, exponent);
-                (down == up && up.is_finite()).then(|| if negative { -down } else { down })
-            }
+            $(
+                #[expect(clippy::float_cmp, reason = "the test is for identical floats")]
+                fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self> {
+                    let [down, up] = $ends(ends, exponent);
+                    (down == up && up.is_finite()).then(|| if negative { -down } else { down })
+                }
+            )?
         }
     };
 }
 
 correctly_rounded!(f32, u32, ends_in_f32);
 correctly_rounded!(f64, u64, ends_in_f64);
+#[cfg(feature = "half")]
+correctly_rounded!(half::f16, u16);
+#[cfg(feature = "half")]
+correctly_rounded!(half::bf16, u16);
 
 /// Returns the ends times a power of two. The ends are `f64` already, and the multiplication is exact.
 fn ends_in_f64(ends: [f64; 2], exponent: i32) -> [f64; 2] {
@@ -237,21 +264,26 @@ fn round<F: CorrectlyRounded>(
     sticky: bool,
     exponent: i64,
 ) -> Option<F> {
+    const { assert!(F::PRECISION >= 2 && F::PRECISION <= 63) };
     if m.is_zero() && !sticky {
-        return F::assemble(false, 0, F::MIN_EXPONENT);
+        return F::from_parts(false, 0, F::MIN_EXPONENT);
     }
     let last_bit = (bits(m) + exponent - i64::from(F::PRECISION)).max(F::MIN_EXPONENT);
     let dropped = last_bit - exponent;
     let Ok(dropped @ 1..) = u64::try_from(dropped) else {
         // All bits are kept, with zeros appended.
         let significand = (m << -dropped).to_u64()?;
-        return F::assemble(negative, significand, last_bit);
+        return F::from_parts(negative, significand, last_bit);
     };
     let kept = (m >> dropped).to_u64()?;
     let half = m.bit(dropped - 1);
     let below_half = sticky || m.trailing_zeros().is_some_and(|zeros| zeros < dropped - 1);
     let up = half && (below_half || kept % 2 == 1);
-    F::assemble(negative, kept + u64::from(up), last_bit)
+    let (significand, carried) = (kept + u64::from(up), 1 << F::PRECISION);
+    if significand == carried {
+        return F::from_parts(negative, carried / 2, last_bit + 1);
+    }
+    F::from_parts(negative, significand, last_bit)
 }
 
 #[cfg(test)]
