@@ -1,0 +1,23 @@
+//! How accurate the forces of regular sphere piles are.
+//!
+//! The equations of a pile have a singular value decomposition in closed form, for every stacking, top and load. So a pile is
+//! a linear system of any size with rational entries, an exact solution and a known condition number.
+//!
+//! | question | call |
+//! |---|---|
+//! | Which singular values does the equilibrium matrix have? | [`singular_values(pile.shape())`](singular_values) |
+//! | What is its condition number? | [`condition_number(pile.shape())`](condition_number); in newtons at most [`condition_bound(&packing)`](condition_bound) |
+//!
+//! # Map
+//! | module | contents |
+//! |---|---|
+//! | `singular` | singular values and condition numbers |
+
+mod singular;
+
+pub use singular::{SingularValue, condition_bound, condition_number, singular_values};
+
+/// The example of README.md, compiled as a doc test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
