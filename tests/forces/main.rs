@@ -32,6 +32,8 @@ mod forces {
     #[cfg(feature = "std")]
     mod agreement;
     #[cfg(feature = "std")]
+    mod closures;
+    #[cfg(feature = "std")]
     mod contracts;
     #[cfg(feature = "std")]
     mod directed;

@@ -29,6 +29,7 @@ const BY_HAND: &[(&str, &str)] = &[
     ("Response.v", include_str!("../coq/Response.v")),
     ("Mean.v", include_str!("../coq/Mean.v")),
     ("Spectrum.v", include_str!("../coq/Spectrum.v")),
+    ("Closures.v", include_str!("../coq/Closures.v")),
 ];
 
 /// A file for Coq.

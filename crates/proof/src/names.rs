@@ -210,6 +210,29 @@ const NAMES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "primary-closure",
+        &[
+            "Closures.primary_closure",
+            "Closures.primary_closure_of_discs",
+        ],
+    ),
+    (
+        "secondary-closure",
+        &[
+            "Closures.secondary_closure",
+            "Closures.secondary_closure_of_stackings",
+            "Closures.isotropic_at_a_sign_change",
+        ],
+    ),
+    (
+        "mean-closure",
+        &[
+            "Closures.mean_closure_below",
+            "Closures.load_under_the_other_sign",
+            "Closures.mean_closure_above",
+        ],
+    ),
+    (
         "rough-contact",
         &[
             "Friction.along_and_across",

@@ -1,6 +1,7 @@
 //! All theorems in one list: the paper's, which the core proves, and those of this crate.
 
 mod bounds;
+mod closures;
 mod dimensions;
 mod disorder;
 mod friction;
@@ -96,6 +97,7 @@ pub fn own() -> impl Iterator<Item = &'static theorem::Theorem<Formulas>> {
         dimensions::THEOREMS,
         stackings::THEOREMS,
         loads::THEOREMS,
+        closures::THEOREMS,
         friction::THEOREMS,
         horizontal::THEOREMS,
         bounds::THEOREMS,

@@ -24,7 +24,7 @@ fn every_theorem_holds() {
 }
 
 /// The subject that each statement must name.
-const SUBJECTS: [(&str, &str); 37] = [
+const SUBJECTS: [(&str, &str); 40] = [
     ("discs", "pile of discs"),
     ("dimensions", "d = 2 … 6 dimensions"),
     ("region-counts", "Any base under straight steps"),
@@ -39,6 +39,9 @@ const SUBJECTS: [(&str, &str); 37] = [
         "tilt-total",
         "Total force and moment under gravity that leans",
     ),
+    ("primary-closure", "σ_xx + σ_yy = tan²θ σ_zz"),
+    ("secondary-closure", "2σ_xy = τ tanθ σ_yz"),
+    ("mean-closure", "The closure of random stackings"),
     ("rough-contact", "A contact on a rough floor"),
     ("rough-floor", "Two layers on a rough floor"),
     ("rough-unique", "Uniqueness on a rough floor"),
@@ -131,7 +134,7 @@ fn a_printed_proof_reports_its_failure() {
 }
 
 /// The number of steps of each proof, counted by cases. The theorem `dimensions` has 2d + 4 for each d from 2 to 6.
-const STEPS: [(&str, usize); 37] = [
+const STEPS: [(&str, usize); 40] = [
     ("discs", 8),
     ("dimensions", 60),
     ("region-counts", 72),
@@ -143,6 +146,9 @@ const STEPS: [(&str, usize); 37] = [
     ("load", 36),
     ("tilt", 19),
     ("tilt-total", 6),
+    ("primary-closure", 4),
+    ("secondary-closure", 8),
+    ("mean-closure", 8),
     ("rough-contact", 35),
     ("rough-floor", 48),
     ("rough-unique", 5),

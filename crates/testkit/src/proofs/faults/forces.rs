@@ -14,13 +14,13 @@ pub(super) fn faults() -> Vec<Fault> {
         "Δγ = s": increments = |s| [P::one(), P::one(), s.clone()]
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
                 "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio",
-                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "rough-floor",
-                "horizontal-balance", "elastic-straight", "elastic-energy", "squares", "faults"];
+                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "secondary-closure",
+                "rough-floor", "horizontal-balance", "elastic-straight", "elastic-energy", "squares", "faults"];
         "Δβ = −Δα": increments = |s| [P::one(), -P::one(), twice(s)]
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
                 "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
-                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "rough-floor",
-                "horizontal-balance", "elastic-straight", "squares", "faults"];
+                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "secondary-closure",
+                "rough-floor", "horizontal-balance", "elastic-straight", "squares", "faults"];
         "increments for twice the weight": increments = |s| (RIGHT.increments)(s).each_ref().map(twice)
             => ["paper-system", "central-force", "base-normal", "uniform-base", "shear", "shear-on-axis",
                 "shear-ratio", "discs", "edge", "point-load", "load", "tilt", "tilt-total",
@@ -55,7 +55,7 @@ pub(super) fn faults() -> Vec<Fault> {
                 "elastic-energy", "squares"];
         "the forces from above left out": transmitted = |_, own| own.clone() => ["equilibrium",
                 "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt",
-                "elastic-straight", "elastic-energy", "squares"];
+                "secondary-closure", "elastic-straight", "elastic-energy", "squares"];
         "its own increment twice": transmitted = |received, own| received + own + own => ["equilibrium",
                 "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt",
                 "elastic-straight", "elastic-energy", "squares"];
@@ -86,29 +86,29 @@ pub(super) fn faults() -> Vec<Fault> {
         "2Σ − g": tripled_half_turn = |g| g.clone().map(|x| twice(&sum(g)) - &x) => ["tripled-half-turn"];
 
         "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn", "tripled-half-turn", "change-of-sign",
-                "edge", "point-load", "load", "horizontal-balance", "run-horizontal", "resultant-form",
-                "squares", "third-moment", "fourth-moment", "mean-spectrum", "wave", "faults", "one-fault"];
-        "I": half_turn = Clone::clone => ["half-turn", "tripled-half-turn", "change-of-sign", "edge",
-                "point-load", "load", "horizontal-balance", "run-horizontal", "resultant-form",
-                "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults",
+                "edge", "point-load", "load", "mean-closure", "horizontal-balance", "run-horizontal",
+                "resultant-form", "squares", "third-moment", "fourth-moment", "mean-spectrum", "wave", "faults",
                 "one-fault"];
+        "I": half_turn = Clone::clone => ["half-turn", "tripled-half-turn", "change-of-sign", "edge",
+                "point-load", "load", "secondary-closure", "mean-closure", "horizontal-balance",
+                "run-horizontal", "resultant-form", "third-moment", "fourth-moment", "mean-modes",
+                "mean-spectrum", "wave", "faults", "one-fault"];
         "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn", "tripled-half-turn",
-                "change-of-sign", "edge", "point-load", "load", "horizontal-balance", "run-horizontal",
-                "resultant-form", "squares", "third-moment", "fourth-moment", "mean-modes", "mean-spectrum",
-                "wave", "faults", "one-fault"];
-        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn",
-                "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "horizontal-balance",
+                "change-of-sign", "edge", "point-load", "load", "mean-closure", "horizontal-balance",
                 "run-horizontal", "resultant-form", "squares", "third-moment", "fourth-moment", "mean-modes",
                 "mean-spectrum", "wave", "faults", "one-fault"];
+        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn",
+                "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "mean-closure",
+                "horizontal-balance", "run-horizontal", "resultant-form", "squares", "third-moment",
+                "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
         "the square of the first force added": half_turn = |g| {
             (RIGHT.half_turn)(g).map(|x| x + &(g[0].clone() * &g[0]))
-        } => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load", "load",
+        } => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "mean-closure",
                 "horizontal-balance", "virtual-work", "run-horizontal", "resultant-form", "squares",
-                "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults",
-                "one-fault"];
+                "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
         "a third of a turn": half_turn = |[a, b, c]| [b.clone(), c.clone(), a.clone()] => ["half-turn",
-                "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "horizontal-balance",
-                "virtual-work", "run-horizontal", "resultant-form", "third-moment", "fourth-moment",
-                "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
+                "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "secondary-closure",
+                "mean-closure", "horizontal-balance", "virtual-work", "run-horizontal", "resultant-form",
+                "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
     }
 }

@@ -35,7 +35,8 @@ pub(super) fn faults() -> Vec<Fault> {
         "weightless spheres": load_increments = |load, s, sign| {
             (RIGHT.load_increments)(&changed(load, |load| load.down = P::zero()), s, sign)
         } => ["load", "tilt", "tilt-total"];
-        "under − as under +": load_increments = |load, s, _| (RIGHT.load_increments)(load, s, Sign::Plus) => ["load"];
+        "under − as under +": load_increments = |load, s, _| (RIGHT.load_increments)(load, s, Sign::Plus) =>
+                ["load", "mean-closure"];
         "the signs interchanged": load_increments = |load, s, sign| {
             (RIGHT.load_increments)(load, s, sign.opposite())
         } => ["load", "tilt", "tilt-total"];
@@ -51,7 +52,8 @@ pub(super) fn faults() -> Vec<Fault> {
         "twice the load": disc_load_increments = |load, sign| {
             (RIGHT.disc_load_increments)(load, sign).each_ref().map(twice)
         } => ["load", "tilt"];
-        "under − as under +": disc_load_increments = |load, _| (RIGHT.disc_load_increments)(load, Sign::Plus) => ["load"];
+        "under − as under +": disc_load_increments = |load, _| (RIGHT.disc_load_increments)(load, Sign::Plus) =>
+                ["load"];
         "a third contact": disc_load_increments = |load, sign| {
             let [a, b, _] = (RIGHT.disc_load_increments)(load, sign);
             [a, b, load.down.clone() + &load.x]
