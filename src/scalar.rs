@@ -20,6 +20,7 @@
 //! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | rigorous bounds of the true value |
 //! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proofs for every pile at once |
 //! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact values of fixed width, with overflow detected |
+//! | [`Plain<T>`](Plain) | that of a [promise](mod@promise), else [`Unknown`](Exactness::Unknown) | any number type of `num-traits` |
 //!
 //! The functions in [`laws`] test a scalar type. All scalars above pass, and a scalar of your own should too. [`Surd`]
 //! does not implement these traits: it is the exact value c·√r of results that contain a root.
@@ -132,15 +133,28 @@ mod fixed;
 mod float;
 mod interval;
 pub mod laws;
+mod plain;
 mod polynomial;
 mod ratio;
 mod rational;
 pub(crate) mod turn;
 
+/// What is known of a number type `T`, as the second parameter of [`Plain`].
+///
+/// | scalar | for | exactness |
+/// |---|---|---|
+/// | `Plain<T>`, which is `Plain<T, promise::Unknown>` | any type with `+ − × ÷` | [`Unknown`](Exactness::Unknown) |
+/// | `Plain<T, promise::Rounded>` | binary floats that are [`CorrectlyRounded`], such as `half::bf16` | [`Rounded`](Exactness::Rounded) |
+/// | `Plain<T, promise::Exact>` | rationals of any size, such as those of dashu | [`Exact`](Exactness::Exact) |
+pub mod promise {
+    pub use super::plain::{Exact, Rounded, Unknown};
+}
+
 pub use exact_surd::rational::{ByValue, reduced};
 pub use exact_surd::{CorrectlyRounded, DoubleDouble, Surd, SurdSum, parse};
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
+pub use plain::Plain;
 pub use polynomial::{Polynomial, Symbol};
 #[doc(hidden)]
 pub use ratio::quotient;
@@ -183,6 +197,8 @@ pub enum Exactness {
         /// The precision p of the significand, in bits.
         bits: u32,
     },
+    /// Nothing is known.
+    Unknown,
 }
 
 /// A commutative ring that contains the integers. Most formulas need nothing else.

@@ -17,6 +17,8 @@ mod laws;
 #[cfg(feature = "std")]
 mod pair;
 #[cfg(feature = "std")]
+mod plain;
+#[cfg(feature = "std")]
 mod polynomial;
 #[cfg(feature = "std")]
 mod sums;

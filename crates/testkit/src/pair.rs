@@ -229,8 +229,9 @@ impl<A: Real, B: Real> Bounded for Pair<A, B> {
 
 /// Returns the exactness of a computation that uses two scalar types.
 pub const fn weaker(one: Exactness, other: Exactness) -> Exactness {
-    use Exactness::{Enclosure, Exact, Rounded};
+    use Exactness::{Enclosure, Exact, Rounded, Unknown};
     match (one, other) {
+        (Unknown, _) | (_, Unknown) => Unknown,
         (Rounded { bits: a }, Rounded { bits: b }) if b < a => other,
         (Rounded { .. }, _) => one,
         (_, Rounded { .. }) => other,
