@@ -1,88 +1,160 @@
 //! Unequal spheres, against piles that are built again.
 
 use std::collections::BTreeMap;
+use std::ops::{Add, Mul, Sub};
 
 use cannonpile::lattice::{Direction, Region, Site};
-use cannonpile::scalar::{FixedRational, Interval};
+use cannonpile::scalar::{FixedRational, Interval, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing, Pile, ratio};
-use cannonpile_stability::{ForceChange, sensitivity, spread};
+use cannonpile_stability::{sensitivity, spread};
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 
-type V = [f64; 3];
+/// A number with 60 decimal places.
+#[derive(Clone, Debug, Default)]
+struct Fixed(BigInt);
 
-fn minus(a: V, b: V) -> V {
-    [0, 1, 2].map(|n| a[n] - b[n])
+impl Fixed {
+    fn scale() -> BigInt {
+        BigInt::from(10).pow(60)
+    }
+
+    fn of(x: &BigRational) -> Self {
+        Self(x.numer() * Self::scale() / x.denom())
+    }
+
+    /// Rounds c√r.
+    fn of_surd(x: &Surd) -> Self {
+        let root = Self::of(&x.square()).root();
+        Self(root.0 * x.coefficient().signum().to_integer())
+    }
+
+    fn root(&self) -> Self {
+        Self((&self.0 * Self::scale()).sqrt())
+    }
+
+    fn over(&self, divisor: &Self) -> Self {
+        Self(&self.0 * Self::scale() / &divisor.0)
+    }
 }
 
-fn dot(a: V, b: V) -> f64 {
-    (0..3).map(|n| a[n] * b[n]).sum()
+impl Add for &Fixed {
+    type Output = Fixed;
+    fn add(self, other: Self) -> Fixed {
+        Fixed(&self.0 + &other.0)
+    }
 }
 
-fn cross(a: V, b: V) -> V {
-    [(1, 2), (2, 0), (0, 1)].map(|(m, n)| a[m] * b[n] - a[n] * b[m])
+impl Sub for &Fixed {
+    type Output = Fixed;
+    fn sub(self, other: Self) -> Fixed {
+        Fixed(&self.0 - &other.0)
+    }
+}
+
+impl Mul for &Fixed {
+    type Output = Fixed;
+    fn mul(self, other: Self) -> Fixed {
+        Fixed(&self.0 * &other.0 / Fixed::scale())
+    }
+}
+
+type V = [Fixed; 3];
+
+fn plus(a: &V, b: &V) -> V {
+    [0, 1, 2].map(|n: usize| &a[n] + &b[n])
+}
+
+fn minus(a: &V, b: &V) -> V {
+    [0, 1, 2].map(|n: usize| &a[n] - &b[n])
+}
+
+fn times(a: &V, factor: &Fixed) -> V {
+    [0, 1, 2].map(|n: usize| &a[n] * factor)
+}
+
+fn dot(a: &V, b: &V) -> Fixed {
+    (0..3).fold(Fixed::default(), |sum, n| &sum + &(&a[n] * &b[n]))
+}
+
+fn cross(a: &V, b: &V) -> V {
+    [(1, 2), (2, 0), (0, 1)].map(|(m, n): (usize, usize)| &(&a[m] * &b[n]) - &(&a[n] * &b[m]))
 }
 
 /// The solution of three equations row·x = value.
-fn solve(rows: [V; 3], values: V) -> V {
-    let [a, b, c] = rows;
-    let determinant = dot(a, cross(b, c));
+fn solve([a, b, c]: &[V; 3], values: &V) -> V {
+    let determinant = dot(a, &cross(b, c));
     let parts = [cross(b, c), cross(c, a), cross(a, b)];
-    [0, 1, 2].map(|n| (0..3).map(|m| parts[m][n] * values[m]).sum::<f64>() / determinant)
+    let terms = (0..3).map(|m| times(&parts[m], &values[m]));
+    let sum = terms.fold(V::default(), |sum, term| plus(&sum, &term));
+    sum.map(|x| x.over(&determinant))
 }
 
 /// Returns the contact forces of a pile in which one sphere has another radius, in newtons for mg = 1 and R = 1.
 ///
 /// Newton's method places each sphere on its three supports, from the bottom up. Then each sphere is balanced, from the
 /// top down.
-fn rebuilt(packing: &Packing<'_>, grown: Site, delta: f64) -> BTreeMap<(Site, Direction), f64> {
+fn rebuilt(
+    packing: &Packing<'_>,
+    grown: Site,
+    delta: &BigRational,
+) -> BTreeMap<(Site, Direction), Fixed> {
     let pile = packing.pile();
     let (shape, floor) = (pile.shape(), pile.layers() - 1);
-    let radius = |site: Site| if site == grown { 1.0 + delta } else { 1.0 };
+    let radius = |site: Site| {
+        Fixed::of(&if site == grown {
+            ratio!(1) + delta
+        } else {
+            ratio!(1)
+        })
+    };
     let sites: Vec<Site> = pile.sites(Selection::All).unwrap().collect();
     let mut places: BTreeMap<Site, V> = BTreeMap::new();
     for site in sites.iter().rev() {
-        let mut place = packing.position(*site).unwrap().map(|x| x.to_f64());
+        let mut place = packing.position(*site).unwrap().map(|x| Fixed::of_surd(&x));
         if site.k < floor {
-            for _ in 0..20 {
-                let arms = Direction::ALL.map(|direction| {
-                    let support = shape.below(*site, direction).unwrap();
-                    (
-                        minus(place, places[&support]),
-                        radius(*site) + radius(support),
-                    )
+            // Each step doubles the number of right digits.
+            for _ in 0..8 {
+                let supports =
+                    Direction::ALL.map(|direction| shape.below(*site, direction).unwrap());
+                let arms = supports.map(|support| minus(&place, &places[&support]));
+                let gaps = [0, 1, 2].map(|n: usize| {
+                    let length = &radius(*site) + &radius(supports[n]);
+                    &(&length * &length) - &dot(&arms[n], &arms[n])
                 });
-                let rows = arms.map(|(arm, _)| arm.map(|x| 2.0 * x));
-                let step = solve(
-                    rows,
-                    arms.map(|(arm, length)| length * length - dot(arm, arm)),
-                );
-                place = [0, 1, 2].map(|n| place[n] + step[n]);
+                let step = solve(&arms.map(|arm| plus(&arm, &arm)), &gaps);
+                place = plus(&place, &step);
             }
         }
         places.insert(*site, place);
     }
+    // tanθ and √3 tanθ at a = 6/5 R.
+    let horizontal = [ratio!(12 / 13), ratio!(36 / 13)].map(|square| Fixed::of(&square).root());
     let mut forces = BTreeMap::new();
     for site in sites.iter().filter(|site| site.k < floor) {
-        let mut acting = [0.0, 0.0, -pile.total_load(*site).down.to_f64().unwrap()];
+        let load = pile.total_load(*site);
+        let mut acting = [Fixed::default(), Fixed::default(), Fixed::of(&-load.down)];
+        for (n, part) in [load.x, load.y].into_iter().enumerate() {
+            acting[n] = &Fixed::of(&part) * &horizontal[n];
+        }
         let unit = |upper: Site, lower: Site| {
-            let arm = minus(places[&upper], places[&lower]);
-            let length = dot(arm, arm).sqrt();
-            arm.map(|x| x / length)
+            let arm = minus(&places[&upper], &places[&lower]);
+            let length = dot(&arm, &arm).root();
+            arm.map(|x| x.over(&length))
         };
         for direction in Direction::ALL {
             if let Some(above) = shape.above(*site, direction) {
-                let force: f64 = forces[&(above, direction)];
-                let along = unit(above, *site);
-                acting = [0, 1, 2].map(|n| acting[n] - force * along[n]);
+                let pushed = times(&unit(above, *site), &forces[&(above, direction)]);
+                acting = minus(&acting, &pushed);
             }
         }
         let below =
             Direction::ALL.map(|direction| unit(*site, shape.below(*site, direction).unwrap()));
         // Σ f_m e_m = −acting, by components.
-        let rows = [0, 1, 2].map(|n| below.map(|e| e[n]));
-        let found = solve(rows, acting.map(|x| -x));
+        let rows = [0, 1, 2].map(|n: usize| [0, 1, 2].map(|m: usize| below[m][n].clone()));
+        let found = solve(&rows, &acting.map(|x| &Fixed::default() - &x));
         for (direction, force) in Direction::ALL.into_iter().zip(found) {
             forces.insert((*site, direction), force);
         }
@@ -92,40 +164,37 @@ fn rebuilt(packing: &Packing<'_>, grown: Site, delta: f64) -> BTreeMap<(Site, Di
 
 #[test]
 fn changes_of_forces_are_those_of_piles_built_again() {
-    let one = ratio!(1);
+    let delta = BigRational::new(1.into(), BigInt::from(10).pow(15));
+    let small = BigRational::new(1.into(), BigInt::from(10).pow(20));
     for (top, stacking) in [
         (Region::SITE, "+++++"),
         (Region::SITE, "+-+"),
         (Region::hexagon(2, 1).unwrap(), "-++-"),
     ] {
         let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
-        let pile = pile.with_load(Site::new(0, 0, 1), one.clone()).unwrap();
-        let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
-        let unit = packing.unit_force().to_f64();
-        let grown = pile.sites(Selection::All).unwrap().step_by(7);
-        for grown in grown {
-            let delta = 1e-5;
-            let [more, less] = [delta, -delta].map(|delta| rebuilt(&packing, grown, delta));
-            let exact = sensitivity::<BigRational>(&packing, grown).unwrap();
-            let floats = sensitivity::<f64>(&packing, grown).unwrap();
-            for (
-                ForceChange {
-                    site,
-                    direction,
-                    change,
-                    ..
-                },
-                float,
-            ) in exact.into_iter().zip(floats)
-            {
-                let contact = (site, direction);
-                let slope = (more[&contact] - less[&contact]) / (2.0 * delta) / unit;
-                let change = change.to_f64().unwrap();
-                assert!(
-                    (slope - change).abs() < 1e-7 * (1.0 + change.abs()),
-                    "{grown} {contact:?}"
-                );
-                assert!((float.change - change).abs() < 1e-10 * (1.0 + change.abs()));
+        let pile = pile.with_load(Site::new(0, 0, 1), ratio!(1)).unwrap();
+        let leaning = pile
+            .clone()
+            .with_tilt([ratio!(1 / 20), ratio!(-1 / 30)])
+            .unwrap();
+        for pile in [pile, leaning] {
+            let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
+            let unit = Fixed::of_surd(&packing.unit_force());
+            for grown in pile.sites(Selection::All).unwrap().step_by(7) {
+                let [more, less] =
+                    [delta.clone(), -&delta].map(|delta| rebuilt(&packing, grown, &delta));
+                let exact = sensitivity::<BigRational>(&packing, grown).unwrap();
+                let floats = sensitivity::<f64>(&packing, grown).unwrap();
+                for (exact, float) in exact.into_iter().zip(floats) {
+                    let contact = (exact.site, exact.direction);
+                    let difference = (&more[&contact] - &less[&contact]).over(&unit);
+                    let slope =
+                        BigRational::new(difference.0, Fixed::scale()) / (ratio!(2) * &delta);
+                    let bound = &small * (ratio!(1) + exact.change.abs());
+                    assert!((slope - &exact.change).abs() < bound, "{grown} {contact:?}");
+                    let change = exact.change.to_f64().unwrap();
+                    assert!((float.change - change).abs() < 1e-10 * (1.0 + change.abs()));
+                }
             }
         }
     }
