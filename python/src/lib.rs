@@ -11,6 +11,7 @@ mod exception;
 mod figure;
 mod input;
 mod mean;
+mod numbers;
 mod pile;
 mod theorem;
 mod work;

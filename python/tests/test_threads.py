@@ -99,6 +99,8 @@ def test_threads_share_a_pile():
 ENDLESS = {
     "forces": "[Pile(150, 'hcp').forces() for _ in range(1000)]",
     "multiples": "Pile(300, 'hcp').multiples()",
+    "positions": "[Pile(300).positions() for _ in range(1000)]",
+    "contact_ids": "[Pile(300).contact_ids() for _ in range(1000)]",
     "stands": "[Pile(1000, 'hcp').stands for _ in range(1000)]",
     "census": "list(cannonpile.census(2000))",
     "mean": "cannonpile.mean(200)",

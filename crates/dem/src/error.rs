@@ -3,8 +3,6 @@
 use core::error::Error as Cause;
 use core::fmt;
 
-use num_bigint::BigUint;
-
 use cannonpile::lattice::Site;
 
 use crate::Key;
@@ -74,11 +72,6 @@ pub enum Error {
         /// The reason why the value was rejected.
         error: Box<Self>,
     },
-    /// A quantity in SI units was requested for a pile without sizes and weights.
-    NeedsUnits {
-        /// The quantity.
-        quantity: &'static str,
-    },
     /// A file that only exists for a floor with glue.
     GluedOnly {
         /// The file.
@@ -140,10 +133,6 @@ impl fmt::Display for Whole<'_> {
                 }
             }
             Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
-            Error::NeedsUnits { quantity } => write!(
-                f,
-                "{quantity} are in newtons and metres: use a packing, with a radius, a mass and a spacing"
-            ),
             Error::GluedOnly { file } => write!(
                 f,
                 "{file} is only written for a floor with glue: use the formats lammps, yade and card, or a floor with glue"
@@ -215,16 +204,5 @@ impl Error {
 
     pub(crate) fn on_floor(site: Site) -> Self {
         cannonpile::Error::OnFloor { site }.into()
-    }
-
-    /// Returns the error for a count that exceeds the address space.
-    pub(crate) fn beyond_addresses(quantity: &'static str, needed: BigUint) -> Self {
-        cannonpile::Error::TooLarge {
-            quantity,
-            needed,
-            limit: usize::MAX as u64,
-            remedy: "use fewer layers, or a smaller top or base",
-        }
-        .into()
     }
 }

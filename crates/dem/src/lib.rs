@@ -12,7 +12,7 @@
 //! | [`Error`], [`Key`] | errors of this crate, and the keys of a scene |
 //! | [`scene`] | a pile as a user describes it: options, TOML files, named benchmark cases |
 //! | [`table`] | tables of forces and spheres as csv, JSON and text; files that are complete or absent |
-//! | the crate root | whole piles: [`PileExport`] for files, [`PileArrays`] for slices, [`NumberedPile`] for both |
+//! | the crate root | whole piles: [`PileExport`] for files, [`NumberedPile`] for their contacts |
 //! | | [`Compliance`]: the difference between forces on springs and exact forces |
 //! | [`verify`] | measured contact forces, compared with the exact ones |
 //!
@@ -43,7 +43,6 @@
 
 #[doc(hidden)]
 pub mod angle;
-mod arrays;
 #[doc(hidden)]
 pub mod card;
 mod compliance;
@@ -73,7 +72,6 @@ mod yade;
 
 use cannonpile::each::Each;
 
-pub use arrays::PileArrays;
 pub use card::CardTitle;
 pub use compliance::{Compliance, NoCompliance, SoftContact};
 pub use error::Error;

@@ -431,7 +431,10 @@ impl<'p> NumberedPile<'p> {
 
 impl LinkedRow {
     /// Returns the numbers of a row of spheres, and of the spheres below. Along a row both are consecutive.
-    pub(super) fn of(numbering: &Numbering<'_>, row: &Row) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// Those of [`Numbering::id`], for a row that is not of the pile or is on the floor.
+    pub fn of(numbering: &Numbering<'_>, row: &Row) -> Result<Self, Error> {
         let shape = numbering.shape();
         let at = |i| Site {
             i,
@@ -482,7 +485,10 @@ impl NumberedContact {
 const FORCE: &str = "a contact force";
 
 /// Returns the correctly rounded components of a vector.
-pub(super) fn rounded<const N: usize>(
+///
+/// # Errors
+/// As for [`nearest`].
+pub fn rounded<const N: usize>(
     vector: &[Surd; N],
     quantity: &'static str,
 ) -> Result<[f64; N], Error> {
@@ -494,7 +500,10 @@ pub(super) fn rounded<const N: usize>(
 }
 
 /// Iterates over the stress of all spheres times the volume of a sphere, in N·m and correctly rounded.
-pub(super) fn stresses<'p>(
+///
+/// # Errors
+/// The errors of [`Forces::stresses`](cannonpile::Forces::stresses).
+pub fn stresses<'p>(
     packing: &Packing<'p>,
 ) -> Result<impl Iterator<Item = Result<[f64; 6], Error>> + use<'p>, Error> {
     let (packing, stresses) = (packing.clone(), packing.forces().stresses(Selection::All)?);

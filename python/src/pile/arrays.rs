@@ -1,6 +1,5 @@
 //! All spheres and contacts as NumPy arrays.
 
-use cannonpile_dem::PileArrays;
 use num_bigint::{BigInt, Sign};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyMemoryError;
@@ -11,16 +10,16 @@ use super::Pile;
 use crate::array::{column, rows};
 use crate::error::Error;
 use crate::exception::Raised;
+use crate::numbers::Numbers;
 use crate::work::work;
 
 impl Pile {
     /// Returns the arrays of the pile, in SI units or in pile units.
-    fn numbers(&self, si: bool) -> PyResult<PileArrays<'_>> {
+    fn numbers(&self, si: bool) -> PyResult<Numbers<'_>> {
         let numbers = if si {
-            self.packing()
-                .and_then(|packing| Ok(PileArrays::of_packing(&packing)?))
+            self.packing().and_then(Numbers::of_packing)
         } else {
-            PileArrays::of_pile(&self.exact).map_err(Error::from)
+            Numbers::of_pile(&self.exact)
         };
         numbers.map_err(|error| Raised::from(error).into_exception())
     }
@@ -44,16 +43,14 @@ impl Pile {
 #[pyfunction]
 pub(crate) fn positions<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let numbers = pile.numbers(true)?;
-    rows(py, numbers.spheres(), |centres| {
-        numbers.fill_centres(centres)
-    })
+    rows(py, numbers.spheres, |centres| numbers.fill_centres(centres))
 }
 
 /// The stress of all spheres times the volume of a sphere.
 #[pyfunction]
 pub(crate) fn stresses<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let numbers = pile.numbers(true)?;
-    rows(py, numbers.spheres(), |stresses| {
+    rows(py, numbers.spheres, |stresses| {
         numbers.fill_stresses(stresses)
     })
 }
@@ -62,7 +59,7 @@ pub(crate) fn stresses<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py,
 #[pyfunction]
 pub(crate) fn sites<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
     let numbers = pile.numbers(false)?;
-    rows(py, numbers.spheres(), |sites| numbers.fill_sites(sites))
+    rows(py, numbers.spheres, |sites| numbers.fill_sites(sites))
 }
 
 /// The ids of the spheres of all contacts.
@@ -72,7 +69,7 @@ pub(crate) fn contact_ids<'py>(
     py: Python<'py>,
 ) -> PyResult<Bound<'py, PyArray2<i64>>> {
     let numbers = pile.numbers(false)?;
-    rows(py, numbers.contacts(), |ids| numbers.fill_ids(ids))
+    rows(py, numbers.contacts, |ids| numbers.fill_ids(ids))
 }
 
 /// The contact points of all contacts.
@@ -82,7 +79,7 @@ pub(crate) fn contact_points<'py>(
     py: Python<'py>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let numbers = pile.numbers(true)?;
-    rows(py, numbers.contacts(), |points| numbers.fill_points(points))
+    rows(py, numbers.contacts, |points| numbers.fill_points(points))
 }
 
 /// The forces of all contacts.
@@ -93,14 +90,14 @@ pub(crate) fn forces<'py>(
     si: bool,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let numbers = pile.numbers(si)?;
-    column(py, numbers.contacts(), |forces| numbers.fill_forces(forces))
+    column(py, numbers.contacts, |forces| numbers.fill_forces(forces))
 }
 
 /// The force vectors on the first spheres of all contacts.
 #[pyfunction]
 pub(crate) fn vectors<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let numbers = pile.numbers(true)?;
-    rows(py, numbers.contacts(), |vectors| {
+    rows(py, numbers.contacts, |vectors| {
         numbers.fill_vectors(vectors)
     })
 }
@@ -124,7 +121,7 @@ pub(crate) fn multiples<'py>(
 ) -> PyResult<(Bound<'py, PyArray1<i64>>, BigInt)> {
     let numbers = pile.numbers(false)?;
     let mut denominator = BigInt::ZERO;
-    let numerators = column(py, numbers.contacts(), |numerators: &mut [i64]| {
+    let numerators = column(py, numbers.contacts, |numerators: &mut [i64]| {
         denominator = numbers.fill_multiples(numerators)?;
         Ok::<_, Error>(())
     })?;
@@ -139,8 +136,8 @@ pub(crate) fn long_multiples<'py>(
     py: Python<'py>,
 ) -> PyResult<(Bound<'py, PyBytes>, usize, BigInt)> {
     let numbers = pile.numbers(false)?;
-    let mut numerators = reserved(numbers.contacts())?;
-    numerators.resize(numbers.contacts(), BigInt::ZERO);
+    let mut numerators = reserved(numbers.contacts)?;
+    numerators.resize(numbers.contacts, BigInt::ZERO);
     let (numerators, denominator) = work(py, || {
         let denominator = numbers.fill_multiples(&mut numerators)?;
         Ok::<_, Error>((numerators, denominator))

@@ -1,6 +1,5 @@
 //! Tests of exported files: they agree with the tables and with mechanics, and a failure leaves no new file.
 
-mod arrays;
 mod cards;
 mod compliance;
 mod files;

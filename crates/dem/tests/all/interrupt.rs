@@ -9,9 +9,9 @@ use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Interrupt, Packing, Pile};
 use cannonpile_dem::Error;
+use cannonpile_dem::NumberedPile;
 use cannonpile_dem::verify::Refusal;
 use cannonpile_dem::verify::{Comparison, Measured};
-use cannonpile_dem::{NumberedPile, PileArrays};
 use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
 use cannonpile_stability::census;
 use num_bigint::BigInt;
@@ -40,11 +40,15 @@ fn of_core(error: cannonpile_disorder::Error) -> Error {
     }
 }
 
+/// Returns a column of zeros for each direction.
+fn zeros<T: Clone + Default>(spheres: usize) -> [Vec<T>; 3] {
+    [(); 3].map(|()| vec![T::default(); spheres])
+}
+
 /// Runs each long computation on a small pile.
 fn work(pile: &Pile, name: &str) -> Result<(), Error> {
     let part = Selection::All;
     let packing = Packing::new(pile, &Spacing::new(one())?)?;
-    let arrays = PileArrays::of_packing(&packing)?;
     let exact = pile.forces::<BigRational>();
     let last = pile.layers() - 1;
     let base = pile.shape().base();
@@ -59,19 +63,19 @@ fn work(pile: &Pile, name: &str) -> Result<(), Error> {
         "a force" => drop(exact.to_below(above)?),
         "floats" => {
             let layers = pile.forces::<f64>().layers(part)?;
-            let mut columns = [(); 3].map(|()| vec![0.0; layers.slice_len().expect("a number")]);
+            let mut columns = zeros(layers.slice_len()?);
             layers.fill(columns.each_mut().map(Vec::as_mut_slice))?;
         }
-        "forces" => arrays.fill_forces(&mut vec![0.0; arrays.contacts()])?,
-        "vectors" => arrays.fill_vectors(&mut vec![[0.0; 3]; arrays.contacts()])?,
-        "multiples" => {
-            let mut numerators = vec![BigInt::ZERO; arrays.contacts()];
-            arrays.fill_multiples(&mut numerators)?;
+        "forces" => {
+            let layers = packing.layers::<f64>(part)?;
+            let mut columns = zeros(layers.slice_len()?);
+            layers.fill(columns.each_mut().map(Vec::as_mut_slice))?;
         }
-        "centres" => arrays.fill_centres(&mut vec![[0.0; 3]; arrays.spheres()])?,
-        "points" => arrays.fill_points(&mut vec![[0.0; 3]; arrays.contacts()])?,
-        "ids" => arrays.fill_ids(&mut vec![[0_u64; 2]; arrays.contacts()])?,
-        "sites" => arrays.fill_sites(&mut vec![[0_i64; 3]; arrays.spheres()])?,
+        "multiples" => {
+            let layers = exact.layers(part)?.numerators::<BigInt>()?;
+            let mut columns = zeros(layers.slice_len()?);
+            layers.fill(columns.each_mut().map(Vec::as_mut_slice))?;
+        }
         "contacts" => NumberedPile::new(&packing)?
             .contacts()?
             .try_for_each(|c| c.map(|_| ()))?,
@@ -100,16 +104,11 @@ fn work(pile: &Pile, name: &str) -> Result<(), Error> {
     Ok(())
 }
 
-const NAMES: [&str; 18] = [
+const NAMES: [&str; 13] = [
     "a force",
     "floats",
     "forces",
-    "vectors",
     "multiples",
-    "centres",
-    "points",
-    "ids",
-    "sites",
     "contacts",
     "standing",
     "extremes",
@@ -139,7 +138,7 @@ fn long_computations_end_only_after_a_request() {
 #[test]
 fn computations_on_straight_piles_end() {
     let pile = Pile::triangular(6).expect("a pile");
-    for name in ["floats", "forces", "vectors", "multiples"] {
+    for name in ["floats", "forces", "multiples"] {
         let interrupt = Interrupt::new();
         interrupt.request();
         let ended = interrupt.during(|| work(&pile, name));

@@ -2,7 +2,6 @@
 
 use core::slice::IterMut;
 
-use crate::{Each, Error};
 use cannonpile::lattice::Row;
 use cannonpile::shape::Rows;
 
@@ -14,13 +13,14 @@ pub(super) fn pieces(rows: Rows<'_>) -> impl Iterator<Item = Row> {
     rows.flat_map(|row| row.pieces(PIECE))
 }
 
-/// Checks that the slice has `needed` entries.
-pub(super) fn check_length<V>(needed: usize, places: &[V]) -> Result<(), Error> {
-    let given = places.len();
-    if given == needed {
-        return Ok(());
-    }
-    Err(cannonpile::Error::Length { needed, given }.into())
+/// Returns three columns with one entry per sphere.
+pub(super) fn columns(spheres: usize) -> [Vec<f64>; 3] {
+    [(); 3].map(|()| vec![0.0; spheres])
+}
+
+/// Returns the slices of three columns.
+pub(super) fn slices<V>(columns: &mut [Vec<V>; 3]) -> [&mut [V]; 3] {
+    columns.each_mut().map(Vec::as_mut_slice)
 }
 
 /// Writes to the next entry.
@@ -36,7 +36,7 @@ pub(super) fn put_vectors(directions: &[[Vec<f64>; 3]], places: &mut IterMut<'_,
     for sphere in 0..spheres {
         for columns in directions {
             // All columns have the length of this row.
-            put(places, columns.each_ref().each(|column| column[sphere]));
+            put(places, columns.each_ref().map(|column| column[sphere]));
         }
     }
 }
