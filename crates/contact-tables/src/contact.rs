@@ -1,6 +1,7 @@
 //! A row of a table: the force between two spheres, which are known by number or by position.
 
 use core::slice;
+use std::io;
 
 /// A row of a table: a contact of two spheres, with the force that was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +44,16 @@ pub enum Force {
     Vector([f64; 3]),
     /// Both the force along the line and the vector on the first sphere.
     Both(f64, [f64; 3]),
+}
+
+/// Adds a row to others.
+///
+/// # Errors
+/// [`io::ErrorKind::OutOfMemory`].
+pub(crate) fn keep(rows: &mut Vec<Contact>, row: Contact) -> io::Result<()> {
+    rows.try_reserve(1)?;
+    rows.push(row);
+    Ok(())
 }
 
 impl Contact {

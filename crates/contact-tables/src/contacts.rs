@@ -3,14 +3,13 @@
 use std::fs::File;
 use std::io::Read;
 
-use crate::contact::Contact;
+use crate::contact::{Contact, keep};
 use crate::counts::RowCounts;
 use crate::dialect::Dialect;
 use crate::error::Error;
 use crate::format::Format;
 use crate::input::Input;
 use crate::kind::FileKind;
-use crate::rows::Rows;
 use crate::steps::Steps;
 use crate::text::Text;
 use crate::{dump, vtk};
@@ -70,7 +69,7 @@ pub fn read<'r>(input: impl Read + 'r, format: &Format) -> Result<Contacts<'r>, 
         steps: Steps::new(format),
         source: Source::Read(Box::new(None.into_iter())),
     };
-    let mut rows = Rows::default();
+    let mut rows = Vec::new();
     let steps = &mut contacts.steps;
     let outcome = match kind {
         FileKind::Table => {
@@ -125,14 +124,14 @@ impl Contacts<'_> {
     }
 
     /// Reads all rows, and keeps those of the last step.
-    fn keep(&mut self, rows: &mut Rows) -> Result<(), Error> {
+    fn keep(&mut self, rows: &mut Vec<Contact>) -> Result<(), Error> {
         let mut outcome = Ok(());
         while let Some(contact) = self.next() {
             if self.steps.has_begun() {
                 rows.clear();
             }
             match contact {
-                Ok(contact) => rows.push(&contact)?,
+                Ok(contact) => keep(rows, contact)?,
                 Err(error) => outcome = Err(error),
             }
         }

@@ -15,11 +15,11 @@
 
 use std::io::BufRead;
 
+use crate::contact::{Contact, keep};
 use crate::error::{Error, Fault, Syntax};
 use crate::format::Format;
 use crate::header::Header;
 use crate::lines::{Line, Lines};
-use crate::rows::Rows;
 use crate::steps::Steps;
 
 /// The prefix of a header line.
@@ -30,7 +30,7 @@ pub(crate) fn read(
     input: impl BufRead,
     format: &Format,
     steps: &mut Steps,
-    rows: &mut Rows,
+    rows: &mut Vec<Contact>,
 ) -> Result<(), Error> {
     let mut lines = Lines::new(input);
     let mut snapshots = 0_u64;
@@ -149,7 +149,7 @@ fn entries(
     columns: &Header,
     announced: u64,
     steps: &mut Steps,
-    mut rows: Option<&mut Rows>,
+    mut rows: Option<&mut Vec<Contact>>,
 ) -> Result<(), Error> {
     for found in 0..announced {
         let last = lines.number();
@@ -176,7 +176,7 @@ fn entries(
         let row = columns.read(&cells, line.number);
         let row = row.map_err(|fault| fault.at(line.number))?;
         if let Some(contact) = steps.count(&row, line.number)? {
-            rows.push(&contact)?;
+            keep(rows, contact)?;
         }
     }
     Ok(())

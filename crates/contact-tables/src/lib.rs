@@ -22,7 +22,7 @@
 //! | `kind` | [`FileKind`]: the kind of a file, by its first bytes |
 //! | `error` | [`Error`]: why a file is refused |
 //! | `encoding`, `input`, `lines` | the [`TextEncoding`]; the bytes of a file, decompressed, as text, line by line |
-//! | `contact`, `rows` | [`Contact`]: a row; [`Rows`]: many in little memory |
+//! | `contact` | [`Contact`]: a row |
 //! | `number`, `cut`, `dialect` | the [`Dialect`] of a text: numbers and cells |
 //! | `columns`, `preset`, `format` | the [`Columns`] of the quantities; those of known codes; all that a user tells |
 //! | `header` | the columns of a table, and the parser of its rows |
@@ -48,7 +48,6 @@ mod kind;
 mod lines;
 mod number;
 mod preset;
-mod rows;
 mod steps;
 mod text;
 mod vtk;
@@ -64,7 +63,6 @@ pub use error::{Error, Syntax};
 pub use format::Format;
 pub use kind::FileKind;
 pub use preset::Preset;
-pub use rows::Rows;
 pub use steps::is_same_step;
 
 /// The examples of README.md, run as tests.

@@ -20,9 +20,9 @@ pub(crate) use files::Open;
 use files::{named, opened, parse};
 use piece::Kind;
 
+use crate::contact::Contact;
 use crate::error::Error;
 use crate::format::Format;
-use crate::rows::Rows;
 use crate::steps::Steps;
 
 /// Reads the contacts of a file as rows, and those of the files that it names. Rows are numbered from 1.
@@ -31,7 +31,7 @@ pub(crate) fn read(
     format: &Format,
     open: Option<Open<'_>>,
     steps: &mut Steps,
-    rows: &mut Rows,
+    rows: &mut Vec<Contact>,
 ) -> Result<(), Error> {
     let document = parse(bytes)?;
     let files = opened(&document.files, open)?;
@@ -107,7 +107,7 @@ mod tests {
                 None => Err(std::io::Error::from(std::io::ErrorKind::NotFound).into()),
             }
         };
-        let (mut steps, mut rows) = (Steps::new(&Format::default()), Rows::default());
+        let (mut steps, mut rows) = (Steps::new(&Format::default()), Vec::new());
         let (first, format) = (files[0].1.as_bytes(), Format::default());
         let read = read(first, &format, Some(&open), &mut steps, &mut rows);
         read.map_err(|error| error.to_string())?;
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn without_access_to_other_files_they_are_named() {
         let whole = pieces("PUnstructuredGrid", &["chains.0.vtu", "chains.1.vtu"]);
-        let (mut steps, mut rows) = (Steps::new(&Format::default()), Rows::default());
+        let (mut steps, mut rows) = (Steps::new(&Format::default()), Vec::new());
         let format = Format::default();
         let read = read(whole.as_bytes(), &format, None, &mut steps, &mut rows);
         assert_eq!(

@@ -10,10 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::array::Array;
 use super::piece::{Kind, Piece, Row, Section, outside};
 use super::values::Values;
+use crate::contact::{Contact, keep};
 use crate::error::{Error, Fault};
 use crate::format::Format;
 use crate::header::Header;
-use crate::rows::Rows;
 use crate::steps::Steps;
 
 /// The largest number of components that are columns.
@@ -42,7 +42,7 @@ pub(super) fn read(
     format: &Format,
     line: &mut u64,
     steps: &mut Steps,
-    rows: &mut Rows,
+    rows: &mut Vec<Contact>,
 ) -> Result<(), Error> {
     let columns = columns(piece, kind)?;
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
@@ -95,7 +95,7 @@ pub(super) fn read(
         let row = row.and_then(|fields| header.read(&fields, *line));
         let row = row.map_err(|fault| fault.at(*line))?;
         if let Some(contact) = steps.count(&row, *line)? {
-            rows.push(&contact)?;
+            keep(rows, contact)?;
         }
     }
     Ok(())

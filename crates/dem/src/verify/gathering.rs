@@ -1,8 +1,10 @@
 //! Rows with positions, stored until the frame of the table is known.
 
+use std::io;
+
 use num_traits::ToPrimitive;
 
-use contact_tables::{Contact, Force, Place, Rows};
+use contact_tables::{Contact, Force, Place};
 
 use super::frame::Frame;
 use super::ledger::Ledger;
@@ -24,7 +26,7 @@ pub(super) struct Gathering<'p> {
     places: Places,
     radius: f64,
     within: f64,
-    kept: Rows,
+    kept: Vec<Contact>,
     /// True if the frame of the table is that of the scene.
     is_own: bool,
 }
@@ -39,7 +41,7 @@ impl<'p> Gathering<'p> {
             ledger,
             radius,
             within: within * radius,
-            kept: Rows::default(),
+            kept: Vec::new(),
             is_own: false,
         })
     }
@@ -51,14 +53,14 @@ impl<'p> Gathering<'p> {
             return Ok((self.ledger, Frame::OWN));
         }
         let frame = self.frame(&kept)?;
-        for row in kept.iter() {
+        for row in &kept {
             Interrupt::check()?;
-            self.give(&row, &frame)?;
+            self.give(row, &frame)?;
         }
         Ok((self.ledger, frame))
     }
 
-    fn frame(&self, kept: &Rows) -> Result<Frame, Refusal> {
+    fn frame(&self, kept: &[Contact]) -> Result<Frame, Refusal> {
         let sizes = [self.radius, self.within];
         let fit = registration::find(kept, &self.ledger, &self.places, sizes)?;
         let (found, sample) = (fit.found, fit.sample);
@@ -125,7 +127,8 @@ impl<'p> Gathering<'p> {
             let limit = MAX_ENTRIES;
             return Err(Fault::TooMany { limit }.at(row.line));
         }
-        self.kept.push(row)?;
+        self.kept.try_reserve(1).map_err(io::Error::from)?;
+        self.kept.push(*row);
         if self.kept.len() == ENOUGH && self.all_fit() {
             self.is_own = true;
             for row in core::mem::take(&mut self.kept) {

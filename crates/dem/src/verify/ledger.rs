@@ -48,13 +48,9 @@ pub(super) struct Ledger<'p> {
 
 /// A row of a pair of spheres, as seen from the sphere with the smaller number.
 struct Row {
-    ids: [u64; 2],
+    measured: Measured,
     line: u64,
     order: Order,
-    is_length: bool,
-    force: f64,
-    vector: Option<[f64; 3]>,
-    tangential: Option<Box<[f64; 3]>>,
 }
 
 /// The order of the two spheres in a row.
@@ -79,23 +75,14 @@ struct Pair {
 }
 
 impl Row {
-    fn measured(&self) -> Measured {
-        Measured {
-            ids: self.ids,
-            force: self.force,
-            vector: self.vector,
-            tangential: self.tangential.as_deref().copied(),
-            is_length: self.is_length,
-        }
-    }
-
     fn is_of_pair(&self, other: &Self) -> bool {
-        self.ids == other.ids
+        self.measured.ids == other.measured.ids
     }
 
     /// Returns whether a second row of the pair has the same force.
     fn agrees(&self, other: &Self) -> bool {
-        let forces = |row: &Self| (row.force, row.vector, row.tangential.clone());
+        let forces =
+            |Self { measured, .. }: &Self| (measured.force, measured.vector, measured.tangential);
         forces(self) == forces(other)
     }
 }
@@ -213,25 +200,15 @@ impl<'p> Ledger<'p> {
             let column = "a tangential force";
             return Err(Fault::NotFinite { column, value });
         }
-        let Measured {
-            ids,
-            force,
-            vector,
-            tangential,
-            is_length,
-        } = if first < second {
+        let measured = if first < second {
             *measured
         } else {
             measured.reversed()
         };
         self.rows.push(Row {
-            ids,
+            measured,
             line,
             order,
-            is_length,
-            force,
-            vector,
-            tangential: tangential.map(Box::new),
         });
         Ok(())
     }
@@ -283,7 +260,8 @@ impl<'p> Ledger<'p> {
     /// Sorts the rows by pairs. A third row of a pair is refused, and another force in the same order, as in a table of
     /// several steps.
     fn sort(&mut self) -> Result<(), Refusal> {
-        self.rows.sort_unstable_by_key(|row| (row.ids, row.line));
+        self.rows
+            .sort_unstable_by_key(|row| (row.measured.ids, row.line));
         let pairs = self.rows.chunk_by(Row::is_of_pair);
         let refused = pairs.filter_map(|rows| {
             let (first, second) = (rows.first()?, rows.get(1)?);
@@ -298,7 +276,7 @@ impl<'p> Ledger<'p> {
         let Some((line, first)) = refused.min_by_key(|(line, _)| *line) else {
             return Ok(());
         };
-        let (ids, first) = (first.ids, first.line);
+        let (ids, first) = (first.measured.ids, first.line);
         Err(Fault::Twice { ids, first }.at(line))
     }
 
@@ -313,12 +291,17 @@ impl<'p> Ledger<'p> {
         };
         Ok(exact.enumerate().map(|(n, exact)| {
             let (exact, tangential) = exact.map_err(Refusal::of_forces)?;
-            let place = self.rows.partition_point(|row| row.ids < exact.ids);
+            let place = self
+                .rows
+                .partition_point(|row| row.measured.ids < exact.ids);
             let row = |place: usize| {
-                let row = self.rows.get(place).filter(|row| row.ids == exact.ids);
+                let row = self
+                    .rows
+                    .get(place)
+                    .filter(|row| row.measured.ids == exact.ids);
                 let measured = row.map(|row| match &self.rough {
-                    Some(rough) => rough.split(n, row.measured()),
-                    None => Ok(row.measured()),
+                    Some(rough) => rough.split(n, row.measured),
+                    None => Ok(row.measured),
                 });
                 let measured = measured.transpose()?;
                 let is_length = false;
@@ -366,7 +349,7 @@ impl<'p> Ledger<'p> {
             return Err(Fault::NoSuchSphere { id, first, spheres }.at(line));
         }
         self.sort()?;
-        let with_vectors = self.rows.iter().any(|row| row.vector.is_some());
+        let with_vectors = self.rows.iter().any(|row| row.measured.vector.is_some());
         let is_rough = self.rough.is_some();
         let are_shares = self.are_shares()?;
         let mut tally = Tally::new(&self.numbered, with_vectors, is_rough);
@@ -396,12 +379,12 @@ impl<'p> Ledger<'p> {
         for rows in self.rows.chunk_by(Row::is_of_pair) {
             let is_contact = places.binary_search(&place).is_ok();
             (place, pairs) = (place + rows.len(), pairs + 1);
-            let forces = rows.iter().map(Row::measured);
+            let forces = rows.iter().map(|row| row.measured);
             let greatest =
                 forces.max_by(|one, other| one.magnitude().total_cmp(&other.magnitude()));
             if let (Some(stray), false) = (greatest, is_contact) {
                 balance.add_stray(&stray)?;
-                let apart = rows.iter().map(|row| row.measured().difference(&stray));
+                let apart = rows.iter().map(|row| row.measured.difference(&stray));
                 strays.push((stray, apart.fold(0.0, f64::max)));
             }
         }

@@ -1,6 +1,6 @@
 //! The measured force of a contact that is known by its position.
 
-use contact_tables::{Contact, Force, Place, Rows, Spheres};
+use contact_tables::{Contact, Force, Place, Spheres};
 
 use super::measured::refuse_infinite;
 use super::refusal::Fault;
@@ -63,7 +63,7 @@ impl Placed {
     }
 
     /// Returns the measurements in the rows of a table.
-    pub(super) fn all(rows: &Rows) -> impl Iterator<Item = Self> {
+    pub(super) fn all(rows: &[Contact]) -> impl Iterator<Item = Self> {
         rows.iter().filter_map(|row| {
             let (place, force) = (row.place()?, row.force);
             Some(Self { place, force })

@@ -13,7 +13,7 @@
 
 use core::f64::consts::PI;
 
-use contact_tables::{Force, Place, Rows};
+use contact_tables::{Contact, Force, Place};
 
 use super::axes::Axes;
 use super::frame::Frame;
@@ -96,7 +96,7 @@ struct Search<'s> {
     within: f64,
     /// The largest distance of a position from its exact one in a candidate frame.
     near: f64,
-    rows: &'s Rows,
+    rows: &'s [Contact],
     greatest: f64,
     /// The number of rows that may be contacts between spheres.
     count: usize,
@@ -106,7 +106,7 @@ struct Search<'s> {
 
 /// Finds the frame in which these positions match the pile.
 pub(super) fn find(
-    rows: &Rows,
+    rows: &[Contact],
     ledger: &Ledger<'_>,
     places: &Places,
     [radius, within]: [f64; 2],
@@ -166,7 +166,7 @@ pub(super) fn find(
 
 impl<'s> Search<'s> {
     fn new(
-        rows: &'s Rows,
+        rows: &'s [Contact],
         ledger: &Ledger<'_>,
         places: &'s Places,
         [radius, within]: [f64; 2],
