@@ -28,7 +28,6 @@ pub fn equilibrium(bytes: &[u8]) -> Corpus {
             claims::equilibrium::small_pile,
             claims::equilibrium::on_floor,
             claims::sites::anywhere,
-            claims::sites::numbered,
         ],
     )
 }

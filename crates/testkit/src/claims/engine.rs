@@ -24,11 +24,11 @@ pub fn every_way(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let steps = i128::try_from(described.signs.len()).unwrap_or_default();
     let k = u.int_in_range(0..=steps)?;
-    all_ways_agree(&described, k, u.int_in_range(0..=20)?)
+    all_ways_agree(&described, k)
 }
 
-/// Checks the whole pile, layer k alone, and the layers from `from` downwards.
-pub fn all_ways_agree(described: &Described, k: i128, from: usize) -> Checked {
+/// Checks the whole pile, and layer k alone.
+pub fn all_ways_agree(described: &Described, k: i128) -> Checked {
     let solved = Solved::of(described);
     let pile = described.pile()?;
     let spheres = solved.from_above.keys();
@@ -44,12 +44,9 @@ pub fn all_ways_agree(described: &Described, k: i128, from: usize) -> Checked {
         let swept: Result<Contacts, Error> = forces.contacts(Selection::All)?.collect();
         agree(&swept?, &contacts)?;
         let swept: Result<Floor, Error> = forces.base(Selection::Base)?.collect();
-        let swept = swept?;
-        base_supports_everything(&swept, &solved)?;
-        same("the base", &swept, &floor)?;
+        same("the base", &swept?, &floor)?;
     }
     of_one_layer(&forces, k, &contacts)?;
-    filled(&forces, i128::try_from(from).unwrap_or(0), &contacts)?;
     // A tree for every sphere would be slow in a large pile.
     let stride = 1 + sites.len() / 24;
     for site in sites.iter().step_by(stride).chain(sites.last()) {
@@ -121,26 +118,6 @@ fn of_one_layer(forces: &Exact<'_>, k: i128, contacts: &Contacts) -> Checked {
     agree(&swept?, &here.cloned().collect())
 }
 
-/// Compares the layers from `from` on, written into slices.
-fn filled(forces: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
-    let mut layers = forces.layers(Selection::All)?;
-    while let Some(layer) = layers.next_layer()? {
-        if layer.is_floor() || layer.k() < from {
-            continue;
-        }
-        let mut slices = [(); 3].map(|()| vec![BigRational::zero(); layer.sphere_count()]);
-        layer.fill(slices.each_mut().map(Vec::as_mut_slice))?;
-        let here = contacts
-            .iter()
-            .filter(|contact| contact.site.k == layer.k());
-        for (n, contact) in here.enumerate() {
-            let force = &slices[contact.direction.index()][n / 3];
-            same("a force in a slice", force, &contact.force)?;
-        }
-    }
-    Ok(())
-}
-
 /// Compares the answers about one sphere, which the library finds from the lines above it.
 fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
     let sphere = (site.k, (site.j, site.i));
@@ -170,38 +147,6 @@ fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
         "the unbalanced force",
         &forces.unbalanced(site)?,
         &Vector::zero(),
-    )
-}
-
-/// The base supports all weights and loads with the right moments, and without a total horizontal force.
-fn base_supports_everything(floor: &[FloorForce<BigRational>], solved: &Solved) -> Checked {
-    let normals = || solved.base().zip(floor.iter().map(|force| &force.normal));
-    let total: BigRational = normals().map(|(_, normal)| normal).sum();
-    same(
-        "the total force on the floor",
-        &total,
-        &solved.acting.values().sum(),
-    )?;
-    for (axis, name) in [(0, "the moment along i"), (1, "the moment along j")] {
-        let moment = |sphere, force: &BigRational| &solved.place(sphere)[axis] * force;
-        let total: BigRational = normals()
-            .map(|(sphere, normal)| moment(sphere, normal))
-            .sum();
-        let acting = solved.acting.iter();
-        let acting: BigRational = acting.map(|(sphere, weight)| moment(*sphere, weight)).sum();
-        same(name, &total, &acting)?;
-    }
-    let total_shear = |part: fn(&FloorForce<BigRational>) -> &BigRational| -> BigRational {
-        floor.iter().map(part).sum()
-    };
-    let shears = [
-        total_shear(|force| &force.shear_x),
-        total_shear(|force| &force.shear_y),
-    ];
-    same(
-        "the shears",
-        &shears,
-        &[BigRational::zero(), BigRational::zero()],
     )
 }
 
@@ -285,27 +230,6 @@ mod injected_faults {
             let mut wrong = described();
             fault(&mut wrong);
             assert!(!judge(&wrong), "fault {n}");
-        }
-    }
-
-    #[test]
-    fn a_misplaced_base_force_is_caught() {
-        let solved = Solved::of(&described());
-        let right = floor_of(&solved);
-        assert!(base_supports_everything(&right, &solved).is_ok());
-        let faults: [fn(&mut Floor); 4] = [
-            |floor| floor[0].normal += power(10, -60),
-            |floor| {
-                floor[0].normal += ratio(1, 1);
-                floor[1].normal -= ratio(1, 1);
-            },
-            |floor| floor[3].shear_x += power(10, -60),
-            |floor| floor[3].shear_y += power(10, -60),
-        ];
-        for fault in faults {
-            let mut wrong = right.clone();
-            fault(&mut wrong);
-            assert!(base_supports_everything(&wrong, &solved).is_err());
         }
     }
 }

@@ -8,7 +8,7 @@ use cannonpile::stacking::Stacking;
 use num_bigint::{BigInt, BigUint};
 
 use super::{Checked, same};
-use crate::generators::{region, stacking};
+use crate::generators::{pile, rarely, region, stacking};
 
 /// Checks a row of any pile: its spheres, the next sphere, and the first sphere of its layer.
 pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
@@ -83,8 +83,11 @@ fn has_consecutive_numbers(
 }
 
 /// A shape that grows down from any region, or up from a wider base. The base has additional sites on each side, few or
-/// many, so some of its sides vanish with the height. `None` if the runs are invalid or exceed the limit.
+/// many, so some of its sides vanish with the height. Some are the shapes of straight piles, discs among them. `None` if the runs are invalid or exceed the limit.
 fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
+    if rarely(u, 4)? {
+        return Ok(Some(pile::pile(u)?.shape().clone()));
+    }
     let top = region::region(u)?;
     let made =
         Stacking::from_runs(stacking::runs(u)?).and_then(|stacking| Shape::under(top, stacking));

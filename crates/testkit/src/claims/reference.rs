@@ -7,7 +7,6 @@ use cannonpile::{ContactForce, FloorForce};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::generators::number::ratio;
 use crate::generators::region::Described;
 use crate::oracles::balance::{Balance, Forces, Place, place, site};
 use crate::oracles::sets::within;
@@ -26,7 +25,6 @@ pub type Floor = Vec<FloorForce<BigRational>>;
 
 /// A pile and its forces, solved by the oracle.
 pub struct Solved {
-    pile: Balance,
     forces: Forces,
     /// The forces from above on each sphere along α, β, γ, in f₀.
     pub from_above: BTreeMap<Sphere, [BigRational; 3]>,
@@ -55,20 +53,8 @@ impl Solved {
                 .places()
                 .map(|place| (sphere(place), pile.weight(place).clone()))
                 .collect(),
-            pile,
             forces,
         }
-    }
-
-    /// The bottom spheres.
-    pub fn base(&self) -> impl Iterator<Item = Sphere> + '_ {
-        self.forces.floor.keys().map(|(k, j, i)| (*k, (*j, *i)))
-    }
-
-    /// The horizontal position of a sphere relative to (0, 0) of the top layer, along i and j.
-    pub fn place(&self, (k, (j, i)): Sphere) -> [BigRational; 2] {
-        let thirds = self.pile.position((k, j, i));
-        thirds.map(|third| BigRational::from(third) / ratio(3, 1))
     }
 }
 
