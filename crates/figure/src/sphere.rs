@@ -32,7 +32,6 @@ const SMALL: f64 = 9.0;
 const TABLE: f64 = 40.0;
 const LEFT: f64 = 532.0;
 
-const UP: Vector = [0.0, 0.0, 1.0];
 const DOWN: Vector = [0.0, 0.0, -1.0];
 
 /// A force on a sphere.
@@ -193,7 +192,10 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
         forces.push(Force::new(words, magnitude, along, at, Some(multiple)));
     }
     if on_floor {
-        forces.push(from_floor(subject.on_floor(site)?));
+        let [x, y, normal] = subject.on_floor(site)?;
+        let (force, along) = directed([-x, -y, normal]);
+        let words = ["n", "from the floor"];
+        forces.push(Force::new(words, force, along, DOWN, None));
     }
     let weight = Load::leaning(pile.sphere_weight(site)?, pile.tilt());
     let (weight, along) = directed(subject.load(weight)?);
@@ -214,14 +216,6 @@ fn directed(force: Vector) -> (f64, Vector) {
     let magnitude = x.hypot(y).hypot(z);
     let along = force.map(|part| part / magnitude);
     (magnitude, if magnitude > 0.0 { along } else { DOWN })
-}
-
-/// Returns the force of the floor on a bottom sphere, from the opposite force of the sphere on the floor.
-fn from_floor([x, y, normal]: Vector) -> Force {
-    let magnitude = x.hypot(y).hypot(normal);
-    let along = [-x, -y, normal].map(|part| part / magnitude);
-    let along = if magnitude > 0.0 { along } else { UP };
-    Force::new(["n", "from the floor"], magnitude, along, DOWN, None)
 }
 
 /// Sets the lengths of the arrows, on a common scale. The arrow of the weight stays inside the sphere.

@@ -7,7 +7,7 @@ use num_traits::{Signed, Zero};
 use crate::error::bug;
 use crate::{Each, Error};
 use cannonpile::Pile;
-use cannonpile::lattice::{ContactKind, Site};
+use cannonpile::lattice::{ContactKind, Direction, Site};
 use cannonpile::scalar::ByValue;
 use cannonpile::shape::Selection;
 
@@ -49,39 +49,26 @@ impl Extremes {
                 break;
             }
             let mut slices = [(); 3].each(|()| vec![BigInt::ZERO; layer.sphere_count()]);
-            let [alpha, beta, gamma] = &mut slices;
-            layer.fill([alpha, beta, gamma])?;
+            layer.fill(slices.each_mut().each(Vec::as_mut_slice))?;
             // Sphere by sphere, as in the tables.
             let spheres = 0..layer.sphere_count();
             let all = spheres.flat_map(|n| directions.iter().map(move |line| (n, *line)));
-            let force =
-                |(n, line): (usize, cannonpile::lattice::Direction)| &slices[line.index()][n];
-            let (mut weakest, mut ends) = (None::<&BigInt>, None);
-            for at in all {
-                let met = force(at);
-                extremes.count(met);
-                let weaker = |least: &BigInt| met.magnitude() < least.magnitude();
-                if !met.is_zero() && weakest.is_none_or(weaker) {
-                    weakest = Some(met);
-                }
-                let [greatest, least] = ends.get_or_insert([at; 2]);
-                if met > force(*greatest) {
-                    *greatest = at;
-                }
-                if met < force(*least) {
-                    *least = at;
-                }
-            }
+            let force = |(n, line): &(usize, Direction)| &slices[line.index()][*n];
+            all.clone().for_each(|at| extremes.count(force(&at)));
             let in_units = |n: &BigInt| BigRational::new(n.clone(), layer.denominator().clone());
-            if let Some(weakest) = weakest {
-                extremes.weaken(in_units(weakest).abs());
+            let some = all.clone().filter(|at| !force(at).is_zero());
+            if let Some(weakest) = some.min_by_key(|at| force(at).magnitude()) {
+                extremes.weaken(in_units(force(&weakest)).abs());
             }
-            for (n, line) in ends.into_iter().flatten() {
-                let site = pile.rows(Selection::Layer(layer.k()))?.flatten().nth(n);
+            // Of equal forces, the first is taken: that is the last of the reversed ones.
+            let greatest = all.clone().rev().max_by_key(force);
+            let least = all.min_by_key(force);
+            for at in [greatest, least].into_iter().flatten() {
+                let site = pile.rows(Selection::Layer(layer.k()))?.flatten().nth(at.0);
                 extremes.meet(Extreme {
                     site: site.ok_or_else(|| bug("a layer has a sphere for each of its forces"))?,
-                    link: line.into(),
-                    force: in_units(force((n, line))),
+                    link: at.1.into(),
+                    force: in_units(force(&at)),
                 });
             }
         }
