@@ -16,7 +16,7 @@ use crate::Pile;
 use crate::each::Each;
 use crate::lattice::{Dimension, Region, Site};
 use crate::scalar::{Algebra, Exactness};
-use crate::shape::Rows;
+use crate::shape::{Rows, Shape};
 
 /// The maximum number of spheres of a row that share a tree.
 pub(crate) const CHUNK: i128 = 1024;
@@ -32,7 +32,7 @@ pub(crate) const CHUNK: i128 = 1024;
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
 /// let plan = pile.plan(Selection::Base)?;
 /// assert_eq!(plan.method, Method::Sweep);
-/// assert_eq!(plan.to_string(), "sweep: 27 spheres visited, 648 bytes for numbers of 12 bits");
+/// assert_eq!(plan.to_string(), "sweep: 68 spheres visited, 648 bytes for numbers of 12 bits");
 ///
 /// // A base of more than 10³⁰ rows is computed row by row, with a tree for each piece of a row.
 /// let high = Pile::under(Region::SITE, format!("(2,1,{})", 10_i128.pow(30)).parse()?)?;
@@ -49,7 +49,8 @@ pub struct Plan {
     /// The number of rows in the answer.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub rows: BigUint,
-    /// The maximum number of spheres whose forces are computed or looked up.
+    /// The maximum number of spheres whose forces are computed or looked up. A sweep computes those at the sign changes
+    /// above too.
     #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub visited: BigUint,
     /// The bits that the exact numerators of a sweep may need, by the proved bound. 0 for the other methods, whose numbers
@@ -62,7 +63,7 @@ pub struct Plan {
 }
 
 impl fmt::Display for Plan {
-    /// `sweep: 27 spheres visited, 648 bytes for numbers of 12 bits`
+    /// `sweep: 68 spheres visited, 648 bytes for numbers of 12 bits`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             method,
@@ -142,6 +143,58 @@ impl Pile {
     }
 }
 
+impl Shape {
+    /// Plans a tree for each piece of a row.
+    fn plan_trees(&self, closed: &Plan, rows: &Rows<'_>) -> Result<Plan, Error> {
+        let last = last_of(rows);
+        let sites = rows.site_count();
+        let mut pieces = BigUint::from(1_u32);
+        if rows.one().is_none() {
+            let (layers, height) = (rows.layers(), self.layer(last)?.widths()[1]);
+            let layers = (layers.end - layers.start).max(0).unsigned_abs();
+            // Each row may end with a shorter piece.
+            pieces = BigUint::from(layers) * (height.unsigned_abs() + 1);
+            pieces += &sites / CHUNK.unsigned_abs();
+        }
+        // Each sphere below a sign change depends on at most three spheres at it, and the size of that layer limits
+        // their number.
+        let most = BigUint::from(MAX_NODES);
+        let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());
+        let mut above = BigUint::zero();
+        let mut run = self.run_to(last).filter(|run| run.index > 0);
+        while let (Some(lowest), true) = (run, above <= most) {
+            level = (level * 3_u32).min(self.layer(lowest.from)?.site_count());
+            above += &level;
+            run = self.run(lowest.index - 1);
+            run = run.filter(|run| run.index > 0);
+        }
+        if above > most {
+            // This bound is not sharp, so the nodes of the trees are counted. No tree may have more than `most`.
+            match rows.one() {
+                Some(Site { i, j, k }) => {
+                    size_of_tree(self, k, &[[i, j]])?;
+                }
+                None => self.sample_trees(last)?,
+            }
+            above = most;
+        }
+        Ok(Plan {
+            method: Method::Tree,
+            visited: above * pieces + sites,
+            ..closed.clone()
+        })
+    }
+
+    /// Returns an error if a tree of layer `k` is too large, judged by four sample pieces. Other pieces may still be
+    /// refused when they are computed.
+    fn sample_trees(&self, k: i128) -> Result<(), Error> {
+        for piece in samples(&self.layer(k)?) {
+            size_of_tree(self, k, &piece)?;
+        }
+        Ok(())
+    }
+}
+
 impl<T: Algebra> LineForces<'_, T> {
     /// Returns the number of 64-bit words of each value of a sweep whose exact numbers need this many limbs.
     pub(super) fn words(&self, limbs: usize, are_limbs: bool) -> usize {
@@ -180,7 +233,7 @@ impl<T: Algebra> LineForces<'_, T> {
             bytes: BigUint::zero(),
         };
         let is_one = rows.one().is_some();
-        let by_trees = || self.plan_trees(&closed, rows);
+        let by_trees = || self.shape.plan_trees(&closed, rows);
         let by_sweep = || self.plan_sweep(&closed, rows, !is_one);
         match method {
             Some(Method::Closed) => Ok(closed.clone()),
@@ -197,67 +250,19 @@ impl<T: Algebra> LineForces<'_, T> {
         }
     }
 
-    /// Plans a tree for each piece of a row.
-    fn plan_trees(&self, closed: &Plan, rows: &Rows<'_>) -> Result<Plan, Error> {
-        let last = last_of(rows);
-        let sites = rows.site_count();
-        let mut pieces = BigUint::from(1_u32);
-        if rows.one().is_none() {
-            let (layers, height) = (rows.layers(), self.shape.layer(last)?.widths()[1]);
-            let layers = (layers.end - layers.start).max(0).unsigned_abs();
-            // Each row may end with a shorter piece.
-            pieces = BigUint::from(layers) * (height.unsigned_abs() + 1);
-            pieces += &sites / CHUNK.unsigned_abs();
-        }
-        // Each sphere below a sign change depends on at most three spheres at it, and the size of that layer limits
-        // their number.
-        let most = BigUint::from(MAX_NODES);
-        let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());
-        let mut above = BigUint::zero();
-        let mut run = self.shape.run_to(last).filter(|run| run.index > 0);
-        while let (Some(lowest), true) = (run, above <= most) {
-            level = (level * 3_u32).min(self.shape.layer(lowest.from)?.site_count());
-            above += &level;
-            run = self.shape.run(lowest.index - 1);
-            run = run.filter(|run| run.index > 0);
-        }
-        if above > most {
-            // This bound is not sharp, so the nodes of the trees are counted. No tree may have more than `most`.
-            match rows.one() {
-                Some(Site { i, j, k }) => {
-                    size_of_tree(self.shape, k, &[[i, j]])?;
-                }
-                None => self.sample_trees(last)?,
-            }
-            above = most;
-        }
-        Ok(Plan {
-            method: Method::Tree,
-            visited: above * pieces + sites,
-            ..closed.clone()
-        })
-    }
-
     /// Plans one sweep, down to the last layer of `rows`.
     fn plan_sweep(&self, closed: &Plan, rows: &Rows<'_>, are_limbs: bool) -> Result<Plan, Error> {
         let last = last_of(rows);
         let size = self.pile.size_of_sweep(last);
         let words = Grid::numbers(self.shape, last, self.words(size.planes, are_limbs))?;
+        let first = rows.one().map_or(rows.layers().start, |site| site.k);
         Ok(Plan {
             method: Method::Sweep,
+            visited: &closed.visited + self.shape.spheres_at_changes_above(first),
             bits: size.bits,
             bytes: words * size_of::<i64>(),
             ..closed.clone()
         })
-    }
-
-    /// Returns an error if a tree of layer `k` is too large, judged by four sample pieces. Other pieces may still be
-    /// refused when they are computed.
-    fn sample_trees(&self, k: i128) -> Result<(), Error> {
-        for piece in samples(&self.shape.layer(k)?) {
-            size_of_tree(self.shape, k, &piece)?;
-        }
-        Ok(())
     }
 }
 

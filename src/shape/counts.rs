@@ -63,6 +63,15 @@ impl Shape {
         twice_sum / 2_u32
     }
 
+    /// Returns the number of spheres at the sign changes above layer `k`.
+    pub(crate) fn spheres_at_changes_above(&self, k: i128) -> BigUint {
+        let changes = self.runs.iter().skip(1).map(|run| run.from);
+        let regions = changes
+            .take_while(|from| *from < k)
+            .filter_map(|from| self.region(from));
+        regions.map(|region| region.site_count()).sum()
+    }
+
     /// Returns the first layer of the next piece after layer `k`.
     fn end_of_piece(&self, k: i128) -> i128 {
         let Some(RunLayers { sign, to, .. }) = self.run_to(k + 1) else {

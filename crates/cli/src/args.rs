@@ -15,8 +15,11 @@ use cannonpile_dem::table::{FileFormat, NumberFormat, Table, Units, WriteError};
 use clap::{Args, ValueEnum};
 use num_bigint::BigUint;
 
-use crate::output::{Failure, InputError, creates_folder_of, write_around, write_to};
+use crate::output::{
+    Failure, InputError, creates_folder_of, print_message, write_around, write_to,
+};
 use crate::progress::Progress;
+use crate::tables::Work;
 use crate::{Culprit, Error};
 pub(crate) use scene::{SceneOptions, Top, in_state, shape};
 
@@ -100,6 +103,24 @@ pub(crate) struct Numbers {
     /// Units of forces and lengths
     #[arg(long, value_enum, default_value = "pile")]
     pub(crate) units: UnitSystem,
+}
+
+/// The option `--explain`.
+#[derive(Args)]
+pub(crate) struct ExplainOption {
+    /// Say on stderr how many spheres are visited, and why
+    #[arg(long, help_heading = "Output")]
+    explain: bool,
+}
+
+impl ExplainOption {
+    /// Prints the sentence of the work on stderr, if the option is given.
+    pub(crate) fn print(&self, work: impl FnOnce() -> Result<Work, Error>) -> Result<(), Failure> {
+        if self.explain {
+            print_message(&format!("note: {}", work()?));
+        }
+        Ok(())
+    }
 }
 
 /// The option `--method`.

@@ -155,9 +155,9 @@ impl Action {
         let far = match self.all {
             Some(all) if all > 0 => {
                 let percent = u128::from(done) * 100 / u128::from(all);
-                format!(": {} of {} ({percent}%)", grouped(done), grouped(all))
+                format!(": {} of {} ({percent}%)", grouped(&done), grouped(&all))
             }
-            _ if done > 0 => format!(": {}", grouped(done)),
+            _ if done > 0 => format!(": {}", grouped(&done)),
             _ => String::new(),
         };
         format!("{doing}{far}, after {}", clock(elapsed))
@@ -178,7 +178,7 @@ impl Action {
 }
 
 /// Returns an integer with commas between its thousands.
-fn grouped(n: u64) -> String {
+pub(crate) fn grouped(n: &impl ToString) -> String {
     let digits = n.to_string();
     let groups = digits.as_bytes().rchunks(3).rev();
     let groups: Vec<_> = groups.map(String::from_utf8_lossy).collect();

@@ -16,7 +16,7 @@ pub(crate) use cases::cases;
 pub(crate) use census::{census, horizontal_census};
 pub(crate) use disorder::{by_faults, mean, mean_of_polynomials};
 pub(crate) use ensemble::{ensemble, ensemble_summary, histogram};
-pub(crate) use explain::{Explanation, Wanted};
+pub(crate) use explain::{Explanation, Wanted, Work};
 pub(crate) use response::response;
 pub(crate) use sensitivity::{sensitivity, spread};
 pub(crate) use stability::{margin, polygon};

@@ -96,7 +96,7 @@ fn matrices(pile: &Pile, spacing: &Spacing) -> [Matrix; 2] {
             let [mut column, mut resolved] = [(); 2].map(|()| vec![0.0; sites.len() * d]);
             let ends = [(Some(*site), 1.0), (shape.below(*site, *direction), -1.0)];
             for (end, sign) in ends {
-                // The floor bears what reaches the bottom layer.
+                // The floor supports what reaches the bottom layer.
                 let Some(row) = end.and_then(|end| row_of.get(&end)) else {
                     continue;
                 };

@@ -10,10 +10,10 @@ use cannonpile_horizontal::{NormalBounds, bounds};
 use clap::Args;
 
 use super::write_accepted;
-use crate::args::{BasePart, Number, Output, SceneOptions, with_row_options};
+use crate::args::{BasePart, ExplainOption, Number, Output, SceneOptions, with_row_options};
 use crate::output::Failure;
 use crate::progress::Progress;
-use crate::tables;
+use crate::tables::{self, Work};
 
 const HELP: &str = "\
 At a = R neighbours in a layer touch, and the contact forces are no longer unique. All compressive forces in equilibrium
@@ -43,6 +43,8 @@ pub(crate) struct Bounds {
     number: Number,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    explain: ExplainOption,
     /// File for the certificates of both bounds, which the command check reads; requires --at
     #[arg(long, value_name = "FILE", help_heading = "Output", requires = "at")]
     certificate: Option<PathBuf>,
@@ -59,6 +61,13 @@ impl Bounds {
             let table = tables::bounds(&pile, selection)
                 .map_err(|error| with_row_options(error, selection))?;
             self.output.write_table(table, self.number, &progress)?;
+            drop(progress);
+            self.explain.print(|| {
+                Ok(Work::of_whole(
+                    &pile,
+                    "horizontal contacts couple all forces",
+                ))
+            })?;
             return Ok(true);
         };
         let found = bounds(&pile, site)?;
@@ -68,6 +77,13 @@ impl Bounds {
         let content = |out: &mut dyn Write| table.write(format.into(), self.number.into(), out);
         self.output.write_with(&progress, content, None, || {
             write_accepted(file, |out| write_certificates(&proofs, out))
+        })?;
+        drop(progress);
+        self.explain.print(|| {
+            Ok(Work::of_whole(
+                &pile,
+                "horizontal contacts couple all forces",
+            ))
         })?;
         Ok(true)
     }

@@ -2,7 +2,7 @@
 
 use cannonpile::Pile;
 use cannonpile::shape::Selection;
-use cannonpile_dem::table::{NumberFormat, Table, WriteError};
+use cannonpile_dem::table::NumberFormat;
 use clap::Args;
 
 use crate::args::{Format, MethodOption, Output, Part, SceneOptions, UnitSystem};
@@ -12,14 +12,18 @@ use crate::tables::{Explanation, Wanted};
 use crate::{Culprit, Error};
 
 const HELP: &str = "\
-The plan. All numbers are upper bounds:
+First a sentence: how many spheres are visited, and why. Then:
   method    closed, tree or sweep
-  visited   spheres whose forces are computed
+  visited   spheres whose forces are computed; without a run, at most
+  of        spheres of the pile
+  reason    why these are visited, and no others
   rows      rows of the result
-  bits      bits of the widest number of a sweep
+  bits      bits of the widest number of a sweep, at most
   bytes     memory for the numbers of a sweep
   roots     square roots
+  pivots    exact steps of a linear program
 The rows counted_visited, counted_turned, counted_passes and counted_rows give the counts of a run.
+Other commands print the sentence on stderr with --explain.
 
 Examples:
   cannonpile explain --stacking hcp --layers 30
@@ -77,7 +81,7 @@ impl Explain {
         Ok(true)
     }
 
-    /// Writes the plan, then runs it and writes the counters.
+    /// Runs the query, unless `--no-run` is given, and writes the sentence and the fields.
     fn write(&self, explanation: &Explanation<'_>) -> Result<(), Failure> {
         let format = self.output.format()?;
         if !self.no_run {
@@ -85,17 +89,14 @@ impl Explain {
             checked.map_err(|error| InputError::of_rows(error, "--layer, --at or --no-run"))?;
         }
         let progress = Progress::begin("counting");
+        let counters = (!self.no_run).then(|| explanation.run()).transpose()?;
+        let table = explanation.table(counters.as_ref());
         self.output.write(&progress, |out| {
-            let mut write = |table: Table<'_>| {
-                table.write(format.into(), NumberFormat::Exact, out)?;
-                Ok::<_, WriteError>(out.flush()?)
-            };
-            if format != Format::Table || self.no_run {
-                let counters = (!self.no_run).then(|| explanation.run()).transpose()?;
-                return write(explanation.table(counters.as_ref()));
+            if format == Format::Table {
+                writeln!(out, "{}", explanation.work(counters.as_ref()))?;
             }
-            write(explanation.table(None))?;
-            write(Explanation::counted(&explanation.run()?))
+            table.write(format.into(), NumberFormat::Exact, out)?;
+            Ok(out.flush()?)
         })
     }
 }

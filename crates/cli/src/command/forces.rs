@@ -14,11 +14,12 @@ use clap::Args;
 use super::{CERTIFICATE_ON_ROUGH_FLOOR, TensionCheck, write_accepted};
 use crate::Culprit;
 use crate::args::{
-    BasePart, MethodOption, Number, Numbers, Output, Part, SceneOptions, in_state, spheres,
-    with_row_options,
+    BasePart, ExplainOption, MethodOption, Number, Numbers, Output, Part, SceneOptions, in_state,
+    spheres, with_row_options,
 };
 use crate::output::{Failure, InputError};
 use crate::progress::Progress;
+use crate::tables::{Explanation, Wanted, Work};
 
 /// The options of `base` and `contacts`: scene, selection `P`, numbers, method and output.
 #[derive(Args)]
@@ -33,6 +34,8 @@ pub(crate) struct Forces<P: Args> {
     method: MethodOption,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    explain: ExplainOption,
     /// File for the certificate of all forces of the pile, which the command check reads
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     certificate: Option<PathBuf>,
@@ -60,6 +63,7 @@ struct ForceQuery {
     doing: &'static str,
     /// The column with the force, positive in compression.
     column: &'static str,
+    wanted: Wanted,
     /// The number of rows of a sphere.
     rows: usize,
     /// The table of a pile on a rough floor.
@@ -132,6 +136,13 @@ impl<P: Args> Forces<P> {
             write_accepted(file, |out| write_certificate(certificate, out))
         })?;
         drop(progress);
+        self.explain.print(|| match scene.floor {
+            Floor::Rough => Ok(Work::of_whole(
+                pile,
+                "friction on the floor couples all forces",
+            )),
+            _ => Ok(Explanation::new(&units, query.wanted, selection)?.work(None)),
+        })?;
         tension.note(pile, selection);
         Ok(true)
     }
@@ -163,6 +174,7 @@ Examples:
         let query = ForceQuery {
             doing: "base forces",
             column: "normal",
+            wanted: Wanted::Base,
             rows: 1,
             rough: table::rough_base,
             table: table::base,
@@ -227,6 +239,7 @@ Examples:
         let query = ForceQuery {
             doing: "contact forces",
             column: "force",
+            wanted: Wanted::Contacts,
             rows: pile.dimension().directions().len(),
             rough: table::rough_contacts,
             table: if self.part.touching {

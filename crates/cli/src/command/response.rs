@@ -2,10 +2,10 @@
 
 use clap::Args;
 
-use crate::args::{Number, Output, SceneOptions, parse_site};
+use crate::args::{ExplainOption, Number, Output, SceneOptions, parse_site};
 use crate::output::Failure;
 use crate::progress::Progress;
-use crate::tables;
+use crate::tables::{self, Work};
 
 const HELP: &str = "\
 The response does not depend on the weight of the spheres, on --load or on --tilt. Forces are linear in the loads, so three
@@ -37,6 +37,8 @@ pub(crate) struct Response {
     number: Number,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    explain: ExplainOption,
 }
 
 impl Response {
@@ -51,6 +53,13 @@ impl Response {
         let rows = table.row_count().and_then(|rows| rows.try_into().ok());
         let progress = Progress::of_rows("the response to a load", rows);
         self.output.write_table(table, self.number, &progress)?;
+        drop(progress);
+        self.explain.print(|| {
+            Ok(Work::of_whole(
+                &pile,
+                "the load may reach every sphere below",
+            ))
+        })?;
         Ok(true)
     }
 }

@@ -3,10 +3,10 @@
 use clap::Args;
 
 use super::instability;
-use crate::args::{Number, Output, SceneOptions, parse_site};
+use crate::args::{ExplainOption, Number, Output, SceneOptions, parse_site};
 use crate::output::{Failure, print_message};
 use crate::progress::Progress;
-use crate::tables;
+use crate::tables::{self, Work};
 
 const HELP: &str = "\
 Real spheres differ in size. Let the radius of the sphere at --at be R(1 + δ) for a small δ. The spheres above it move, the
@@ -48,6 +48,8 @@ pub(crate) struct Sensitivity {
     number: Number,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    explain: ExplainOption,
 }
 
 const NO_CHANGE: &str =
@@ -78,6 +80,8 @@ impl Sensitivity {
         };
         self.output.write_table(table, self.number, &progress)?;
         drop(progress);
+        self.explain
+            .print(|| Ok(Work::of_whole(&pile, "one radius changes all forces below")))?;
         if !packing.touching().is_empty() {
             print_message(FURTHER_CONTACTS);
         }

@@ -1,13 +1,16 @@
 //! `spheres`: the position, radius, mass and stress of each sphere.
 
 use cannonpile::shape::Selection;
-use cannonpile_dem::table;
+use cannonpile_dem::table::{self, Units};
 use clap::Args;
 
 use super::note_instability;
-use crate::args::{Numbers, Output, Part, SceneOptions, UnitSystem, spheres, with_row_options};
+use crate::args::{
+    ExplainOption, Numbers, Output, Part, SceneOptions, UnitSystem, spheres, with_row_options,
+};
 use crate::output::Failure;
 use crate::progress::Progress;
+use crate::tables::{Explanation, Wanted};
 
 const HELP: &str = "\
 Columns:
@@ -45,6 +48,8 @@ pub(crate) struct Spheres {
     numbers: Numbers,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    explain: ExplainOption,
 }
 
 impl Spheres {
@@ -69,6 +74,14 @@ impl Spheres {
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         drop(progress);
+        self.explain.print(|| {
+            let wanted = if self.stress {
+                Wanted::Contacts
+            } else {
+                Wanted::Spheres
+            };
+            Ok(Explanation::new(&Units::of_packing(packing), wanted, selection)?.work(None))
+        })?;
         // The stability check takes longer than the positions of a part of the pile.
         if selection == Selection::All {
             note_instability(&pile);

@@ -10,9 +10,10 @@ use clap::Args;
 use num_rational::BigRational;
 
 use super::{instability, of_weight};
-use crate::args::{Number, Output, SceneOptions};
+use crate::args::{ExplainOption, Number, Output, SceneOptions};
 use crate::output::{Failure, print_message};
 use crate::progress::Progress;
+use crate::tables::Work;
 use crate::{Error, tables};
 
 const HELP: &str = "\
@@ -52,6 +53,8 @@ pub(crate) struct Stability {
     number: Number,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    explain: ExplainOption,
 }
 
 impl Stability {
@@ -83,6 +86,8 @@ impl Stability {
         };
         self.output.write_table(table, self.number, &progress)?;
         drop(progress);
+        self.explain
+            .print(|| Ok(Work::of_whole(&pile, "any contact may open first")))?;
         if verdict != Verdict::Yes {
             print_message(&format!("no margin: {}", contacts.instability(&pile)));
             return Ok(false);

@@ -11,9 +11,10 @@ use cannonpile_horizontal::equilibrium;
 use clap::Args;
 
 use super::{CERTIFICATE_ON_ROUGH_FLOOR, write_accepted};
-use crate::args::{Numbers, Output, SceneOptions};
+use crate::args::{ExplainOption, Numbers, Output, SceneOptions};
 use crate::output::{Failure, print_message};
 use crate::progress::Progress;
+use crate::tables::Work;
 
 const HELP: &str = "\
 Columns:
@@ -55,6 +56,8 @@ pub(crate) struct Summary {
     numbers: Numbers,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    explain: ExplainOption,
     /// File for the certificate that the pile is stable or unstable at a = R, which the command check reads
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     certificate: Option<PathBuf>,
@@ -100,6 +103,8 @@ impl Summary {
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         drop(progress);
+        self.explain
+            .print(|| Ok(Work::of_whole(&pile, "the extremes are over all contacts")))?;
         let touching = touching.err().map(|error| ("touching", error.to_string()));
         for (columns, reason) in summary.left_out().into_iter().chain(touching) {
             print_message(&format!("note: no {columns}: {reason}"));

@@ -1,12 +1,18 @@
-//! The table of a plan and of the counters of its run.
+//! The sentence and the table of a plan, and the counters of its run.
+
+use std::fmt;
 
 use cannonpile::engine::bug;
 use cannonpile::shape::Selection;
-use cannonpile::{Counters, Plan, Quantity, Question};
+use cannonpile::{Counters, Method, Pile, Plan, Quantity, Question};
 use cannonpile_dem::Error;
 use cannonpile_dem::table::{Cell, Column, Table, Units, refuse_beyond};
+use cannonpile_horizontal::exact_pivots;
 use clap::ValueEnum;
 use num_bigint::{BigInt, BigUint};
+use num_traits::ToPrimitive;
+
+use crate::progress::grouped;
 
 /// A quantity of each sphere or contact.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
@@ -122,31 +128,122 @@ impl<'p> Explanation<'p> {
         Ok(counters)
     }
 
-    /// Returns one row with the plan, and with the counters if they are given.
-    ///
-    /// The columns of the plan are upper bounds: `method, visited, rows, bits, bytes, roots`. Those of the counters are
-    /// `counted_visited, counted_turned, counted_passes, counted_rows`.
-    #[must_use]
+    /// Returns the sentence and the fields of the plan, as a record: `method, visited, of, reason, rows, bits, bytes, roots,
+    /// pivots`. All are upper bounds. A run adds `counted_visited, counted_turned, counted_passes, counted_rows`.
     pub(crate) fn table(&self, counters: Option<&Counters>) -> Table<'static> {
         let plan = self.plan.as_ref();
         let method = plan.map_or("closed".into(), |plan| plan.method.to_string());
-        let big = |n: Option<&BigUint>| count(n.cloned().unwrap_or_default());
+        let bytes = plan.map(|plan| plan.bytes.clone()).unwrap_or_default();
+        let work = self.work(counters);
         let mut entries: Vec<(&'static str, Cell)> = vec![
             ("method", Cell::Word(method.into())),
-            ("visited", big(plan.map(|plan| &plan.visited))),
+            ("visited", count(work.visited)),
+            ("of", count(work.of)),
+            ("reason", Cell::Word(work.reason.into())),
             ("rows", count(self.rows.clone())),
-            ("bits", count(plan.map_or(0, |plan| plan.bits))),
-            ("bytes", big(plan.map(|plan| &plan.bytes))),
-            ("roots", count(self.wanted.roots(&self.units))),
+            ("bits", count(work.bits)),
+            ("bytes", count(bytes)),
+            ("roots", count(work.roots)),
+            ("pivots", count(work.pivots)),
         ];
         entries.extend(counters.map(counted).into_iter().flatten());
-        record(entries)
+        let plain = |(name, cell)| (Column::plain(name), cell);
+        Table::record(entries.into_iter().map(plain).collect())
     }
 
-    /// Returns one row with the counters alone.
-    #[must_use]
-    pub(crate) fn counted(counters: &Counters) -> Table<'static> {
-        record(counted(counters).into())
+    /// Returns the work of the query: planned, or counted.
+    pub(crate) fn work(&self, counters: Option<&Counters>) -> Work {
+        let asked = match (self.part, self.wanted) {
+            (Selection::One(_), Wanted::Base) => "one bottom sphere was asked for".to_owned(),
+            (Selection::One(_), _) => "one sphere was asked for".to_owned(),
+            (Selection::Layer(k), _) => format!("layer {k} was asked for"),
+            (Selection::Base, _) => "the base was asked for".to_owned(),
+            (Selection::All, Wanted::Spheres) => "all spheres were asked for".to_owned(),
+            (Selection::All, _) => "all contacts were asked for".to_owned(),
+        };
+        let how = match self.plan.as_ref().map(|plan| plan.method) {
+            None => "positions need no forces",
+            Some(Method::Closed) => "a count gives each force of a straight stacking",
+            Some(Method::Tree) => "a tree follows the lines above up to the sign changes",
+            Some(_) => "a sweep computes only this part and the spheres at sign changes",
+        };
+        let plan = self.plan.as_ref();
+        let visited = plan.map_or(BigUint::ZERO, |plan| plan.visited.clone());
+        let bits = plan.map_or(0, |plan| plan.bits);
+        // A sweep may visit spheres at sign changes twice, to turn and to return their forces.
+        let counted = |counters: &Counters| {
+            let turned = if bits == 0 { 0 } else { counters.turned() };
+            let counted = counters.visited().saturating_add(turned);
+            visited.clone().min(counted.into())
+        };
+        Work {
+            is_bound: counters.is_none() && self.plan.is_some(),
+            visited: counters.map_or_else(|| visited.clone(), counted),
+            of: self.units.pile().sphere_count(),
+            reason: format!("{asked}: {how}"),
+            bits,
+            roots: self.wanted.roots(&self.units),
+            pivots: exact_pivots(),
+        }
+    }
+}
+
+/// The work of a command.
+pub(crate) struct Work {
+    /// Whether `visited` is an upper bound.
+    is_bound: bool,
+    visited: BigUint,
+    of: BigUint,
+    reason: String,
+    bits: u64,
+    roots: u32,
+    pivots: u64,
+}
+
+impl Work {
+    /// Returns the work of an answer that may depend on every sphere.
+    pub(crate) fn of_whole(pile: &Pile, reason: &str) -> Self {
+        Self {
+            is_bound: true,
+            visited: pile.sphere_count(),
+            of: pile.sphere_count(),
+            reason: reason.to_owned(),
+            bits: 0,
+            roots: 0,
+            pivots: exact_pivots(),
+        }
+    }
+}
+
+impl fmt::Display for Work {
+    /// `visits 14,189 of 55,365 spheres (26%), because …; exact numbers of 55 bits; no root`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (visited, of, reason) = (&self.visited, &self.of, &self.reason);
+        let bound = if self.is_bound { "at most " } else { "" };
+        // A pile has at least one sphere.
+        let percent = match ((visited * 200_u32 + of) / (of * 2_u32)).to_u8() {
+            Some(0) if *visited > BigUint::ZERO => "below 1".to_owned(),
+            percent => percent.unwrap_or(100).min(100).to_string(),
+        };
+        let (visited, of) = (grouped(&visited.min(of)), grouped(of));
+        write!(
+            f,
+            "visits {bound}{visited} of {of} spheres ({percent}%), because {reason}"
+        )?;
+        match self.bits {
+            0 => f.write_str("; exact numbers")?,
+            bits => write!(f, "; exact numbers of {bits} bits")?,
+        }
+        match self.roots {
+            0 => f.write_str("; no root")?,
+            1 => f.write_str("; 1 root")?,
+            roots => write!(f, "; {roots} roots")?,
+        }
+        match self.pivots {
+            0 => Ok(()),
+            1 => f.write_str("; 1 exact pivot"),
+            pivots => write!(f, "; {pivots} exact pivots"),
+        }
     }
 }
 
@@ -157,11 +254,6 @@ fn counted(counters: &Counters) -> [(&'static str, Cell); 4] {
         ("counted_passes", count(counters.passes())),
         ("counted_rows", count(counters.rows())),
     ]
-}
-
-fn record(entries: Vec<(&'static str, Cell)>) -> Table<'static> {
-    let plain = |(name, cell)| (Column::plain(name), cell);
-    Table::record(entries.into_iter().map(plain).collect())
 }
 
 fn count(n: impl Into<BigInt>) -> Cell {
@@ -179,7 +271,7 @@ fn all<A>(
 
 #[cfg(test)]
 mod tests {
-    use cannonpile::Pile;
+    use cannonpile::lattice::{Region, Site};
 
     use super::super::test::csv;
     use super::*;
@@ -196,27 +288,55 @@ mod tests {
     #[test]
     fn counters_follow_the_plan() {
         let rows = explained(10, Wanted::Base, Selection::Base);
-        assert!(rows[0].starts_with("method,visited,rows,bits,"));
+        assert!(rows[0].starts_with("method,visited,of,reason,rows,bits,"));
         assert!(
-            rows[0].ends_with(",roots,counted_visited,counted_turned,counted_passes,counted_rows")
+            rows[0].ends_with(",pivots,counted_visited,counted_turned,counted_passes,counted_rows")
         );
-        assert!(rows[1].starts_with("closed,55,55,"));
+        assert!(
+            rows[1].starts_with("closed,55,220,the base was"),
+            "{rows:?}"
+        );
         // Three contacts of each of ten spheres.
         let rows = explained(10, Wanted::Contacts, Selection::Layer(3));
         assert!(rows[1].ends_with(",10,0,0,30"), "{rows:?}");
     }
 
-    #[test]
-    fn counters_and_plan_alone() {
-        let counted = csv(Explanation::counted(&Counters::default()));
-        assert!(counted.ends_with("\n0,0,0,0\n"));
-        let pile = Pile::triangular(10).unwrap();
+    fn sentence(signs: &str, wanted: Wanted, part: Selection, is_run: bool) -> String {
+        let pile = Pile::under(Region::SITE, signs.parse().unwrap()).unwrap();
         let units = Units::of_pile(&pile);
-        let explanation = Explanation::new(&units, Wanted::Base, Selection::Base);
-        let table = explanation.unwrap().table(None);
+        let explanation = Explanation::new(&units, wanted, part).unwrap();
+        let counters = is_run.then(|| explanation.run().unwrap());
+        explanation.work(counters.as_ref()).to_string()
+    }
+
+    /// Layers of 1, 3, 6, 12 and 18 spheres, with sign changes in those of 6 and 12.
+    #[test]
+    fn a_sentence_says_what_is_visited_and_why() {
+        let base = sentence("++-+", Wanted::Base, Selection::Base, false);
+        let start = "visits at most 36 of 40 spheres (90%), because the base was asked for: a sweep computes";
+        assert!(base.starts_with(start), "{base}");
+        assert!(base.ends_with(" bits; no root"), "{base}");
+        let one = Selection::One(Site { i: 0, j: 0, k: 4 });
+        let one = sentence("++-+", Wanted::Base, one, true);
+        let start = "visits 7 of 40 spheres (18%), because one bottom sphere was asked for: a tree";
+        assert!(one.starts_with(start), "{one}");
+        let all = sentence("++++", Wanted::Contacts, Selection::Layer(0), true);
+        assert!(
+            all.starts_with("visits 1 of 35 spheres (3%), because layer 0 was asked for: a count"),
+            "{all}"
+        );
+        let positions = sentence("+", Wanted::Spheres, Selection::All, false);
+        assert!(
+            positions.starts_with("visits 0 of 4 spheres (0%), because all spheres"),
+            "{positions}"
+        );
+        let pile = Pile::triangular(1000).unwrap();
+        let work = Work::of_whole(&pile, "a bound needs every balance");
         assert_eq!(
-            table.columns().last().map(|column| column.name),
-            Some("roots")
+            work.to_string().split(';').next(),
+            Some(
+                "visits at most 167,167,000 of 167,167,000 spheres (100%), because a bound needs every balance"
+            )
         );
     }
 

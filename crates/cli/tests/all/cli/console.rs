@@ -49,7 +49,7 @@ console! {
     completions: 2;
     contacts: 61;
     ensemble: 56;
-    explain: 12;
+    explain: 21;
     export: 51;
     help: 18;
     mean: 49;

@@ -29,7 +29,7 @@ fn counters_are_below_the_plan() {
 fn csv_and_json_have_one_row() {
     let csv = stdout("explain --stacking hcp --layers 12 --at 5,1,1 --format csv");
     let [head, row] = [0, 1].map(|n| csv.lines().nth(n).unwrap());
-    assert!(head.starts_with("method,visited,rows,bits,bytes,roots,"));
+    assert!(head.starts_with("method,visited,of,reason,rows,bits,bytes,roots,pivots,"));
     assert!(head.ends_with("counted_passes,counted_rows"));
     assert_eq!(head.split(',').count(), row.split(',').count());
     assert!(row.starts_with("tree,"));
