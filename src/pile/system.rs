@@ -67,7 +67,9 @@ impl Pile {
 
     /// Returns a common denominator D of all increments, and of W times all loads. It is the denominator of 2s, times the
     /// common denominator of tilt, loads and horizontal forces. It need not be the least one.
-    pub(crate) fn denominator(&self) -> BigInt {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn denominator(&self) -> BigInt {
         let horizontal = self.loading.horizontal();
         let horizontal = horizontal.into_iter().map(|(_, force)| force);
         let given = common_denominator(self.loading.tilt().iter().chain(horizontal));

@@ -164,7 +164,7 @@ fn of_dem(error: &cannonpile_dem::Error) -> Option<Culprit> {
 
     match error {
         Error::SinPhiOfDiscs => Some(Key::SinPhi.into()),
-        Error::Excluded { given, .. } => Some(Culprit::Key(*given)),
+        Error::Excluded { given, .. } | Error::NoEquations { given } => Some(Culprit::Key(*given)),
         Error::InFile { error, .. } => {
             let inner = crate::Error::from((**error).clone());
             Some(inner.culprit().unwrap_or(Culprit::File))

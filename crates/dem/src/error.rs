@@ -72,6 +72,11 @@ pub enum Error {
         /// The reason why the value was rejected.
         error: Box<Self>,
     },
+    /// A pile has no equations of equilibrium with the forces of sloping contacts as unknowns.
+    NoEquations {
+        /// The option to change: the number of layers, or the state.
+        given: Key,
+    },
     /// A file that only exists for a floor with glue.
     GluedOnly {
         /// The file.
@@ -133,6 +138,10 @@ impl fmt::Display for Whole<'_> {
                 }
             }
             Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            Error::NoEquations { given } => write!(
+                f,
+                "the equations need two layers, and have no horizontal contact forces: change {given}"
+            ),
             Error::GluedOnly { file } => write!(
                 f,
                 "{file} is only written for a floor with glue: use the formats lammps, yade and card, or a floor with glue"

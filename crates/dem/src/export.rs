@@ -7,6 +7,7 @@ use num_bigint::BigUint;
 
 use super::card::CardTitle;
 use super::file::{OtherFile, PileFile, PileFormat, Written};
+use super::matrix::{Equations, Rows};
 use super::numbered::NumberedPile;
 use super::rough::{self, Friction};
 use super::{card, csv, lammps, vtp, yade};
@@ -44,6 +45,8 @@ pub struct PileExport<'p> {
     friction: Option<Friction>,
     /// True if the files of spheres contain their stress.
     with_stress: bool,
+    /// True if the equations of equilibrium are in newtons, not in f₀.
+    equations_in_si: bool,
 }
 
 impl<'p> PileExport<'p> {
@@ -77,6 +80,7 @@ impl<'p> PileExport<'p> {
             title: CardTitle::default(),
             friction: None,
             with_stress: false,
+            equations_in_si: false,
         })
     }
 
@@ -125,6 +129,33 @@ impl<'p> PileExport<'p> {
             with_stress: true,
             ..self
         }
+    }
+
+    /// Writes the equations of [`PileFormat::Mtx`] in newtons, as floats, and not as integers in f₀. They balance the
+    /// components of the forces on each sphere along x, y and z, or x and z for discs.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::{PileExport, PileFile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let export = PileExport::new(&Packing::new(&pile, &"6/5".parse()?)?)?.with_equations_in_si();
+    /// let mut matrix = Vec::new();
+    /// export.write_file(PileFile::EquilibriumMtx, &mut matrix, &mut |_| {})?;
+    /// assert!(String::from_utf8(matrix)?.ends_with("2 2 4\n1 1 0.6\n2 1 0.8\n1 2 -0.6\n2 2 0.8\n"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_equations_in_si(self) -> Self {
+        Self {
+            equations_in_si: true,
+            ..self
+        }
+    }
+
+    fn equations(&self) -> Result<Equations<'_, 'p>, Error> {
+        Equations::new(&self.pile, self.equations_in_si)
     }
 
     /// Sets the texts of cards and the titles of tests.
@@ -245,6 +276,10 @@ impl<'p> PileExport<'p> {
             | PileFile::YadeSpheres => Some(self.numbering().sphere_count()),
             PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.contact_count()),
             PileFile::BaseCsv => few(self.pile.pile().base_sphere_count()),
+            PileFile::EquilibriumMtx => few(self.equations().ok()?.entries().ok()?),
+            PileFile::LoadsMtx | PileFile::ForcesMtx | PileFile::ForcesExact => {
+                few(self.equations().ok()?.unknowns())
+            }
             _ => None,
         }
     }
@@ -255,6 +290,7 @@ impl<'p> PileExport<'p> {
     /// # Errors
     /// * [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number does not fit in an
     ///   `f64`.
+    /// * [`WriteError::Answer`] with [`Error::NoEquations`] for the equations of a pile that has none.
     /// * [`WriteError::Answer`] with [`Error::GluedOnly`] for a file that a rough floor does not support.
     /// * [`WriteError::Io`] if writing to `out` fails.
     ///
@@ -311,6 +347,14 @@ impl<'p> PileExport<'p> {
             PileFile::CardJson => {
                 card::write_json(pile, &self.title, self.friction.as_ref(), scene, out)
             }
+            PileFile::EquilibriumMtx
+            | PileFile::LoadsMtx
+            | PileFile::ForcesMtx
+            | PileFile::ForcesExact => self.equations()?.write(file, &mut Rows { out, row }),
+            PileFile::PropertiesJson => {
+                let properties = self.equations()?.properties(scene)?;
+                Ok(writeln!(out, "{properties:#}")?)
+            }
             PileFile::Scene => Ok(out.write_all(scene.unwrap_or("").as_bytes())?),
         }
     }
@@ -325,6 +369,7 @@ impl<'p> PileExport<'p> {
             | PileFile::CardMarkdown
             | PileFile::CardJson
             | PileFile::Scene => Ok(()),
+            PileFile::EquilibriumMtx if self.friction.is_none() => self.equations().map(drop),
             _ if self.friction.is_none() => Ok(()),
             _ => Err(Error::GluedOnly { file: file.name() }),
         }
@@ -351,7 +396,7 @@ impl<'p> PileExport<'p> {
     /// let folder = tempfile::tempdir()?;
     /// let new = folder.path().join("new/pile");
     /// let written = PileExport::new(&packing)?.write(&PileFormat::ALL, &new, &mut |_| {})?;
-    /// assert_eq!((written.len(), new.read_dir()?.count()), (14, 14));
+    /// assert_eq!((written.len(), new.read_dir()?.count()), (17, 17));
     /// for file in written {
     ///     assert_eq!(file.path.metadata()?.len(), file.bytes);
     /// }

@@ -32,11 +32,21 @@ pub enum PileFormat {
     /// A benchmark card: `card.md` for readers, `card.json` for programs. It contains the pile, the exact answers,
     /// their accuracy, the criteria for a code, and the references.
     Card,
+    /// Solvers of linear equations: `equilibrium.mtx`, `loads.mtx`, `forces.mtx`, `forces_exact.txt` and
+    /// `properties.json`. It needs two layers, and a pile without horizontal contact forces.
+    Mtx,
 }
 
 impl PileFormat {
     /// All formats.
-    pub const ALL: [Self; 5] = [Self::Csv, Self::Lammps, Self::Vtp, Self::Yade, Self::Card];
+    pub const ALL: [Self; 6] = [
+        Self::Csv,
+        Self::Lammps,
+        Self::Vtp,
+        Self::Yade,
+        Self::Card,
+        Self::Mtx,
+    ];
 
     /// Returns the files of the format, in writing order.
     ///
@@ -45,7 +55,7 @@ impl PileFormat {
     /// use cannonpile_dem::{PileFile, PileFormat};
     ///
     /// assert_eq!(PileFormat::Yade.files(), [PileFile::YadeSpheres, PileFile::YadeScript]);
-    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2, 2]);
+    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2, 2, 5]);
     /// ```
     #[must_use]
     pub const fn files(self) -> &'static [PileFile] {
@@ -60,13 +70,21 @@ impl PileFormat {
             Self::Vtp => &[PileFile::SpheresVtp, PileFile::ContactsVtp],
             Self::Yade => &[PileFile::YadeSpheres, PileFile::YadeScript],
             Self::Card => &[PileFile::CardMarkdown, PileFile::CardJson],
+            Self::Mtx => &[
+                PileFile::EquilibriumMtx,
+                PileFile::LoadsMtx,
+                PileFile::ForcesMtx,
+                PileFile::ForcesExact,
+                PileFile::PropertiesJson,
+            ],
         }
     }
 }
 
 /// A file of an export.
 ///
-/// All numbers are in SI units and correctly rounded, with the fewest digits that read back the same. Spheres have the
+/// All numbers are in SI units and correctly rounded, with the fewest digits that read back the same; the files of
+/// [`PileFormat::Mtx`] are exact unless the export is [in SI units](super::PileExport::with_equations_in_si). Spheres have the
 /// numbers of [`Numbering`](cannonpile::shape::Numbering) in all files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
@@ -101,6 +119,18 @@ pub enum PileFile {
     /// `card.json`: the benchmark for programs. Each number is `{"exact": …, "float": …}`, with the exact number as
     /// text. Lists of more than 10,000 rows are only in the csv files.
     CardJson,
+    /// `equilibrium.mtx`: the equations of equilibrium of the spheres above the floor as a sparse matrix in the format of
+    /// Matrix Market. Column d (id − 1) + l + 1 is the contact force of sphere `id` along line l = 0 … d − 1, with d = 3
+    /// for spheres and 2 for discs.
+    EquilibriumMtx,
+    /// `loads.mtx`: the right-hand side, times the denominator in its comment.
+    LoadsMtx,
+    /// `forces.mtx`: the solution, correctly rounded.
+    ForcesMtx,
+    /// `forces_exact.txt`: the exact solution, a number a line.
+    ForcesExact,
+    /// `properties.json`: the size, the determinant, the condition number and the singular values of the matrix.
+    PropertiesJson,
     /// `scene.toml`: the scene of the pile, written with any format if it is [given](super::PileExport::with_scene).
     Scene,
 }
@@ -129,6 +159,11 @@ impl PileFile {
             Self::YadeScript => "pile.py",
             Self::CardMarkdown => "card.md",
             Self::CardJson => "card.json",
+            Self::EquilibriumMtx => "equilibrium.mtx",
+            Self::LoadsMtx => "loads.mtx",
+            Self::ForcesMtx => "forces.mtx",
+            Self::ForcesExact => "forces_exact.txt",
+            Self::PropertiesJson => "properties.json",
             Self::Scene => "scene.toml",
         }
     }

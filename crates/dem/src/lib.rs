@@ -54,6 +54,7 @@ mod file;
 pub mod grown;
 mod key;
 mod lammps;
+mod matrix;
 #[doc(hidden)]
 pub mod numbered;
 mod polydata;

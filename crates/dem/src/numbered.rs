@@ -63,7 +63,7 @@ pub(super) struct Touch {
 /// A row of spheres above the floor.
 #[derive(Clone, Debug)]
 pub struct LinkedRow {
-    first: Site,
+    pub(super) first: Site,
     /// The number of the first sphere.
     pub upper: u64,
     /// The number of spheres in the row; their numbers are consecutive.
@@ -344,7 +344,7 @@ impl<'p> NumberedPile<'p> {
         })
     }
 
-    fn rows_above_the_floor(&self) -> Result<Rows<'p>, Error> {
+    pub(super) fn rows_above_the_floor(&self) -> Result<Rows<'p>, Error> {
         Ok(self.pile().rows(Selection::All)?.off_the_floor())
     }
 

@@ -58,7 +58,7 @@ pub use error::WriteError;
 pub(crate) use file::Aside;
 pub use file::write_aside;
 pub use folder::write_all;
-pub(crate) use pieces::{columns, in_pieces, slices};
+pub(crate) use pieces::{PIECE, columns, in_pieces, slices};
 pub(crate) use progress::Progress;
 #[doc(hidden)]
 pub use rows::Row;

@@ -41,7 +41,7 @@ pub fn ordinary_weight(pile: &Pile) -> BigRational {
 }
 
 /// Returns the spheres with a load or a weight of their own, in row order.
-fn special_sites(pile: &Pile) -> Vec<Site> {
+pub(super) fn special_sites(pile: &Pile) -> Vec<Site> {
     let loads = pile.loads().map(|(site, _)| site);
     let mut sites: Vec<Site> = loads.chain(pile.weights().map(|(site, _)| site)).collect();
     sites.sort_unstable();

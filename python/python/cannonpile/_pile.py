@@ -1155,7 +1155,7 @@ relative error 8.167e-02
         folder : str or path
             The folder. It is created if necessary. Existing files of these names are replaced.
         *formats : str
-            ``"csv"`` (default), ``"lammps"``, ``"vtp"``, ``"yade"``, ``"card"`` or ``"html"``.
+            ``"csv"`` (default), ``"lammps"``, ``"vtp"``, ``"yade"``, ``"card"``, ``"mtx"`` (in pile units) or ``"html"``.
 
         Returns
         -------

@@ -177,10 +177,11 @@ fn format_named(name: &str) -> PyResult<Format> {
         "vtp" => PileFormat::Vtp,
         "yade" => PileFormat::Yade,
         "card" => PileFormat::Card,
+        "mtx" => PileFormat::Mtx,
         "html" => return Ok(Format::Page),
         _ => {
             return Err(PyValueError::new_err(format!(
-                "formats: '{name}' is not one of csv, lammps, vtp, yade, card, html"
+                "formats: '{name}' is not one of csv, lammps, vtp, yade, card, mtx, html"
             )));
         }
     }))

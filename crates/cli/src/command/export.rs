@@ -15,16 +15,19 @@ use clap::{Args, ValueEnum};
 use num_traits::One;
 
 use super::note_instability;
-use crate::args::{Format, SceneOptions, in_state, resolve_format};
+use crate::args::{Format, SceneOptions, UnitSystem, in_state, resolve_format};
 use crate::output::{Failure, creates_folder_of, print_message, write_around, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-All numbers are in SI. Each export also writes scene.toml, which --scene reads. All files appear together, when all are
-complete.
+All numbers but those of mtx are in SI. Each export also writes scene.toml, which --scene reads. All files appear together,
+when all are complete.
 
 A card is a benchmark on one page: the pile, the exact forces, the error of springs, the acceptance criteria, and how to
 cite it.
+
+mtx is a sparse linear system for any solver: equilibrium.mtx x = loads.mtx / denominator in the format of Matrix Market,
+its exact solution, and its singular values. It is in f0 and integers, or with --units si in newtons and floats.
 
 The HTML viewer is one file that a browser opens offline. It rotates and cuts the pile and shows the forces. If DIR ends in
 .html, only this file is written. With --state elastic it shows the isostatic and the elastic state.
@@ -34,6 +37,7 @@ Examples:
   cannonpile export pile --to csv,vtp --layers 40 --list files.csv
   cannonpile export C2 --case C2 --to csv,card
   cannonpile export four --layers 2 --floor rough --to lammps,yade --friction 0.41 --floor-friction 0.11
+  cannonpile export matrix --to mtx --stacking hcp --layers 20
   cannonpile export pile.html --to html --top hexagon:3 --stacking hcp --layers 4";
 
 #[derive(Args)]
@@ -56,6 +60,9 @@ pub(crate) struct Export {
     /// Add the stress of each sphere times its volume to spheres.csv and spheres.vtp, in N·m
     #[arg(long)]
     stress: bool,
+    /// Units of the mtx files: integers in f0, or floats in newtons [default: pile]
+    #[arg(long, value_enum, value_name = "UNITS")]
+    units: Option<UnitSystem>,
     /// File for the list of the written files [default: stdout]
     #[arg(
         long,
@@ -87,6 +94,9 @@ enum Target {
     Yade,
     /// Benchmark card: card.md for people and card.json for programs
     Card,
+    /// Linear system with known solution and singular values: equilibrium.mtx, loads.mtx, forces.mtx, forces_exact.txt,
+    /// properties.json
+    Mtx,
     /// HTML viewer: pile.html, or FILE.html alone; at most 100000 spheres
     Html,
     /// csv, lammps, vtp, yade and card
@@ -101,6 +111,7 @@ impl Target {
             Self::Vtp => &[PileFormat::Vtp],
             Self::Yade => &[PileFormat::Yade],
             Self::Card => &[PileFormat::Card],
+            Self::Mtx => &[PileFormat::Mtx],
             Self::Html => &[],
             Self::All => &[
                 PileFormat::Csv,
@@ -138,6 +149,16 @@ impl Export {
             export.with_stress()
         } else {
             export
+        };
+        let export = match self.units {
+            Some(_) if !formats.contains(&PileFormat::Mtx) => {
+                return Err(Failure::Message(
+                    "--units: files other than mtx are in SI: add mtx to --to, or leave it out"
+                        .to_owned(),
+                ));
+            }
+            Some(UnitSystem::Si) => export.with_equations_in_si(),
+            _ => export,
         };
         check_springs(&scene, &formats)?;
         let page = self.page(&packing, &scene)?;
@@ -399,6 +420,8 @@ fn bytes(files: &PileExport<'_>, file: PileFile) -> u64 {
         PileFile::ContactsCsv => 78,
         PileFile::LammpsData => 74,
         PileFile::SpheresCsv => 67,
+        PileFile::EquilibriumMtx => 12,
+        PileFile::LoadsMtx | PileFile::ForcesMtx | PileFile::ForcesExact => 2,
         _ => 46,
     };
     files.rows(file).unwrap_or(0) * a_row

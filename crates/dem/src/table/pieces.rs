@@ -8,7 +8,7 @@ use cannonpile::lattice::Row;
 use cannonpile::shape::Rows;
 
 /// The maximal number of spheres computed at once.
-const PIECE: i128 = 1024;
+pub(crate) const PIECE: i128 = 1024;
 
 /// Computes the results for a piece of a row.
 type Make<'p, T> = Box<dyn FnMut(&Row) -> Result<Vec<T>, Error> + 'p>;

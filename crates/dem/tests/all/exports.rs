@@ -3,5 +3,6 @@
 mod cards;
 mod compliance;
 mod files;
+mod matrix;
 mod physics;
 mod refusals;

@@ -50,7 +50,7 @@ console! {
     contacts: 61;
     ensemble: 56;
     explain: 21;
-    export: 51;
+    export: 60;
     help: 18;
     mean: 49;
     merge: 18;

@@ -167,9 +167,14 @@ fn numbers_beyond_floats_are_refused() {
         ..Scene::default()
     };
     let folder = tempfile::tempdir().expect("a folder");
+    // The equations in f₀ have no radius and no mass.
+    let all = PileFormat::ALL
+        .into_iter()
+        .filter(|format| *format != PileFormat::Mtx);
+    let all: Vec<_> = all.collect();
     for (radius, mass, formats) in [
-        ("1e400", "1", &PileFormat::ALL[..]),
-        ("1", "1e400", &PileFormat::ALL[..]),
+        ("1e400", "1", &all[..]),
+        ("1", "1e400", &all),
         // The csv files contain 0, as the tables do; springs need a positive number.
         ("1", "1e-400", &[PileFormat::Lammps, PileFormat::Yade]),
         ("1e-120", "1", &[PileFormat::Lammps, PileFormat::Yade]),
