@@ -35,7 +35,7 @@ pub struct Case {
 const CASES: &str = include_str!("cases/cases.txt");
 
 /// The scenes, in the same order.
-const SCENES: [&str; 20] = [
+const SCENES: [&str; 22] = [
     include_str!("cases/c1.toml"),
     include_str!("cases/c2.toml"),
     include_str!("cases/c3.toml"),
@@ -56,6 +56,8 @@ const SCENES: [&str; 20] = [
     include_str!("cases/c18.toml"),
     include_str!("cases/c19.toml"),
     include_str!("cases/c20.toml"),
+    include_str!("cases/c21.toml"),
+    include_str!("cases/c22.toml"),
 ];
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {

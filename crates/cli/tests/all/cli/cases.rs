@@ -119,7 +119,7 @@ fn case_excludes_scene_options() {
         }
     }
     for (arguments, parts) in [
-        ("summary --case C22", ["--case", "did you mean 'C2'?"]),
+        ("summary --case C23", ["--case", "did you mean 'C2'?"]),
         (
             "summary --case straight",
             ["--case", "'cannonpile cases' lists"],

@@ -1,10 +1,12 @@
 //! The benchmark cases: published cases are unchanged, and have the published outcome.
 
-use cannonpile::Verdict;
+use cannonpile::geometry::Load;
+use cannonpile::scalar::{Algebra, Polynomial, Symbol};
 use cannonpile::shape::Selection;
+use cannonpile::{ContactForce, Forces, Verdict};
 use cannonpile_dem::Error;
 use cannonpile_dem::scene::{Case, Floor, Scene, SceneFile, State, cases};
-use cannonpile_stability::RoughPacking;
+use cannonpile_stability::{RoughPacking, force_by_tilt};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 
@@ -39,6 +41,8 @@ const PUBLISHED: &[(&str, u64, &str)] = &[
     ("C18", 0x1e7d_0bdc_3574_cd4a, "yes"),
     ("C19", 0x20ad_45b7_63da_7303, "no"),
     ("C20", 0xb7f9_6889_061d_012a, "no"),
+    ("C21", 0x4683_9311_51b8_6c16, "yes"),
+    ("C22", 0xa73d_4180_257c_e967, "yes"),
 ];
 
 #[test]
@@ -144,10 +148,56 @@ fn every_case_has_its_stated_stability() {
     }
 }
 
+/// The derivatives that the example `derivatives` lists by loads and by the tilt are the coefficients of the forces under a
+/// load t, and under a tilt t. Those by radii have their own test, in `cannonpile-stability`.
+#[test]
+fn derivatives_are_the_coefficients_of_a_symbol() {
+    let t = || Polynomial::from(Symbol("t"));
+    let constant = |x: &BigRational| Polynomial::constant(x);
+    for name in ["C21", "C22"] {
+        let pile = Case::named(name)
+            .and_then(Case::scene)
+            .and_then(|scene| scene.pile());
+        let pile = pile.expect("a pile");
+        let exact: Vec<_> = all_contacts(&pile.forces::<BigRational>());
+        for sphere in pile.sites(Selection::All).expect("spheres") {
+            for unit in Load::units() {
+                let symbolic = Load {
+                    down: t() * &constant(&unit.down),
+                    x: t() * &constant(&unit.x),
+                    y: t() * &constant(&unit.y),
+                };
+                let loaded = pile.forces().with_load(sphere, symbolic).expect("a load");
+                let response = pile.bare().with_load(sphere, unit).expect("a load");
+                let response = all_contacts(&response.forces::<BigRational>());
+                for ((loaded, exact), slope) in
+                    all_contacts(&loaded).iter().zip(&exact).zip(response)
+                {
+                    let line = constant(&exact.force) + &(t() * &constant(&slope.force));
+                    assert_eq!(loaded.force, line, "{name} {sphere}");
+                }
+            }
+        }
+        let leaning = pile.forces().with_tilt([t(), t() * &t()]).expect("a tilt");
+        for (leaning, exact) in all_contacts(&leaning).iter().zip(&exact) {
+            let by = force_by_tilt(&pile, exact.site, exact.direction).expect("a force");
+            let slopes = t() * &constant(&by.a) + &(t() * &t() * &constant(&by.b));
+            assert_eq!(leaning.force, constant(&exact.force) + &slopes, "{name}");
+        }
+    }
+}
+
+fn all_contacts<T: Algebra>(forces: &Forces<'_, T>) -> Vec<ContactForce<T>> {
+    let contacts = forces.contacts(Selection::All).expect("contacts");
+    contacts
+        .map(|contact| contact.expect("a contact"))
+        .collect()
+}
+
 #[test]
 fn unknown_names_are_refused() {
     for (given, says) in [
-        ("C22", "there is no case 'C22'; did you mean 'C2'?"),
+        ("C23", "there is no case 'C23'; did you mean 'C2'?"),
         ("d3", "there is no case 'd3'; did you mean 'C3'?"),
         (
             "hcp",
