@@ -72,7 +72,7 @@
 //! | the tilts of gravity that a pile bears, unequal spheres, the stable stackings, two layers with friction | `cannonpile-stability` |
 //! | horizontal contacts at a = R: bounds, elastic states, verdicts, certificates | `cannonpile-horizontal` |
 //! | means and ensembles over random stackings | `cannonpile-disorder` |
-//! | singular values and condition numbers | `cannonpile-accuracy` |
+//! | singular values and condition numbers, a verdict on number types | `cannonpile-accuracy` |
 //! | scenes, benchmark cases, files for LAMMPS, YADE and ParaView, a comparison with measured forces | `cannonpile-dem` |
 //! | figures, and an HTML viewer | `cannonpile-figure` |
 //! | all theorems with their proofs, also in Coq | `cannonpile-proof` |

@@ -1,3 +1,4 @@
 //! The tests of the crate, one file for each subject.
 
+mod judge;
 mod singular;
