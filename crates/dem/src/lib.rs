@@ -52,6 +52,7 @@ mod export;
 mod file;
 #[doc(hidden)]
 pub mod grown;
+mod json;
 mod key;
 mod lammps;
 mod matrix;

@@ -5,9 +5,9 @@ use serde_json::{Value as Json, json};
 
 use super::extremes::Extreme;
 use crate::Error;
+use crate::json::placed;
 use crate::numbered::{NumberedPile, nearest};
-use cannonpile::Pile;
-use cannonpile::lattice::{ContactKind, Dimension, HorizontalContact, Site};
+use cannonpile::lattice::{ContactKind, HorizontalContact};
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 
@@ -22,34 +22,6 @@ pub(super) fn value(number: &Surd, quantity: &'static str) -> Result<Json, Error
 
 pub(super) fn rational(number: BigRational, quantity: &'static str) -> Result<Json, Error> {
     value(&number.into(), quantity)
-}
-
-/// Returns an integer within 2^53 as a number, and a larger one as a string. Many JSON readers store numbers as floats.
-pub(super) fn integer(number: &impl ToString) -> Json {
-    let text = number.to_string();
-    match text.parse::<i64>() {
-        Ok(small) if small.unsigned_abs() >> 53 == 0 => small.into(),
-        _ => text.into(),
-    }
-}
-
-/// Returns the entries of `before`, of a site (`k, i, j`, or `k, i` for a disc) and of `after` as one record. The
-/// indices of exported piles are small enough for JSON numbers.
-pub(super) fn placed(pile: &Pile, before: Json, Site { i, j, k }: Site, after: Json) -> Json {
-    let place = match pile.dimension() {
-        Dimension::Two => json!({"k": k, "i": i}),
-        Dimension::Three => json!({"k": k, "i": i, "j": j}),
-    };
-    joined([before, place, after])
-}
-
-/// Returns the entries of all records as one record.
-pub(super) fn joined(records: [Json; 3]) -> Json {
-    let entries = |record| match record {
-        Json::Object(entries) => entries,
-        _ => serde_json::Map::new(),
-    };
-    Json::Object(records.into_iter().flat_map(entries).collect())
 }
 
 pub(super) fn contact(numbered: &NumberedPile<'_>, found: &Extreme) -> Result<Json, Error> {
@@ -71,7 +43,7 @@ pub(super) fn contact(numbered: &NumberedPile<'_>, found: &Extreme) -> Result<Js
         "multiple": force.to_string(),
         "force": value(&newtons, FORCE)?,
     });
-    Ok(placed(pile, ids, site, force))
+    Ok(placed(pile.dimension(), ids, site, force))
 }
 
 /// Returns all contacts, in the order of `contacts.csv`.
@@ -93,16 +65,18 @@ pub(super) fn contacts(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
 }
 
 pub(super) fn spheres(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
+    let dimension = numbered.pile().dimension();
     let all = (1_u64..).zip(numbered.sites()?).map(|(id, site)| {
         let [x, y, z] = numbered.packing().position(site)?;
         let value = |x| value(x, "a position");
         let centre = json!({"x": value(&x)?, "y": value(&y)?, "z": value(&z)?});
-        Ok(placed(numbered.pile(), json!({"id": id}), site, centre))
+        Ok(placed(dimension, json!({"id": id}), site, centre))
     });
     all.collect()
 }
 
 pub(super) fn base(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
+    let dimension = numbered.pile().dimension();
     let forces = numbered.packing().base(Selection::Base)?;
     let all = (numbered.numbering().first_on_floor()..).zip(forces);
     let all = all.map(|(id, force)| {
@@ -111,12 +85,8 @@ pub(super) fn base(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
         let (normal, x, y) = (&force.normal, &force.shear_x, &force.shear_y);
         let on_floor =
             json!({"normal": value(normal)?, "shear_x": value(x)?, "shear_y": value(y)?});
-        Ok(placed(
-            numbered.pile(),
-            json!({"id": id}),
-            force.site,
-            on_floor,
-        ))
+        let id = json!({"id": id});
+        Ok(placed(dimension, id, force.site, on_floor))
     });
     all.collect()
 }

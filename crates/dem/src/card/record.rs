@@ -8,12 +8,11 @@ use num_traits::{One, Zero};
 use serde_json::{Value as Json, json};
 
 use super::extremes::{Extreme, Extremes};
-use super::lists::{
-    FORCE, base, contact, contacts, integer, joined, placed, rational, spheres, value,
-};
+use super::lists::{FORCE, base, contact, contacts, rational, spheres, value};
 use super::title::{CardTitle, heading};
 use crate::Error;
 use crate::error::bug;
+use crate::json::{integer, joined, placed};
 use crate::numbered::{NumberedPile, nearest};
 use crate::springs::Springs;
 use crate::table::{Summary, Units, stacking};
@@ -161,7 +160,7 @@ pub(super) fn of_pile(
     let (sphere_count, base_count) = (pile.sphere_count(), pile.base_sphere_count());
     let loads = pile
         .loads()
-        .map(|(site, load)| placed(pile, json!({}), site, of_load(load)));
+        .map(|(site, load)| placed(pile.dimension(), json!({}), site, of_load(load)));
     let tilt = is_tilted(pile).then(|| tilt(packing));
     let list = (sphere_count <= most.into()).then(|| spheres(numbered));
     Ok(json!({

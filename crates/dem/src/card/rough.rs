@@ -3,10 +3,11 @@
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 
-use super::lists::{FORCE, placed, rational};
+use super::lists::{FORCE, rational};
 use super::page::Layout;
 use super::record::{Names, criteria, framed, give, name, of_pile, scene_option};
 use super::title::CardTitle;
+use crate::json::placed;
 use crate::numbered::{NumberedPile, all_rounded};
 use crate::template::fill_lines;
 use crate::{Each, Error, Friction};
@@ -108,6 +109,7 @@ fn sum(number: &SurdSum) -> Result<Json, Error> {
 }
 
 fn contacts(numbered: &NumberedPile<'_>, rough: &RoughPacking<'_>) -> Result<Json, Error> {
+    let dimension = numbered.pile().dimension();
     let touches = numbered.touches()?;
     let all = touches.zip(rough.contacts(Selection::All)?);
     let all = all.map(|(touch, contact)| {
@@ -125,12 +127,13 @@ fn contacts(numbered: &NumberedPile<'_>, rough: &RoughPacking<'_>) -> Result<Jso
             "tangential_vector": vector(&contact.tangential_vector)?,
         });
         let ids = json!({"id1": ids[0], "id2": ids[1]});
-        Ok(placed(numbered.pile(), ids, contact.site, force))
+        Ok(placed(dimension, ids, contact.site, force))
     });
     all.collect()
 }
 
 fn base(numbered: &NumberedPile<'_>, rough: &RoughPacking<'_>) -> Result<Json, Error> {
+    let dimension = numbered.pile().dimension();
     let forces = rough.base(Selection::Base)?;
     let all = (numbered.numbering().first_on_floor()..).zip(forces);
     let all = all.map(|(id, force)| {
@@ -140,12 +143,8 @@ fn base(numbered: &NumberedPile<'_>, rough: &RoughPacking<'_>) -> Result<Json, E
             "friction_x": sum(&force.shear_x)?,
             "friction_y": sum(&force.shear_y)?,
         });
-        Ok(placed(
-            numbered.pile(),
-            json!({"id": id}),
-            force.site,
-            parts,
-        ))
+        let id = json!({"id": id});
+        Ok(placed(dimension, id, force.site, parts))
     });
     all.collect()
 }

@@ -11,8 +11,8 @@ use super::finding::{counted, short};
 use super::read::Compared;
 use super::shown::{Entries, Shown, cells, object};
 use crate::Each;
+use crate::json::placed;
 use crate::table::{Cell, FileFormat, NumberFormat, Table, WriteError};
-use cannonpile::lattice::{Dimension, Site};
 
 /// The number of missing contacts, and of extra pairs, that the text shows.
 const SHOWN: usize = 5;
@@ -497,13 +497,7 @@ fn list<T: ToString>(
 
 fn contact(difference: &Difference) -> Value {
     let ([upper, lower], measured) = (difference.ids, difference.measured);
-    let [k, i, j] = indices(difference.site);
-    let contact = json!({
-        "id1": upper,
-        "id2": lower,
-        "k": k,
-        "i": i,
-        "j": j,
+    let forces = json!({
         "direction": difference.direction.name(),
         "measured": measured.map(|measured| measured.force),
         "exact": difference.exact,
@@ -511,50 +505,18 @@ fn contact(difference: &Difference) -> Value {
         "exact_vector": difference.exact_vector,
         "error": difference.error,
     });
-    without_j(contact, difference.dimension)
+    let ids = json!({"id1": upper, "id2": lower});
+    placed(difference.dimension, ids, difference.site, forces)
 }
 
 fn pair(extra: &Extra) -> Value {
     let [first, second] = extra.ids;
-    let sites = extra.sites.each(|site| {
-        let [k, i, j] = indices(site);
-        without_j(json!({ "k": k, "i": i, "j": j }), extra.dimension)
-    });
+    let place = |site| placed(extra.dimension, json!({}), site, json!({}));
     json!({
         "id1": first,
         "id2": second,
-        "sites": sites,
+        "sites": extra.sites.each(place),
         "measured": extra.force,
         "error": extra.error,
     })
-}
-
-/// Returns k, i and j. An index beyond 2^53 is a string, because many readers store numbers as floats: a pile with few
-/// contacts may have one very wide layer.
-fn indices(Site { i, j, k }: Site) -> [Value; 3] {
-    [k, i, j].each(|index| match i64::try_from(index) {
-        Ok(small) if small.unsigned_abs() >> 53 == 0 => small.into(),
-        _ => index.to_string().into(),
-    })
-}
-
-/// Removes j for discs.
-fn without_j(mut place: Value, dimension: Dimension) -> Value {
-    if let (Dimension::Two, Value::Object(entries)) = (dimension, &mut place) {
-        entries.shift_remove("j");
-    }
-    place
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn indices_that_no_float_holds_are_strings() {
-        let (i, j, k) = (1 << 53, 1 - (1 << 53), 1 << 100);
-        let said = Value::from(indices(Site { i, j, k }).to_vec()).to_string();
-        let want = "[\"1267650600228229401496703205376\",\"9007199254740992\",-9007199254740991]";
-        assert_eq!(said, want);
-    }
 }

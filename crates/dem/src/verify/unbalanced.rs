@@ -9,13 +9,12 @@ use super::measured::{Measured, norm, opposite, relative};
 use super::refusal::Refusal;
 use crate::Error;
 use crate::error::bug;
-use crate::numbered::rounded;
+use crate::numbered::nearest;
 use crate::table::{Cell, Column, Table, indices, places};
 use crate::vector::{cross, dot, minus, plus};
 use crate::weights::{ordinary_weight, rounded_newtons};
 use crate::{Each, NumberedContact, NumberedPile};
 use cannonpile::lattice::Site;
-use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
 use cannonpile::{Load, Packing};
 
@@ -361,14 +360,12 @@ fn whole(vector: [f64; 3], measured: &Measured) -> [f64; 3] {
 /// Returns the unit vector from one site to another.
 fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f64; 3], Error> {
     let (to, from) = (packing.position(to)?, packing.position(from)?);
-    let apart: Vec<Surd> = {
-        let parts = to.iter().zip(&from);
-        let parts = parts.map(|(to, from)| to.checked_add(&-from.clone()));
-        let apart: Option<_> = parts.collect();
-        apart.ok_or_else(|| bug("coordinates along one axis have one root"))?
-    };
-    let apart = <[Surd; 3]>::try_from(apart).map_err(|_| bug("a vector has three components"))?;
-    let apart = rounded(&apart, "a distance")?;
+    let mut apart = [0.0; 3];
+    for (apart, (to, from)) in apart.iter_mut().zip(to.iter().zip(&from)) {
+        let exact = to.checked_add(&-from.clone());
+        let exact = exact.ok_or_else(|| bug("coordinates along one axis have one root"))?;
+        *apart = nearest(&exact, "a distance")?;
+    }
     let length = norm(apart);
     Ok(apart.each(|component| component / length))
 }
