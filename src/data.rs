@@ -49,7 +49,6 @@
 //!
 //! Use [`number`] for your own fields: `#[serde(with = "cannonpile::data::number")]`.
 
-mod counters;
 mod integers;
 #[doc(hidden)]
 pub mod listed;

@@ -29,11 +29,25 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Debug, Default)]
+#[cfg_attr(feature = "serde", derive(::serde::Serialize))]
 pub struct Counters {
+    #[cfg_attr(feature = "serde", serde(serialize_with = "written"))]
     visited: AtomicUsize,
+    #[cfg_attr(feature = "serde", serde(serialize_with = "written"))]
     turned: AtomicUsize,
+    #[cfg_attr(feature = "serde", serde(serialize_with = "written"))]
     passes: AtomicUsize,
+    #[cfg_attr(feature = "serde", serde(serialize_with = "written"))]
     rows: AtomicUsize,
+}
+
+/// Writes a counter as a number.
+#[cfg(feature = "serde")]
+fn written<S: ::serde::Serializer>(
+    counter: &AtomicUsize,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    crate::data::number::serialize(&count(counter), serializer)
 }
 
 impl Counters {
