@@ -132,47 +132,36 @@ impl Case {
 
     /// Returns the pile with weightless spheres.
     #[must_use]
-    pub fn weightless(self) -> Self {
-        let mut balance = self.balance;
+    pub fn weightless(mut self) -> Self {
         assert!(
-            balance.weights.is_empty() && balance.horizontal.is_empty(),
+            self.balance.weights.is_empty() && self.balance.horizontal.is_empty(),
             "make the spheres weightless before adding loads"
         );
-        balance.ordinary = BigRational::zero();
-        Self {
-            pile: self.pile.weightless(),
-            balance,
-            tilt: self.tilt,
-        }
+        self.balance.ordinary = BigRational::zero();
+        self.pile = self.pile.weightless();
+        self
     }
 
     /// Returns the pile with one more load on a sphere.
     #[must_use]
-    pub fn with_load(self, place: Place, load: &BigRational) -> Self {
-        let (pile, mut balance) = (self.pile, self.balance);
-        let pile = pile.with_load(site(place), load.clone());
-        let before = balance.weight(place).clone();
-        balance.weights.insert(place, before + load);
-        Self {
-            pile: pile.expect("a sphere"),
-            balance,
-            tilt: self.tilt,
-        }
+    pub fn with_load(mut self, place: Place, load: &BigRational) -> Self {
+        let before = self.balance.weight(place).clone();
+        self.balance.weights.insert(place, before + load);
+        let pile = self.pile.with_load(site(place), load.clone());
+        self.pile = pile.expect("a sphere");
+        self
     }
 
     /// Returns the pile with another weight for a sphere that has no load.
     #[must_use]
-    pub fn with_weight(self, place: Place, weight: &BigRational) -> Self {
-        let (pile, mut balance) = (self.pile, self.balance);
-        let pile = pile.with_weight(site(place), weight.clone());
-        let extra = weight - balance.weight(place);
-        balance.push(place, self.tilt.each_ref().map(|t| t * &extra));
-        balance.weights.insert(place, weight.clone());
-        Self {
-            pile: pile.expect("a sphere"),
-            balance,
-            tilt: self.tilt,
-        }
+    pub fn with_weight(mut self, place: Place, weight: &BigRational) -> Self {
+        let extra = weight - self.balance.weight(place);
+        let along = self.tilt.each_ref().map(|t| t * &extra);
+        self.balance.push(place, along);
+        self.balance.weights.insert(place, weight.clone());
+        let pile = self.pile.with_weight(site(place), weight.clone());
+        self.pile = pile.expect("a sphere");
+        self
     }
 
     /// Adds random forces in at most `n` random horizontal contacts above the bottom layer.

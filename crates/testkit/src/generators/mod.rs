@@ -38,3 +38,18 @@ pub fn rarely(u: &mut Unstructured<'_>, of: u8) -> Result<bool> {
     let of = of.max(1);
     Ok(u.int_in_range(1..=of)? == of)
 }
+
+/// Replaces, adds or removes up to three characters of `text`, by some of the `intruders`.
+pub fn damaged_by(u: &mut Unstructured<'_>, text: &str, intruders: &[char]) -> Result<String> {
+    let mut letters: Vec<char> = text.chars().collect();
+    for _ in 0..u.int_in_range(1..=3)? {
+        let place = u.int_in_range(0..=letters.len())?;
+        let intruder = *u.choose(intruders)?;
+        match (u.int_in_range(0..=2)?, letters.get_mut(place)) {
+            (0, Some(letter)) => *letter = intruder,
+            (1, Some(_)) => drop(letters.remove(place)),
+            _ => letters.insert(place, intruder),
+        }
+    }
+    Ok(letters.into_iter().collect())
+}

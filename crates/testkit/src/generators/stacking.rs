@@ -5,6 +5,8 @@ use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::{MAX_LAYERS, Sign};
 use cannonpile::stacking::{Notation, Run, Stacking};
 
+use super::damaged_by;
+
 /// Runs as a user may list them. Some are empty, neighbours may have the same sign, lengths may be near the maximum, and a
 /// rare one is negative.
 pub fn runs(u: &mut Unstructured<'_>) -> Result<Vec<Run>> {
@@ -68,17 +70,7 @@ fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
         '+', '-', 'A', 'B', 'C', 'c', 'h', '(', ')', ',', '0', '1', '9', 'D', 'H', ' ', '\n', '−',
         '٣', '\0',
     ];
-    let mut letters: Vec<char> = text.chars().collect();
-    for _ in 0..u.int_in_range(1..=3)? {
-        let place = u.int_in_range(0..=letters.len())?;
-        let intruder = *u.choose(&INTRUDERS)?;
-        match (u.int_in_range(0..=2)?, letters.get_mut(place)) {
-            (0, Some(letter)) => *letter = intruder,
-            (1, Some(_)) => drop(letters.remove(place)),
-            _ => letters.insert(place, intruder),
-        }
-    }
-    Ok(letters.into_iter().collect())
+    damaged_by(u, text, &INTRUDERS)
 }
 
 /// Draws up to `most` Hägg signs.

@@ -4,7 +4,7 @@ use arbitrary::{Result, Unstructured};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::{number, region, stacking};
+use super::{damaged_by, number, region, stacking};
 
 /// A number as a user may write it, and its value.
 pub struct Written {
@@ -205,18 +205,4 @@ pub fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
         '+', '-', '.', '/', ',', 'e', 'E', '_', '0', '9', ' ', '\t', '\0', '٣', '−', '𝟙',
     ];
     damaged_by(u, text, &INTRUDERS)
-}
-
-fn damaged_by(u: &mut Unstructured<'_>, text: &str, intruders: &[char]) -> Result<String> {
-    let mut letters: Vec<char> = text.chars().collect();
-    for _ in 0..u.int_in_range(1..=3)? {
-        let place = u.int_in_range(0..=letters.len())?;
-        let intruder = *u.choose(intruders)?;
-        match (u.int_in_range(0..=2)?, letters.get_mut(place)) {
-            (0, Some(letter)) => *letter = intruder,
-            (1, Some(_)) => drop(letters.remove(place)),
-            _ => letters.insert(place, intruder),
-        }
-    }
-    Ok(letters.into_iter().collect())
 }
