@@ -7,23 +7,27 @@
 //! |---|---|
 //! | Which singular values does the equilibrium matrix have? | [`singular_values(pile.shape())`](singular_values) |
 //! | What is its condition number? | [`condition_number(pile.shape())`](condition_number); in newtons at most [`condition_bound(&packing)`](condition_bound) |
+//! | Which rounding errors does a float of p bits have, with a given probability? | [`probable_bounds(&pile, p, 0.01)`](probable_bounds) |
 //! | Does a number type keep its promise, and how large are its errors? | [`judge::<T>()`](judge()) |
 //!
 //! # Map
 //! | module | contents |
 //! |---|---|
 //! | `singular` | singular values and condition numbers |
+//! | `probable` | a bound of rounding errors that holds with a given probability |
 //! | `value` | the exact value of a number, found by comparisons |
 //! | `judgement` | what is found out about a number type |
 //! | `judge` | the checks of a number type |
 
 mod judge;
 mod judgement;
+mod probable;
 mod singular;
 mod value;
 
 pub use judge::judge;
 pub use judgement::{Check, Finding, Growth, Judgement};
+pub use probable::{ProbableBound, probable_bounds};
 pub use singular::{SingularValue, condition_bound, condition_number, singular_values};
 
 /// The example of README.md, compiled as a doc test.
