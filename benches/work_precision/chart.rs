@@ -1,330 +1,308 @@
-//! The chart of the measurements: a panel for each pile, a shape for each method, a colour for each scalar.
-//!
-//! Besides the table of this bench it shows that of other programs, which `side_by_side` writes.
+//! The chart of run times and errors: `cargo bench --manifest-path benches/Cargo.toml --bench chart --features chart` draws
+//! `chart.svg` from the CSV files beside it. Nothing is measured. With `-- --smoke` it checks that `chart.svg` is up to date.
 
-use std::error::Error;
-use std::ops::Range;
+use std::env;
+use std::fmt::Write;
 use std::path::Path;
 
-use plotters::coord::Shift;
-use plotters::prelude::*;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
-/// A row of the table.
+/// A row of `results.csv` or `peers.csv`.
 #[derive(Deserialize)]
-struct Row {
+struct Run {
     pile: String,
-    contacts: u64,
+    contacts: f64,
     method: String,
     scalar: String,
+    setting: String,
     seconds: Option<f64>,
     relative_error: Option<f64>,
 }
 
-/// A row with numbers.
-struct Mark<'a> {
-    row: &'a Row,
-    /// Decades of time.
-    time: f64,
-    /// Decades of error; `None` if every force is exact.
-    error: Option<f64>,
+/// A row of `errors.csv`.
+#[derive(Deserialize)]
+struct Growth {
+    stacking: String,
+    layers: f64,
+    format: String,
+    error: f64,
+    probable: Option<f64>,
+    proved: Option<f64>,
 }
 
-/// The shapes of methods. Those of the library have filled shapes, other solvers open ones.
-const METHODS: [(&str, bool, Shape); 14] = [
-    (
-        "closed form, table",
-        true,
-        Shape::Corners(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
+const STRAIGHT: [&str; 4] = [
+    "straight, 10 layers",
+    "straight, 20 layers",
+    "straight, 40 layers",
+    "straight, 80 layers",
+];
+const HCP: [&str; 2] = [
+    "HCP, 4 layers, 12 a side on top",
+    "HCP, 40 layers, 8 a side on top",
+];
+
+// Colours by Okabe and Ito, some of them darker, which colour-blind readers can tell apart.
+const BLUE: &str = "#0072b2";
+const RED: &str = "#d55e00";
+const AMBER: &str = "#c28a00";
+const GREEN: &str = "#007a5a";
+const PURPLE: &str = "#a8508a";
+const GREY: &str = "#555";
+
+/// A method, scalar and setting; its colour; its label, with the place relative to the last pile.
+struct Method([&'static str; 3], &'static str, &'static str, [f64; 2]);
+
+const METHODS: [Method; 9] = [
+    Method(
+        ["closed form, table", "i64", ""],
+        BLUE,
+        "integers",
+        [-14.0, 18.0],
     ),
-    ("closed form", true, Shape::Round),
-    (
-        "transfer",
-        true,
-        Shape::Corners(&[(0, -5), (5, 4), (-5, 4)]),
+    Method(
+        ["exact engine", "integers", ""],
+        BLUE,
+        "rationals",
+        [-33.0, -14.0],
     ),
-    (
-        "exact engine",
-        true,
-        Shape::Corners(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
-    ),
-    (
-        "sparse LU",
-        false,
-        Shape::Corners(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
-    ),
-    ("CGLS", false, Shape::Round),
-    (
-        "springs",
-        false,
-        Shape::Corners(&[(-5, -4), (5, -4), (0, 5)]),
-    ),
-    (
+    Method(
+        ["python-flint", "rationals", ""],
+        GREEN,
         "python-flint",
-        false,
-        Shape::Corners(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
+        [-50.0, -10.0],
     ),
-    (
-        "SciPy LU",
-        false,
-        Shape::Corners(&[(-6, -3), (6, -3), (6, 3), (-6, 3)]),
+    Method(["closed form, table", "f64", ""], BLUE, "f64", [-28.0, 4.0]),
+    Method(["closed form, table", "f32", ""], BLUE, "f32", [8.0, 4.0]),
+    Method(["SciPy LU", "f64", ""], RED, "SciPy, LU", [-30.0, -9.0]),
+    Method(["sparse LU", "f64", ""], AMBER, "faer, LU", [32.0, 10.0]),
+    Method(
+        ["CGLS", "f64", "residual 1e-9"],
+        GREY,
+        "conjugate gradients",
+        [-54.0, -10.0],
     ),
-    ("LAMMPS", false, Shape::Corners(&[(0, -5), (5, 4), (-5, 4)])),
-    ("bounds", true, Shape::Corners(&[(-5, -4), (5, -4), (0, 5)])),
-    (
-        "QSopt_ex",
-        false,
-        Shape::Corners(&[(-5, 0), (4, -5), (4, 5)]),
-    ),
-    ("SCIP", false, Shape::Corners(&[(5, 0), (-4, 5), (-4, -5)])),
-    (
-        "HiGHS",
-        false,
-        Shape::Corners(&[(-3, -5), (3, -5), (6, 0), (3, 5), (-3, 5), (-6, 0)]),
+    Method(
+        ["LAMMPS", "f64", "stiffness 1"],
+        PURPLE,
+        "LAMMPS",
+        [-24.0, -10.0],
     ),
 ];
 
-/// The number of methods in a row of the legend.
-const ACROSS: usize = 7;
+/// The pixels and the decades of both ends of an axis.
+type Axis = [[f64; 2]; 2];
 
-/// The colours of scalars, by Okabe and Ito, which are safe for colour-blind readers.
-const SCALARS: [(&str, RGBColor); 6] = [
-    ("f32", RGBColor(230, 159, 0)),
-    ("f64", RGBColor(0, 114, 178)),
-    ("DoubleDouble", RGBColor(86, 180, 233)),
-    ("Interval", RGBColor(0, 158, 115)),
-    ("BigRational", RGBColor(213, 94, 0)),
-    ("integers", RGBColor(204, 121, 167)),
-];
-
-const NOTES: [&str; 4] = [
-    "Joined glyphs are one method at several settings.",
-    "Results without an error are in the grey column, side by side. In this column only the height has a meaning.",
-    "The floats of the table are forces in mg, rounded from irrational numbers. All other forces are in mg/(3 cosθ);",
-    "in this unit those of straight piles are small integers, which floats represent exactly.",
-];
-
-#[derive(Clone, Copy)]
-enum Shape {
-    Round,
-    Corners(&'static [(i32, i32)]),
+fn main() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("work_precision");
+    let mut runs: Vec<Run> = rows(&folder.join("results.csv"));
+    runs.extend(rows(&folder.join("peers.csv")));
+    let mut page = Page(HEAD.into());
+    page.times(&runs);
+    page.growth(&rows(&folder.join("errors.csv")));
+    page.0 += "</svg>\n";
+    let file = folder.join("chart.svg");
+    if env::args().any(|argument| argument == "--smoke") {
+        let drawn = std::fs::read_to_string(file).expect("the chart");
+        assert!(drawn == page.0, "chart.svg is not that of the tables");
+    } else {
+        std::fs::write(file, page.0).expect("a place for the chart");
+    }
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+fn rows<T: DeserializeOwned>(file: &Path) -> Vec<T> {
+    let mut table = csv::Reader::from_path(file).expect("a table");
+    table.deserialize().map(|row| row.expect("a row")).collect()
+}
 
-/// The height of the title, of a row of panels, and of the legend.
-const HEAD: u32 = 60;
-const PANEL: u32 = 330;
-const FOOT: u32 = 188;
+const HEAD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 800 440" font-family="Helvetica, Arial, sans-serif" font-size="13" fill="#222">
+<rect width="800" height="440" fill="#fff"/>
+"##;
 
-/// The width of the column of exact results, relative to that of the decades.
-const COLUMN: f64 = 0.24;
+/// The picture so far.
+struct Page(String);
 
-/// The fewest decades of error in a panel.
-const FEWEST_DECADES: f64 = 6.0;
-
-/// Draws the tables as one chart at `svg`.
-pub(crate) fn draw(tables: &[&Path], svg: &Path) -> Result<(), Box<dyn Error>> {
-    let mut rows: Vec<Row> = Vec::new();
-    for table in tables {
-        for row in csv::Reader::from_path(table)?.deserialize() {
-            rows.push(row?);
+impl Page {
+    /// Draws run times against errors, with a band for exact answers.
+    fn times(&mut self, runs: &[Run]) {
+        const X: Axis = [[150.0, 400.0], [-16.6, -5.2]];
+        const Y: Axis = [[380.0, 72.0], [-9.4, -1.5]];
+        self.put(r##"<rect x="56" y="72" width="88" height="308" fill="#eee"/>"##);
+        self.title(
+            56.0,
+            "Time and error of every method",
+            "dots: straight piles of 10 to 80 layers; rings: HCP of 4 and 40",
+        );
+        for (decade, name) in [(-9.0, "1 ns"), (-6.0, "1 µs"), (-3.0, "1 ms")] {
+            let y = pixel(Y, decade);
+            self.line(&[[56.0, y], [400.0, y]], "#ddd", "1");
+            self.text([52.0, y + 4.0], "end", "#222", name);
         }
-    }
-    let marks: Vec<Mark<'_>> = rows.iter().filter_map(Mark::of).collect();
-    let mut piles: Vec<&str> = Vec::new();
-    for mark in &marks {
-        if !piles.contains(&mark.row.pile.as_str()) {
-            piles.push(&mark.row.pile);
+        self.text(
+            [14.0, 226.0],
+            "middle\" transform=\"rotate(-90 14 226)",
+            "#222",
+            "time for each force",
+        );
+        for (decade, name) in [(-16.0, "10⁻¹⁶"), (-12.0, "10⁻¹²"), (-8.0, "10⁻⁸")] {
+            let x = pixel(X, decade);
+            self.line(&[[x, 72.0], [x, 380.0]], "#ddd", "1");
+            self.text([x, 396.0], "middle", "#222", name);
         }
-    }
-    let times = decades(marks.iter().map(|mark| mark.time));
-
-    let height = HEAD + PANEL * u32::try_from(piles.len().div_ceil(2))? + FOOT;
-    let page = SVGBackend::new(svg, (880, height)).into_drawing_area();
-    page.fill(&WHITE)?;
-    let centred = |size| {
-        style(size).pos(plotters::style::text_anchor::Pos::new(
-            plotters::style::text_anchor::HPos::Center,
-            plotters::style::text_anchor::VPos::Top,
-        ))
-    };
-    page.draw(&Text::new("Run time against error", (440, 12), centred(22)))?;
-    let words = "All contact forces of a pile, or bounds; the error is that of the worst one over the greatest";
-    page.draw(&Text::new(words, (440, 38), centred(15)))?;
-    let (_, page) = page.split_vertically(HEAD);
-    let (panels, foot) = page.split_vertically(height - HEAD - FOOT);
-    let mut drawn = 0;
-    for (pile, area) in piles
-        .iter()
-        .zip(panels.split_evenly((piles.len().div_ceil(2), 2)))
-    {
-        let marks = marks.iter().filter(|mark| mark.row.pile == **pile);
-        let marks: Vec<&Mark<'_>> = marks.collect();
-        drawn += panel(&area, &marks, times.clone())?;
-    }
-    assert_eq!(drawn, marks.len(), "a mark for each run that has numbers");
-    legend(&foot)?;
-    foot.present()?;
-    Ok(())
-}
-
-impl<'a> Mark<'a> {
-    fn of(row: &'a Row) -> Option<Self> {
-        let (seconds, error) = (row.seconds?, row.relative_error?);
-        Some(Self {
-            row,
-            time: seconds.log10(),
-            error: (error > 0.0).then(|| error.log10()),
-        })
-    }
-}
-
-/// Draws the runs of one pile, and returns their number.
-fn panel(area: &Area<'_>, marks: &[&Mark<'_>], times: Range<f64>) -> Result<usize, Box<dyn Error>> {
-    let errors = decades(marks.iter().filter_map(|mark| mark.error));
-    let errors = errors.start..errors.end.max(errors.start + FEWEST_DECADES);
-    let column = COLUMN * (errors.end - errors.start);
-    let exact = errors.start - column..errors.start;
-    let first = marks[0].row;
-    let title = format!("{} ({} contacts)", first.pile, first.contacts);
-    let mut chart = ChartBuilder::on(area)
-        .caption(title, style(15))
-        .margin(12)
-        .x_label_area_size(44)
-        .y_label_area_size(54)
-        .build_cartesian_2d(exact.start..errors.end, times.clone())?;
-    let ends = [(exact.start, times.start), (exact.end, times.end)];
-    chart.draw_series([Rectangle::new(ends, RGBColor(236, 236, 236).filled())])?;
-    let power = |decade: &f64| format!("1e{decade:.0}");
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .axis_desc_style(style(14))
-        .label_style(style(13))
-        .x_desc("relative error")
-        .y_desc("time in s")
-        .x_label_formatter(&|decade| {
-            if *decade < exact.end {
-                String::new()
-            } else {
-                power(decade)
+        self.text([100.0, 396.0], "middle", "#222", "0 (exact)");
+        self.text(
+            [275.0, 422.0],
+            "middle",
+            "#222",
+            "relative error of the worst force",
+        );
+        for (n, method) in METHODS.iter().enumerate() {
+            let Method(_, colour, label, [dx, dy]) = method;
+            let lane = 74.0 + 26.0 * [0.0, 1.0, 2.0].get(n).unwrap_or(&0.0);
+            let place = |(seconds, error): (f64, f64)| {
+                let x = if error > 0.0 {
+                    pixel(X, error.log10())
+                } else {
+                    lane
+                };
+                [x, pixel(Y, seconds.log10())]
+            };
+            let dots: Vec<[f64; 2]> = method.runs(runs, &STRAIGHT).map(place).collect();
+            self.line(&dots, colour, "1.5");
+            for (n, dot) in dots.iter().enumerate() {
+                self.dot(*dot, [2.0, 2.8, 3.6, 4.4][n], colour, colour);
             }
+            let [x, y] = *dots.last().expect("a run");
+            self.text([x + dx, y + dy], "start", colour, label);
+        }
+        for method in METHODS
+            .iter()
+            .filter(|method| method.0[0].contains("LU"))
+            .chain([&Method(["transfer", "f64", ""], BLUE, "", [0.0; 2])])
+        {
+            let place =
+                |(seconds, error): (f64, f64)| [pixel(X, error.log10()), pixel(Y, seconds.log10())];
+            let dots: Vec<[f64; 2]> = method.runs(runs, &HCP).map(place).collect();
+            self.line(&dots, method.1, "1.5\" stroke-dasharray=\"4 3");
+            for (n, dot) in dots.iter().enumerate() {
+                self.dot(*dot, [2.6, 4.0][n], "#fff", method.1);
+            }
+        }
+        self.text([194.0, 352.0], "start", BLUE, "HCP");
+        let library = r#"<tspan font-weight="bold">this library</tspan>"#;
+        self.text([240.0, 360.0], "start", BLUE, library);
+    }
+
+    /// Draws the errors of four formats against the number of layers, with their bounds.
+    fn growth(&mut self, rows: &[Growth]) {
+        const X: Axis = [[470.0, 724.0], [0.9, 3.08]];
+        const Y: Axis = [[380.0, 72.0], [0.0, 7.6]];
+        self.title(
+            470.0,
+            "Rounding errors by layers",
+            "worst contact of HCP, in u = 2⁻ᵖ of the greatest force",
+        );
+        for (decade, name) in [(0.0, "1"), (2.0, "100"), (4.0, "10⁴"), (6.0, "10⁶")] {
+            let y = pixel(Y, decade);
+            self.line(&[[470.0, y], [724.0, y]], "#ddd", "1");
+            self.text([465.0, y + 4.0], "end", "#222", name);
+        }
+        for layers in [10.0_f64, 100.0, 1000.0] {
+            let x = pixel(X, layers.log10());
+            self.text([x, 396.0], "middle", "#222", &layers.to_string());
+        }
+        self.text([597.0, 422.0], "middle", "#222", "layers");
+        let at = |layers: f64, error: f64| [pixel(X, layers.log10()), pixel(Y, error.log10())];
+        let of = |format: &str, value: fn(&Growth) -> Option<f64>| {
+            let rows = rows
+                .iter()
+                .filter(|row| row.stacking == "HCP" && row.format == format);
+            let dots = rows.filter_map(|row| Some(at(row.layers, value(row)?)));
+            dots.collect::<Vec<_>>()
+        };
+        self.line(
+            &[at(10.0, 10.0_f64.sqrt()), at(1000.0, 1000.0_f64.sqrt())],
+            GREY,
+            "1.5\" stroke-dasharray=\"2 3",
+        );
+        self.line(&of("f64", |row| row.proved), GREY, "2");
+        self.line(&of("f64", |row| row.probable), GREY, "2");
+        for ([x, y], words) in [
+            ([580.0, 176.0], "proved bound"),
+            ([580.0, 274.0], "99 % probable"),
+            ([745.0, 330.0], "√L"),
+        ] {
+            self.text([x, y], "end", GREY, words);
+        }
+        for (format, colour, dy) in [
+            ("bf16", PURPLE, 14.0),
+            ("f16", GREEN, -2.0),
+            ("f32", RED, 4.0),
+            ("f64", BLUE, 4.0),
+        ] {
+            let dots = of(format, |row| Some(row.error));
+            self.line(&dots, colour, "1.5");
+            for dot in &dots {
+                self.dot(*dot, 3.0, colour, colour);
+            }
+            let [x, y] = *dots.last().expect("a row");
+            self.text([x + 8.0, y + dy], "start", colour, format);
+        }
+    }
+
+    fn title(&mut self, x: f64, title: &str, words: &str) {
+        self.text(
+            [x, 24.0],
+            "start\" font-size=\"16\" font-weight=\"bold",
+            "#222",
+            title,
+        );
+        self.text([x, 46.0], "start\" font-size=\"12", "#222", words);
+    }
+
+    fn line(&mut self, dots: &[[f64; 2]], colour: &str, width: &str) {
+        let dots: Vec<String> = dots.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        let dots = dots.join(" ");
+        self.put(&format!(
+            r#"<polyline points="{dots}" fill="none" stroke="{colour}" stroke-width="{width}"/>"#
+        ));
+    }
+
+    fn dot(&mut self, [x, y]: [f64; 2], radius: f64, inside: &str, colour: &str) {
+        self.put(&format!(
+            r#"<circle cx="{x:.1}" cy="{y:.1}" r="{radius}" fill="{inside}" stroke="{colour}"/>"#
+        ));
+    }
+
+    fn text(&mut self, [x, y]: [f64; 2], anchor: &str, colour: &str, words: &str) {
+        self.put(&format!(
+            r#"<text x="{x:.1}" y="{y:.1}" text-anchor="{anchor}" fill="{colour}">{words}</text>"#
+        ));
+    }
+
+    fn put(&mut self, element: &str) {
+        writeln!(self.0, "{element}").expect("memory");
+    }
+}
+
+impl Method {
+    /// Returns the time of each force and the error, pile by pile.
+    fn runs<'r>(
+        &'r self,
+        runs: &'r [Run],
+        piles: &'r [&str],
+    ) -> impl Iterator<Item = (f64, f64)> + 'r {
+        let of = |pile: &str| {
+            let mut runs = runs.iter().filter(move |run| run.pile == pile);
+            runs.find(|run| self.0 == [&run.method, &run.scalar, &run.setting].map(String::as_str))
+        };
+        piles.iter().filter_map(move |pile| {
+            let run = of(pile)?;
+            Some((run.seconds? / run.contacts, run.relative_error?))
         })
-        .y_label_formatter(&power)
-        .draw()?;
-    let (x, y) = chart.backend_coord(&(exact.start, times.end));
-    let (left, top) = area.get_base_pixel();
-    area.draw(&Text::new(
-        "0 (exact)",
-        (x - left + 6, y - top + 6),
-        style(12),
-    ))?;
-    let lanes: Vec<&Row> = {
-        let rows = marks.iter().filter(|mark| mark.error.is_none());
-        rows.map(|mark| mark.row).collect()
-    };
-    let place = |mark: &Mark<'_>| {
-        let lane = lanes.iter().position(|row| std::ptr::eq(*row, mark.row));
-        let part = (float(lane.unwrap_or(0)) + 1.0) / float(lanes.len() + 1);
-        let x = mark.error.unwrap_or(exact.start + column * part);
-        (x, mark.time)
-    };
-    // Runs of one method in one scalar are consecutive.
-    for settings in marks.chunk_by(|a, b| key(a) == key(b)) {
-        let colour = colour(&settings[0].row.scalar);
-        let line = settings.iter().map(|mark| place(mark));
-        if settings.iter().all(|mark| mark.error.is_some()) {
-            let line: Vec<(f64, f64)> = line.collect();
-            chart.draw_series([PathElement::new(line, colour.mix(0.5))])?;
-        }
     }
-    for mark in marks {
-        let at = chart.backend_coord(&place(mark));
-        shape(area, &mark.row.method, at, colour(&mark.row.scalar))?;
-    }
-    Ok(marks.len())
 }
 
-/// Draws the legend of shapes and colours.
-fn legend(area: &Area<'_>) -> Result<(), Box<dyn Error>> {
-    let (left, top) = area.get_base_pixel();
-    let entry = |n: usize, y: i32, words: &str, method: &str, colour| {
-        let x = 34 + 120 * i32::try_from(n).unwrap_or(0) + if n > 0 { 16 } else { 0 };
-        area.draw(&Text::new(words.to_owned(), (x + 12, y - 7), style(14)))?;
-        shape(area, method, (left + x, top + y), colour)
-    };
-    for (row, y) in METHODS.chunks(ACROSS).zip([16, 44]) {
-        for (n, (method, ..)) in row.iter().enumerate() {
-            entry(n, y, method, method, BLACK)?;
-        }
-    }
-    for (n, (scalar, colour)) in SCALARS.iter().enumerate() {
-        entry(n, 72, scalar, "closed form", *colour)?;
-    }
-    for (n, note) in NOTES.iter().enumerate() {
-        let y = 96 + 20 * i32::try_from(n)?;
-        area.draw(&Text::new(*note, (28, y), style(13)))?;
-    }
-    Ok(())
-}
-
-/// Draws a glyph at a position of the page.
-fn shape(
-    area: &Area<'_>,
-    method: &str,
-    (x, y): (i32, i32),
-    colour: RGBColor,
-) -> Result<(), Box<dyn Error>> {
-    let (left, top) = area.get_base_pixel();
-    let at = (x - left, y - top);
-    let found = METHODS.iter().find(|(name, ..)| *name == method);
-    let (_, filled, shape) = found.ok_or("a method without a shape")?;
-    let inside = if *filled { colour } else { WHITE };
-    match shape {
-        Shape::Round => {
-            area.draw(&Circle::new(at, 4, inside.filled()))?;
-            area.draw(&Circle::new(at, 4, colour.stroke_width(2)))?;
-        }
-        Shape::Corners(corners) => {
-            let corner = |(dx, dy): &(i32, i32)| (at.0 + dx, at.1 + dy);
-            let mut corners: Vec<(i32, i32)> = corners.iter().map(corner).collect();
-            area.draw(&Polygon::new(corners.clone(), inside.filled()))?;
-            corners.extend_from_within(..2);
-            area.draw(&PathElement::new(corners, colour.stroke_width(2)))?;
-        }
-    }
-    Ok(())
-}
-
-fn key<'a>(mark: &Mark<'a>) -> (&'a str, &'a str) {
-    (&mark.row.method, &mark.row.scalar)
-}
-
-fn colour(scalar: &str) -> RGBColor {
-    let scalar = match scalar {
-        "i64" => "integers",
-        // The fractions of other programs.
-        "rationals" => "BigRational",
-        other => other,
-    };
-    let found = SCALARS.iter().find(|(name, _)| *name == scalar);
-    found.map_or(BLACK, |(_, colour)| *colour)
-}
-
-fn style<'a>(size: i32) -> TextStyle<'a> {
-    ("sans-serif", size).into_font().into()
-}
-
-fn float(count: usize) -> f64 {
-    u32::try_from(count).map_or(f64::MAX, f64::from)
-}
-
-/// Returns the decades that contain some logarithms, with a margin for glyphs at both ends.
-fn decades(logarithms: impl Iterator<Item = f64>) -> Range<f64> {
-    let ends = logarithms
-        .map(|x| (x, x))
-        .reduce(|(a, b), (x, _)| (a.min(x), b.max(x)));
-    let (least, most) = ends.unwrap_or((-16.0, 0.0));
-    (least - 0.5).floor()..(most + 0.5).ceil()
+fn pixel([[from, to], [first, last]]: Axis, decade: f64) -> f64 {
+    from + (to - from) * (decade - first) / (last - first)
 }

@@ -1,10 +1,9 @@
 //! A work–precision diagram: run time and error of every method in every scalar.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench work_precision --features all`
-//! computes all contact forces of some piles with every method, and prints a table. It also writes the table as CSV and as a
-//! log–log chart, to `work_precision.csv` and `work_precision.svg` in the target folder or to `-- --csv FILE --svg FILE`.
-//! With `-- --smoke` it runs small piles once, and writes `smoke.csv` and `smoke.svg`. With `-- --draw` it only draws the
-//! existing CSV. With `-- --peers FILE` the chart also shows the table of other programs that `side_by_side --csv` writes.
+//! computes all contact forces of some piles with every method, prints a table, and writes it as CSV to `work_precision.csv`
+//! in the target folder or to `-- --csv FILE`. With `-- --smoke` it runs small piles once, and writes `smoke.csv`. The bench
+//! `chart` draws `results.csv`, and `peers.csv` with the times of other programs that `side_by_side --csv` writes.
 //!
 //! The error is the largest difference between a contact force and the exact one, relative to the largest exact force, in
 //! rational arithmetic. The exact forces are checked to be in equilibrium. The bench asserts that exact methods have no
@@ -14,7 +13,6 @@
 //! pile.
 
 mod cases;
-mod chart;
 mod library;
 mod others;
 #[path = "../peers/mod.rs"]
@@ -32,72 +30,45 @@ use reference::Reference;
 use run::{Measured, Method, Run};
 
 fn main() {
-    let options = Options::read(env::args().skip(1));
-    if !options.draw {
-        measure(&options);
-    }
-    // The chart is drawn from the written table.
-    let tables: Vec<&Path> = [Some(&options.csv), options.peers.as_ref()]
-        .into_iter()
-        .flatten()
-        .map(PathBuf::as_path)
-        .collect();
-    chart::draw(&tables, &options.svg).expect("tables, and a place for the chart");
-    println!("\n{}\n{}", options.csv.display(), options.svg.display());
-}
-
-fn measure(options: &Options) {
+    let Options { smoke, csv } = Options::read(env::args().skip(1));
     let mut runs = Vec::new();
-    for case in cases::cases(options.smoke) {
-        let bench = Bench::new(case, if options.smoke { 1 } else { 3 });
+    for case in cases::cases(smoke) {
+        let bench = Bench::new(case, if smoke { 1 } else { 3 });
         let first = runs.len();
         runs.extend(library::runs(&bench));
         runs.extend(others::runs(&bench));
         table::print(&runs[first..]);
     }
-    table::write(&options.csv, &runs).expect("a place for the table");
+    table::write(&csv, &runs).expect("a place for the table");
+    println!("\n{}", csv.display());
 }
 
 struct Options {
     smoke: bool,
-    /// Draw the chart of an existing table only.
-    draw: bool,
     csv: PathBuf,
-    svg: PathBuf,
-    /// The table of other programs.
-    peers: Option<PathBuf>,
 }
 
 impl Options {
     fn read(mut arguments: impl Iterator<Item = String>) -> Self {
-        let (mut smoke, mut draw) = (false, false);
-        let (mut csv, mut svg, mut peers) = (None, None, None);
+        let (mut smoke, mut csv) = (false, None);
         while let Some(argument) = arguments.next() {
-            let mut file = || PathBuf::from(arguments.next().expect("a file after its option"));
             match argument.as_str() {
                 "--smoke" => smoke = true,
-                "--draw" => draw = true,
-                "--csv" => csv = Some(file()),
-                "--svg" => svg = Some(file()),
-                "--peers" => peers = Some(file()),
+                "--csv" => {
+                    csv = Some(PathBuf::from(arguments.next().expect("a file after --csv")));
+                }
                 // Options that Cargo adds.
                 "--bench" => {}
-                other => {
-                    panic!(
-                        "{other}: the options are --smoke, --draw, --csv FILE, --svg FILE and --peers FILE"
-                    )
-                }
+                other => panic!("{other}: the options are --smoke and --csv FILE"),
             }
         }
-        let name = if smoke { "smoke" } else { "work_precision" };
-        let default = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        Self {
-            smoke,
-            draw,
-            csv: csv.unwrap_or_else(|| default.with_extension("csv")),
-            svg: svg.unwrap_or_else(|| default.with_extension("svg")),
-            peers,
-        }
+        let name = if smoke {
+            "smoke.csv"
+        } else {
+            "work_precision.csv"
+        };
+        let csv = csv.unwrap_or_else(|| Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
+        Self { smoke, csv }
     }
 }
 
