@@ -234,11 +234,13 @@ impl Page {
         ] {
             self.text([x, y], "end", GREY, words);
         }
-        for (format, colour, dy) in [
-            ("bf16", PURPLE, 14.0),
-            ("f16", GREEN, -2.0),
-            ("f32", RED, 4.0),
-            ("f64", BLUE, 4.0),
+        // The two half precisions end beside one another.
+        let halves = format!(r#"f16, <tspan fill="{PURPLE}">bf16</tspan>"#);
+        for (format, colour, label, dy) in [
+            ("bf16", PURPLE, "", 0.0),
+            ("f16", GREEN, halves.as_str(), -4.0),
+            ("f32", RED, "f32", 1.0),
+            ("f64", BLUE, "f64", 9.0),
         ] {
             let dots = of(format, |row| Some(row.error));
             self.line(&dots, colour, "1.5");
@@ -246,7 +248,7 @@ impl Page {
                 self.dot(*dot, 3.0, colour, colour);
             }
             let [x, y] = *dots.last().expect("a row");
-            self.text([x + 8.0, y + dy], "start", colour, format);
+            self.text([x + 8.0, y + dy], "start", colour, label);
         }
     }
 
