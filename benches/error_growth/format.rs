@@ -12,7 +12,7 @@ use crate::random::Random;
 /// A format, by its name and its unit roundoff 2^−bits.
 pub(crate) trait Format: Algebra {
     const LABEL: &'static str;
-    const BITS: i32;
+    const BITS: u32;
 
     /// The value, exactly.
     fn wide(&self) -> DoubleDouble;
@@ -25,7 +25,7 @@ macro_rules! formats {
     ($($format:ty, $label:literal, $bits:literal, |$x:ident| $value:expr;)*) => {$(
         impl Format for $format {
             const LABEL: &'static str = $label;
-            const BITS: i32 = $bits;
+            const BITS: u32 = $bits;
 
             fn wide(&self) -> DoubleDouble {
                 let $x = self;

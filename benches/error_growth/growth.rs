@@ -8,12 +8,13 @@ use cannonpile::num_rational::BigRational;
 use cannonpile::scalar::{Algebra, DoubleDouble, Exactness};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
+use cannonpile_accuracy::probable_bounds;
 use num_traits::{Signed, ToPrimitive};
 
 use crate::format::{Bits, Brain, Format, Half};
 use crate::random::Random;
 
-/// The probability that a probable bound fails for some contact above the floor.
+/// The probability with which a probable bound may fail for some contact above the floor.
 const RISK: f64 = 0.01;
 
 /// Exact forces, or forces so close to them that the difference is invisible.
@@ -46,7 +47,7 @@ impl Reference for DoubleDouble {
 pub(crate) fn table(is_smoke: bool) -> String {
     let mut text = String::from("stacking,layers,format,reference,error,mean,probable,proved\n");
     let exact = if is_smoke {
-        &[4, 10][..]
+        &[10, 20][..]
     } else {
         &[10, 20, 40, 80, 160]
     };
@@ -72,12 +73,11 @@ pub(crate) fn table(is_smoke: bool) -> String {
     text
 }
 
-/// A pile, its exact forces above the floor, and the probable bound of their errors.
+/// A pile and its exact forces above the floor.
 struct Case<R> {
     stacking: &'static str,
     pile: Pile,
     exact: Vec<R>,
-    probable: f64,
 }
 
 impl<R: Reference> Case<R> {
@@ -93,42 +93,13 @@ impl<R: Reference> Case<R> {
         Self::new("random", signs.parse().expect("signs"))
     }
 
-    /// One sphere rounds, with forces up to F on it, by at most u times
-    /// * 4F/3, 2F and 2F in two sums and a third, which all its lines share: a row of an isometry weighs (1, 1, 1) by √3;
-    /// * 5F/3 in a difference and F in a sum, on each line.
-    ///
-    /// The squares are 3(16/9 + 4 + 4) + 25/9 + 1 = 298/9. By Azuma and Hoeffding an error exceeds
-    /// λu√(298/9)·√(Σ F²), with a sum over layers, with a probability of at most 2 exp(−λ²/2), and some contact of N with N
-    /// times that.
     fn new(stacking: &'static str, signs: Stacking) -> Self {
         let pile = under_a_hexagon(signs);
-        let mut sweep = pile
-            .forces::<f64>()
-            .layers(Selection::All)
-            .expect("a sweep");
-        let (mut squares, mut last, mut contacts) = (0.0, 0.0, 0.0);
-        while let Some(layer) = sweep.next_layer().expect("forces") {
-            if layer.is_floor() {
-                break;
-            }
-            let mut slices = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
-            layer
-                .fill(slices.each_mut().map(Vec::as_mut_slice))
-                .expect("forces");
-            let forces = slices.iter().flatten();
-            let greatest = forces.fold(last, |most: f64, force| most.max(force.abs()));
-            squares += greatest * greatest;
-            last = greatest;
-            contacts = f64::from(u32::try_from(3 * layer.sphere_count()).expect("millions"));
-        }
-        let lambda = (2.0 * (2.0 * contacts / RISK).ln()).sqrt();
-        let probable = lambda * (298.0 / 9.0 * squares).sqrt() / last;
         let exact = lowest(&pile).0;
         Self {
             stacking,
             pile,
             exact,
-            probable,
         }
     }
 
@@ -150,14 +121,16 @@ impl<R: Reference> Case<R> {
         let (forces, bound) = lowest::<T>(&self.pile);
         let ([worst, mean], unit) = errors(&forces, &self.exact);
         let (stacking, layers, label) = (self.stacking, self.pile.layers(), T::LABEL);
-        // A double-double rounds in other ways.
-        let is_binary = label != DoubleDouble::LABEL;
-        let probable = if is_binary {
-            format!("{:.0}", self.probable)
-        } else {
-            String::new()
+        let bounds = probable_bounds(&self.pile, T::BITS, RISK).expect("forces");
+        let probable = match bounds.last() {
+            // A double-double rounds in other ways.
+            Some(bound) if label != DoubleDouble::LABEL => format!("{:.0}", bound.of_all() / unit),
+            _ => String::new(),
         };
-        let proved = bound.map_or_else(String::new, |bound| format!("{:.0}", bound / unit));
+        let proved = bound.map_or_else(String::new, |bound| {
+            assert!(worst * unit <= bound, "{label}: the bound is proved");
+            format!("{:.0}", bound / unit)
+        });
         let reference = if R::EXACTNESS == Exactness::Exact {
             "exact"
         } else {
@@ -192,7 +165,7 @@ pub(crate) fn lowest<T: Algebra>(pile: &Pile) -> (Vec<T>, Option<f64>) {
 
 /// Returns the greatest error, and the mean of all, in u of the greatest force; and this unit.
 pub(crate) fn errors<T: Format, R: Reference>(forces: &[T], exact: &[R]) -> ([f64; 2], f64) {
-    let unit = exact.iter().map(R::size).fold(0.0, f64::max) * 2.0_f64.powi(-T::BITS);
+    let unit = exact.iter().map(R::size).fold(0.0, f64::max) * (-f64::from(T::BITS)).exp2();
     let (mut worst, mut sum, mut count) = (0.0_f64, 0.0, 0.0);
     for (force, exact) in forces.iter().zip(exact) {
         let error = -exact.minus(force.wide()) / unit;

@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench error_growth --features half` writes `work_precision/errors.csv`,
 //! from which the chart is drawn, and prints the worst stackings and loads that a search finds. No time is measured: the
-//! numbers are the same on every machine.
+//! numbers are the same on every machine. With `-- --smoke` it checks the first rows of the table.
 //!
 //! The unit of all errors is u·F, with the unit roundoff u of the format and the greatest contact force F above the floor.
 //! The column `error` is the error of the worst of these contacts, and `mean` the mean of all, with its sign. Up to 160 layers
@@ -17,17 +17,21 @@ use std::env;
 
 use format::{Brain, Half};
 
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/work_precision/errors.csv");
+
 fn main() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1);
     one.build_global().expect("the first pool");
     if env::args().any(|argument| argument == "--smoke") {
-        growth::table(true);
+        let written = std::fs::read_to_string(FILE).expect("the table");
+        for row in growth::table(true).lines() {
+            assert!(written.lines().any(|line| line == row), "{row} is new");
+        }
         search::print::<Half>(4, 3);
         return;
     }
     let table = growth::table(false);
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/work_precision/errors.csv");
-    std::fs::write(file, table).expect("a place for the table");
+    std::fs::write(FILE, table).expect("a place for the table");
     for layers in [10, 40, 160] {
         search::print::<Half>(layers, 40_000 / layers);
         search::print::<Brain>(layers, 40_000 / layers);

@@ -238,9 +238,9 @@ impl Page {
         let halves = format!(r#"f16, <tspan fill="{PURPLE}">bf16</tspan>"#);
         for (format, colour, label, dy) in [
             ("bf16", PURPLE, "", 0.0),
-            ("f16", GREEN, halves.as_str(), -4.0),
-            ("f32", RED, "f32", 1.0),
-            ("f64", BLUE, "f64", 9.0),
+            ("f16", GREEN, halves.as_str(), -6.0),
+            ("f32", RED, "f32", 5.0),
+            ("f64", BLUE, "f64", 11.0),
         ] {
             let dots = of(format, |row| Some(row.error));
             self.line(&dots, colour, "1.5");
