@@ -38,7 +38,7 @@ const HEIGHTS: [i128; 3] = [10, 40, 160];
 /// [`Layer::error_bound`](cannonpile::Layer::error_bound), and if no overflow passes unnoticed. Results below the smallest normal
 /// number must be those of gradual underflow, or consistently zero.
 ///
-/// It takes about a second for `f64`, and longer for slow types.
+/// It takes a few seconds for `f64` in a release build, and longer for slow types.
 ///
 /// # Examples
 /// ```

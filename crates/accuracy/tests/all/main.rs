@@ -1,5 +1,7 @@
 //! The tests of the crate, one file for each subject.
 
+mod errors;
 mod judge;
 mod probable;
 mod singular;
+mod stochastic;
