@@ -3,7 +3,7 @@
 //! `cargo run --release -p cannonpile-accuracy --example rounding_statistics 1000 10 40 160` takes 1000 seeds, and piles of 10, 40
 //! and 160 layers. Each line has the bound at 1 %, divided by the 99 % quantile of the errors: for the contact with the largest
 //! force, and for the largest error of all contacts above the floor. The exit status is 1 if a bound is below its quantile, or,
-//! for all contacts in 24 bits, more than ten times as large. With fewer bits more operations are exact, and the bound does not know.
+//! for all contacts in 24 bits, more than 15 times as large. With fewer bits more operations are exact, and the bound does not know.
 
 use std::process::ExitCode;
 
@@ -37,7 +37,7 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
                 (24, ratios::<24>(&pile, seeds)?),
             ] {
                 println!("{layers:6}  {period:10}  {bits:4}  {one:11.2}  {all:12.2}");
-                are_near &= one >= 1.0 && all >= 1.0 && (bits < 24 || all <= 10.0);
+                are_near &= one >= 1.0 && all >= 1.0 && (bits < 24 || all <= 15.0);
             }
         }
     }

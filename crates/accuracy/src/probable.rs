@@ -15,14 +15,11 @@
 //! where Φ is the largest |f_l| of layer j. Without a sign change only the sum with w is left: F_j² = Φ². If all x were
 //! equal, the factor would be 3 (4/9 + 4/9 + 1) + 1 + 1 = 23/3.
 //!
-//! Floats between 2^e and 2^(e+1) have the distance 2u·2^e. So each bound of an |x| may be replaced by [x], the largest power of two
-//! up to it: F_j² = 4/3 ([√2 Γ]² + [√3 Γ]²) + 3 [2/√3 Γ]² + [Γ]² + [Φ]².
-//!
 //! # Martingale
 //! The result of an operation is rounded by η with the mean 0, given all roundings before it, and η lies between two bounds
-//! whose distance is at most 2u[x]: −u[x] and u[x] for rounding to nearest, and the distances to two neighbouring floats for
+//! whose distance is at most 2u|x|: −u|x| and u|x| for rounding to nearest, and the distances to two neighbouring floats for
 //! stochastic rounding. So the partial sums of Σ c η are a martingale. By Hoeffding's lemma, which needs the distance of the
-//! two bounds only, E exp(t c η) ≤ exp(t² c² u² [x]²/2), and
+//! two bounds only, E exp(t c η) ≤ exp(t² c² u² x²/2), and
 //!
 //! P(|e| ≥ λ u √(Σ F_j²)) ≤ 2 exp(−λ²/2).
 //!
@@ -74,7 +71,7 @@ impl ProbableBound {
 /// Returns bounds on the rounding errors of [`Forces::layers`](cannonpile::Forces::layers) in a float of `bits` bits, for each
 /// layer with supports. Each bound fails with at most the given probability.
 ///
-/// |e| ≤ λ u √(Σ F_j²), where u = 2^−`bits` and F_j² ≤ 35/3 Γ² + Φ² for each layer with a sign change, else Φ². Γ bounds the norm of
+/// |e| ≤ λ u √(Σ F_j²), where u = 2^−`bits` and F_j² = 35/3 Γ² + Φ² for each layer with a sign change, else Φ². Γ bounds the norm of
 /// the three forces on a sphere, and Φ the forces below it. With the probability P, λ = √(2 ln(4/P)) for one contact, and
 /// λ = √(2 ln(4m/P)) for all m contacts below a layer. The bound grows like √L times the forces;
 /// [`Layer::error_bound`](cannonpile::Layer::error_bound) grows like L.
@@ -162,15 +159,13 @@ pub fn probable_bounds(
         let turns = k > 0 && shape.sign_below(k - 1) != shape.sign_below(k);
         let mut most = greatest + margin;
         if turns {
-            // g_α + g_β, the sum of three, and twice its third.
-            let [two, three, mean] =
-                [2.0_f64, 3.0, 4.0 / 3.0].map(|n| square(n.sqrt() * grown * on_sphere));
-            sum += 4.0 / 3.0 * (two + three) + 3.0 * mean + square(grown * on_sphere);
+            sum += 35.0 / 3.0 * (grown * grown * on_sphere * on_sphere);
             most += 13.0 / 3.0 * rho * grown * on_sphere;
         }
-        sum += square(most);
+        sum += most * most;
         if has_extras {
-            sum += square(most.max(on_sphere) + own);
+            let partial = most.max(on_sphere) + own;
+            sum += partial * partial;
         }
         let spheres = f64::from_rational(&BigRational::from_integer(layer.sphere_count().into()));
         let contacts = spheres * f64::from(lines);
@@ -192,10 +187,4 @@ pub fn probable_bounds(
         });
     }
     Ok(bounds)
-}
-
-/// Returns the square of the largest power of two up to `x`, or one above it by a few roundings.
-fn square(x: f64) -> f64 {
-    let power = f64::from_bits((x * (1.0 + 1e-12)).to_bits() >> 52 << 52);
-    power * power
 }

@@ -17,16 +17,13 @@ fn the_bound_of_three_layers_is_that_by_hand() {
     assert_eq!(bounds.len(), 3);
     let u = 2.0_f64.powi(-24);
     let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-5, "{a}, {b}");
-    // F₀² = 1. Then Γ = √3, so that the powers of two are 2, 2, 2, 1, and 1 for 5/3.
-    let first = 4.0 / 3.0 * 8.0 + 12.0 + 1.0 + 1.0;
+    // F₀² = 1, and F₁² = 35/3·3 + (5/3)².
     close(bounds[0].scale, u);
     close(bounds[1].greatest, 5.0 / 3.0);
-    close(bounds[1].scale, u * (1.0_f64 + first).sqrt());
-    // Γ = 5/√3: 4.1, 5, 3.3 and 2.9, and 19/9 below.
+    close(bounds[1].scale, u * (1.0_f64 + 35.0 + 25.0 / 9.0).sqrt());
     let greatest = bounds[2].greatest;
-    close(greatest, 19.0 / 9.0);
-    let second = 4.0 / 3.0 * 32.0 + 12.0 + 4.0 + 4.0;
-    close(bounds[2].scale, u * (1.0_f64 + first + second).sqrt());
+    let sum = 1.0 + 35.0 + 25.0 / 9.0 + 35.0 * 25.0 / 9.0 + greatest * greatest;
+    close(bounds[2].scale, u * sum.sqrt());
     close(bounds[1].lambda_of_one, (2.0 * 200.0_f64.ln()).sqrt());
     // Three spheres.
     close(bounds[1].lambda_of_all, (2.0 * 1800.0_f64.ln()).sqrt());
@@ -44,8 +41,7 @@ fn the_bound_of_a_straight_pile_has_no_sign_change() {
     ] {
         let bounds = probable_bounds(&pile, 53, 0.01).unwrap();
         let last = bounds.last().unwrap();
-        // The powers of two up to 1, 2, 3 and 4.
-        let squares = 1.0_f64 + 4.0 + 4.0 + 16.0;
+        let squares = 1.0_f64 + 4.0 + 9.0 + 16.0;
         assert!((last.scale / squares.sqrt() * 2.0_f64.powi(53) - 1.0).abs() < 1e-6);
         let contacts = if lines > 2.0 { 30.0 } else { 8.0 };
         let lambda = (2.0_f64 * (400.0_f64 * contacts).ln()).sqrt();
@@ -64,9 +60,9 @@ fn a_load_adds_a_rounding() {
     let loaded = pile.clone().with_load(Site::APEX, load).unwrap();
     let [plain, loaded] =
         [pile, loaded].map(|pile| probable_bounds(&pile, 24, 0.01).unwrap()[0].scale);
-    // 1 is the greatest force without the load, and 3 with it. The partial sum is at most 3 + 2. Their powers of two are 2 and 4.
+    // 1 is the greatest force without the load, and 3 with it. The partial sum is at most 3 + 2.
     assert!(
-        (loaded / plain - (4.0_f64 + 16.0).sqrt()).abs() < 1e-4,
+        (loaded / plain - (9.0_f64 + 25.0).sqrt()).abs() < 1e-4,
         "{}",
         loaded / plain
     );
