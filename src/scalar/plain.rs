@@ -147,14 +147,15 @@ impl<T: Number + CorrectlyRounded + Into<f64>> Promise<T> for Rounded {
 
 /// Returns (4/3 − 1)·3: one for an exact type, zero for integers. If 4/3 is rounded, the difference to 1 shows the error.
 fn three_thirds<T: Number>() -> T {
-    let three = || T::one() + T::one() + T::one();
-    ((three() + T::one()) / three() - T::one()) * three()
+    let three = T::one() + T::one() + T::one();
+    ((three.clone() + T::one()) / three.clone() - T::one()) * three
 }
 
-/// Returns whether an exact type holds numbers beyond 128 bits, even if they come from products.
+/// Returns whether an exact type holds numbers beyond 128 bits, even if they come from products. A quotient of powers of
+/// two takes a short time in rationals, unlike one of other numbers.
 fn is_wide<T: Number>() -> bool {
     let is_held = |n: T| n.clone() * n.clone() * n.clone() / n.clone() / n.clone() == n;
-    T::from_u128(u128::MAX).is_some_and(is_held)
+    T::from_u128(1 << 127).is_some_and(is_held)
 }
 
 /// Returns whether a value is neither infinite nor not-a-number.
