@@ -17,14 +17,15 @@ use super::{Algebra, CorrectlyRounded, Exactness, Field, Ring};
 /// [`Exact`]. Other scalars, such as a float whose precision is a value, implement [`Algebra`].
 ///
 /// # What is refused
-/// No value of an integer type, which truncates quotients, is [defined](Algebra::is_defined), and none of a ratio that may
-/// wrap, such as `Ratio<i64>`. The first query returns [`Error::Overflow`](crate::Error::Overflow), whose text says what to
+/// Integer types truncate quotients, and ratios such as `Ratio<i64>` may wrap. None of their values is
+/// [defined](Algebra::is_defined): the first query returns [`Error::Overflow`](crate::Error::Overflow), whose text says what to
 /// use: [`FixedRational`](super::FixedRational). Unsigned types do not compile. A type is also refused if it does not
 /// convert every `u64`, and if it promises [`Exact`] but rounds.
 ///
-/// Infinities and not-a-number are undefined too: a query returns an error in their place. Division by zero is never asked
-/// of the type, but by [`Rounded`] of floats, for not-a-number. An operator of the type that panics, for example on
-/// overflow, panics in the query. A float type that wraps beyond 2^64 is not detected.
+/// Infinities and not-a-number are undefined too: a query returns an error in their place. The library never divides by
+/// zero, except that [`Rounded`] computes 0/0 to get not-a-number. An operator of the type that panics, for example on
+/// overflow, panics in the query. A float that wraps beyond 2^64 is not detected, nor a
+/// ratio that wraps beyond 384 bits: promise [`Exact`] for integers of any size alone.
 ///
 /// # Examples
 /// ```
@@ -55,7 +56,7 @@ pub struct Plain<T, P = Unknown>(pub T, pub PhantomData<P>);
 pub struct Unknown;
 
 /// The promise of a binary float that rounds the result of every operation to nearest. Integers and rationals are rounded
-/// once. The conversion to `f64` must be exact.
+/// once. The conversion to `f64` must be exact, and 0/0 must be not-a-number.
 ///
 /// # Examples
 /// ```
@@ -222,7 +223,7 @@ impl<T: Number, P: Promise<T>> Ring for Plain<T, P> {
 
 impl<T: Number, P: Promise<T>> Algebra for Plain<T, P> {
     const EXACTNESS: Exactness = P::EXACTNESS;
-    const NAME: &'static str = "Plain (for integers and ratios, use FixedRational)";
+    const NAME: &'static str = "this number type (for integers and ratios, use FixedRational)";
     type Numerator = Self;
 
     fn from_rational(r: &BigRational) -> Self {

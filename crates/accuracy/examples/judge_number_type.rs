@@ -16,7 +16,10 @@ fn main() -> ExitCode {
     }
     // The errors of floats grow like √L·u.
     for row in &judgements[0].growth {
-        assert!(row.over_root.is_some_and(|error| error < 1.5));
+        assert!(
+            row.error_per_root_of_layers
+                .is_some_and(|error| error < 1.5)
+        );
     }
     let all_kept = judgements.iter().all(Judgement::keeps_promise);
     ExitCode::from(u8::from(!all_kept))

@@ -238,7 +238,7 @@ impl<T: Field + PartialOrd> Examiner<T> {
         }
         self.rounding = rounding;
         self.judgement.unit = f64::from_rational(&self.unit);
-        self.judgement.worst_operation = self.in_units(&worst, &BigRational::one());
+        self.judgement.largest_operation_error = self.in_units(&worst, &BigRational::one());
     }
 
     /// Compares all forces of several piles with exact ones.
@@ -257,7 +257,7 @@ impl<T: Field + PartialOrd> Examiner<T> {
             self.judgement.growth.push(Growth {
                 layers,
                 error: worst,
-                over_root: worst.map(|worst| worst / heights.sqrt()),
+                error_per_root_of_layers: worst.map(|worst| worst / heights.sqrt()),
             });
         }
         Ok(())
@@ -331,7 +331,7 @@ impl<T: Field + PartialOrd> Examiner<T> {
             let error = self.in_units(&error, &scale);
             worst = worst.map(|worst: f64| worst.max(error));
             if check == Check::Piles {
-                self.judgement.worst_force = self.judgement.worst_force.max(error);
+                self.judgement.largest_force_error = self.judgement.largest_force_error.max(error);
             }
         }
         Ok(worst)

@@ -24,13 +24,13 @@ pub struct Judgement {
     /// For other types it is the largest relative error of a single operation.
     pub unit: f64,
     /// The largest relative error of a single operation, in u.
-    pub worst_operation: f64,
+    pub largest_operation_error: f64,
     /// The number of forces that were compared with exact ones, on several piles.
     pub force_count: usize,
     /// The number of forces that the type refused, because it cannot hold them.
     pub refused_count: usize,
     /// The largest error of these forces, in u.
-    pub worst_force: f64,
+    pub largest_force_error: f64,
     /// The error below many sign changes.
     pub growth: Vec<Growth>,
     /// The largest e for which 2^e is defined, if it was found.
@@ -53,7 +53,7 @@ pub struct Growth {
     /// The error in u times the largest of these forces, or `None` if the type cannot hold one of them.
     pub error: Option<f64>,
     /// The error over √L·u.
-    pub over_root: Option<f64>,
+    pub error_per_root_of_layers: Option<f64>,
 }
 
 /// A promise that was broken.
@@ -94,10 +94,10 @@ impl Judgement {
             findings: Vec::new(),
             law_count: 0,
             unit: 0.0,
-            worst_operation: 0.0,
+            largest_operation_error: 0.0,
             force_count: 0,
             refused_count: 0,
-            worst_force: 0.0,
+            largest_force_error: 0.0,
             growth: Vec::new(),
             largest_power: None,
             smallest_power: None,
@@ -135,9 +135,13 @@ impl fmt::Display for Judgement {
             None => writeln!(f, "{scalar} promises nothing; {found} findings")?,
         }
         let growth = self.growth.iter().map(|row| error(row.error));
-        let over_root = self.growth.iter().map(|row| error(row.over_root));
+        let error_per_root_of_layers = self
+            .growth
+            .iter()
+            .map(|row| error(row.error_per_root_of_layers));
         let layers = self.growth.iter().map(|row| row.layers.to_string());
-        let [worst, worst_force] = [self.worst_operation, self.worst_force].map(|x| error(Some(x)));
+        let [worst, largest_force_error] =
+            [self.largest_operation_error, self.largest_force_error].map(|x| error(Some(x)));
         let (forces, refused) = (self.force_count, self.refused_count);
         let [largest, smallest, first] =
             [self.largest_power, self.smallest_power, self.stagnation].map(power);
@@ -149,7 +153,7 @@ impl fmt::Display for Judgement {
             ),
             (
                 Check::Piles,
-                format!("{forces} forces, {refused} refused; error {worst_force}"),
+                format!("{forces} forces, {refused} refused; error {largest_force_error}"),
             ),
             (
                 Check::Growth,
@@ -170,7 +174,7 @@ impl fmt::Display for Judgement {
                 None => writeln!(f)?,
             }
         }
-        writeln!(f, "growth/√L   error {}", joined(over_root))?;
+        writeln!(f, "growth/√L   error {}", joined(error_per_root_of_layers))?;
         match self.seconds_per_force {
             Some(time) => write!(
                 f,
@@ -195,13 +199,13 @@ fn error(error: Option<f64>) -> String {
 }
 
 fn power(e: Option<i64>) -> String {
-    e.map_or_else(|| "none found".into(), |e| format!("2^{e}"))
+    e.map_or_else(|| "not found".into(), |e| format!("2^{e}"))
 }
 
 /// Returns the unit of errors in words.
 fn unit(unit: f64) -> String {
     if unit == 0.0 {
-        "u = 0".into()
+        "no error is allowed".into()
     } else {
         format!("u = 2^{:.2}", unit.log2())
     }

@@ -109,6 +109,9 @@ fn instability(pile: &Pile, without: &str) -> String {
     format!("this pile is unstable{without}{reason}")
 }
 
+/// Why the elastic state visits all spheres.
+const ELASTIC: &str = "the springs of the elastic state couple all forces";
+
 /// Prints a note on stderr if the pile is unstable.
 fn note_instability(pile: &Pile) {
     if pile.is_weightless() {

@@ -2,6 +2,7 @@
 //!
 //! The table has a row for each contact and parameter: the relative growth of one radius, the components of a load on one
 //! sphere in mg, mg·tanθ and mg·√3·tanθ, and the tilt in tanθ and √3·tanθ. Forces are in f₀ = mg/(3 cosθ), z points down.
+//! `radius K I J` is the derivative by δ of the radius R(1 + δ). All masses, the centres of the bottom spheres and f₀ stay.
 //! Run it with `cargo run -p cannonpile-dem --example derivatives -- C22 >C22.csv`.
 
 use std::env;
@@ -14,7 +15,7 @@ use cannonpile_dem::scene::Case;
 use cannonpile_stability::{force_by_tilt, sensitivity};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let name = env::args().skip(1).find(|text| text.starts_with('C'));
+    let name = env::args().skip(1).find(|text| !text.starts_with('-'));
     let scene = Case::named(name.as_deref().unwrap_or("C21"))?.scene()?;
     let pile = scene.pile()?;
     let packing = scene.packing(&pile)?;

@@ -138,9 +138,11 @@ impl fmt::Display for Whole<'_> {
                 }
             }
             Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
-            Error::NoEquations { given } => write!(
-                f,
-                "the equations need two layers, and have no horizontal contact forces: change {given}"
+            Error::NoEquations { given: Key::Layers } => {
+                f.write_str("one layer has no contacts between spheres: use two layers or more")
+            }
+            Error::NoEquations { .. } => f.write_str(
+                "this state has horizontal contact forces, which the equations leave out: use isostatic",
             ),
             Error::GluedOnly { file } => write!(
                 f,

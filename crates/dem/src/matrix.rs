@@ -86,9 +86,18 @@ impl<'e, 'p> Equations<'e, 'p> {
         let field = if self.in_si { "real" } else { "integer" };
         match file {
             PileFile::EquilibriumMtx => {
-                let comment = "column d (id - 1) + l + 1 is line l of sphere id, l = 0 to d - 1";
+                let d = self.pile.pile().dimension().directions().len();
+                let rows_are = if self.in_si {
+                    "rows by axes"
+                } else {
+                    "rows in the same order"
+                };
+                let last = d - 1;
+                let comment = format!(
+                    "column {d} (id - 1) + l + 1 is the force on line l = 0 to {last} below sphere id; {rows_are}"
+                );
                 let size = format!("{n} {n} {}", self.entries()?);
-                rows.head(&format!("coordinate {field}"), comment, &size)?;
+                rows.head(&format!("coordinate {field}"), &comment, &size)?;
                 self.write_columns(rows)
             }
             PileFile::LoadsMtx => {

@@ -11,7 +11,7 @@ use cannonpile_dem::table::{Table, Units};
 use cannonpile_horizontal::certificate::{Certificate, write_certificate};
 use clap::Args;
 
-use super::{CERTIFICATE_ON_ROUGH_FLOOR, TensionCheck, write_accepted};
+use super::{CERTIFICATE_ON_ROUGH_FLOOR, ELASTIC, TensionCheck, write_accepted};
 use crate::Culprit;
 use crate::args::{
     BasePart, ExplainOption, MethodOption, Number, Numbers, Output, Part, SceneOptions, in_state,
@@ -136,11 +136,12 @@ impl<P: Args> Forces<P> {
             write_accepted(file, |out| write_certificate(certificate, out))
         })?;
         drop(progress);
-        self.explain.print(|| match scene.floor {
-            Floor::Rough => Ok(Work::of_whole(
+        self.explain.print(|| match (scene.floor, scene.state) {
+            (Floor::Rough, _) => Ok(Work::of_whole(
                 pile,
                 "friction on the floor couples all forces",
             )),
+            (_, State::Elastic) => Ok(Work::of_whole(pile, ELASTIC)),
             _ => Ok(Explanation::new(&units, query.wanted, selection)?.work(None)),
         })?;
         tension.note(pile, selection);

@@ -80,8 +80,12 @@ impl Sensitivity {
         };
         self.output.write_table(table, self.number, &progress)?;
         drop(progress);
-        self.explain
-            .print(|| Ok(Work::of_whole(&pile, "one radius changes all forces below")))?;
+        self.explain.print(|| {
+            Ok(Work::of_whole(
+                &pile,
+                "a radius moves all spheres above, and changes forces below too",
+            ))
+        })?;
         if !packing.touching().is_empty() {
             print_message(FURTHER_CONTACTS);
         }

@@ -1,16 +1,17 @@
 //! `spheres`: the position, radius, mass and stress of each sphere.
 
 use cannonpile::shape::Selection;
+use cannonpile_dem::scene::State;
 use cannonpile_dem::table::{self, Units};
 use clap::Args;
 
-use super::note_instability;
+use super::{ELASTIC, note_instability};
 use crate::args::{
     ExplainOption, Numbers, Output, Part, SceneOptions, UnitSystem, spheres, with_row_options,
 };
 use crate::output::Failure;
 use crate::progress::Progress;
-use crate::tables::{Explanation, Wanted};
+use crate::tables::{Explanation, Wanted, Work};
 
 const HELP: &str = "\
 Columns:
@@ -75,6 +76,9 @@ impl Spheres {
             .write_table(table, self.numbers.number, &progress)?;
         drop(progress);
         self.explain.print(|| {
+            if self.stress && scene.state == State::Elastic {
+                return Ok(Work::of_whole(&pile, ELASTIC));
+            }
             let wanted = if self.stress {
                 Wanted::Contacts
             } else {

@@ -103,8 +103,16 @@ impl Summary {
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         drop(progress);
-        self.explain
-            .print(|| Ok(Work::of_whole(&pile, "the extremes are over all contacts")))?;
+        self.explain.print(|| {
+            let is_straight = pile.shape().stacking().is_straight();
+            Ok(
+                if is_straight && pile.loads().next().is_none() && pile.weights().next().is_none() {
+                    Work::of_formulas(&pile, "formulas give the extremes of a straight pile")
+                } else {
+                    Work::of_whole(&pile, "the extremes are over all contacts")
+                },
+            )
+        })?;
         let touching = touching.err().map(|error| ("touching", error.to_string()));
         for (columns, reason) in summary.left_out().into_iter().chain(touching) {
             print_message(&format!("note: no {columns}: {reason}"));

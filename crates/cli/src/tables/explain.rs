@@ -201,6 +201,15 @@ pub(crate) struct Work {
 }
 
 impl Work {
+    /// Returns the work of an answer that formulas give without a visit.
+    pub(crate) fn of_formulas(pile: &Pile, reason: &str) -> Self {
+        Self {
+            is_bound: false,
+            visited: BigUint::ZERO,
+            ..Self::of_whole(pile, reason)
+        }
+    }
+
     /// Returns the work of an answer that may depend on every sphere.
     pub(crate) fn of_whole(pile: &Pile, reason: &str) -> Self {
         Self {

@@ -49,7 +49,7 @@ console! {
     completions: 2;
     contacts: 61;
     ensemble: 56;
-    explain: 21;
+    explain: 24;
     export: 60;
     help: 18;
     mean: 49;
