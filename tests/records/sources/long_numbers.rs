@@ -25,11 +25,14 @@ const INDIRECT: [&str; 13] = [
     "sub",
 ];
 
-/// Declarations in traits, whose implementations the list calls, and a wrapper of `Polynomial::from_rational`.
-const DECLARED: [&str; 3] = [
+/// Declarations in traits, whose implementations the list calls, a wrapper of `Polynomial::from_rational`, and half precision,
+/// which rounds by the provided method that rounds to `f32`.
+const DECLARED: [&str; 5] = [
     "Algebra::from_rational",
     "CorrectlyRounded::nearest_to_rational",
     "Expression::from_rational",
+    "bf16::nearest_to_rational",
+    "f16::nearest_to_rational",
 ];
 
 /// A public function, as a list of public names declares it.

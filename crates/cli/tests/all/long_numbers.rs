@@ -17,11 +17,12 @@ use cannonpile::lattice::{Axis, Dimension, Direction, HorizontalContact, Region,
 use cannonpile::num_bigint::BigInt;
 use cannonpile::num_rational::BigRational;
 use cannonpile::scalar::{
-    Algebra, ByValue, CorrectlyRounded, DoubleDouble, FixedRational, Interval, Polynomial, Ring,
-    Surd, SurdSum, laws, parse, reduced,
+    Algebra, ByValue, CorrectlyRounded, DoubleDouble, FixedRational, Interval, Plain, Polynomial,
+    Ring, Surd, SurdSum, laws, parse, reduced,
 };
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Load, Packing, Pile, ratio};
+use cannonpile_accuracy::{Stochastic, layer_errors};
 use cannonpile_dem::Friction;
 use cannonpile_dem::scene::{self, Scene};
 use cannonpile_dem::table::{self, Cell, FileFormat, NumberFormat, Table, Units};
@@ -135,7 +136,7 @@ fn numbers() {
         "DoubleDouble::from_rational": DoubleDouble::from_rational(&a);
         "rational: sums, products": (sum_of([a.clone(), b.clone()]), product(&a, &b), common_denominator([&a, &b]));
         "rational: as a scalar": (a.clone().div_int(NonZeroI64::MIN), a.is_defined(), a.checked_div(&b), a.clone() - <BigRational as Ring>::from_integer(7), <BigRational as Algebra>::half_turn(&[a.clone(), b.clone(), a.clone()]));
-        "from_rational": (BigRational::from_rational(&a), f64::from_rational(&a), f32::from_rational(&a), Polynomial::from_rational(&a));
+        "from_rational": (BigRational::from_rational(&a), f64::from_rational(&a), f32::from_rational(&a), Polynomial::from_rational(&a), Plain::<f64>::from_rational(&a), Stochastic::<24>::from_rational(&a));
         "rational: laws": (laws::embedding(&a, &b, |x: &BigRational| Some([x.clone(), x.clone()])).unwrap(), laws::numerators::<BigRational>(&a, &b).unwrap());
         "to_rational, to_constant": (Polynomial::constant(&a).to_constant().unwrap(), DoubleDouble::from_rational(&a).to_rational(), FixedRational::<i128>::from_rational(&a).to_rational(), x.to_rational());
         "Surd: from, order and equality": assert!(x != y && (x < y) == (y > x) && x == Surd::from(raw.clone()));
@@ -215,6 +216,7 @@ fn piles() -> Result<(), Error> {
         "Forces: base, equality": differ(&both.map(base));
         "Forces: sums": (forces.sum_of_contacts(Selection::All).unwrap(), forces.sum_on_floor(Selection::Base).unwrap());
         "Forces<Interval>": pile.forces::<Interval>().contact(Site::APEX, Direction::Alpha);
+        "layer_errors": layer_errors(&pile.forces::<BigRational>(), &pile, |x| Some(x.clone())).unwrap();
         "Forces<DoubleDouble>": pile.forces::<DoubleDouble>().contact(Site::APEX, Direction::Alpha);
         "Forces<f64>": pile.forces::<f64>().contact(Site::APEX, Direction::Alpha);
         "Forces<Polynomial>": pile.forces::<Polynomial>().contact(Site::APEX, Direction::Alpha);
