@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn errors_of_cases() {
-        for name in ["C22", "d3", "hcp", ""] {
+        for name in ["C23", "d3", "hcp", ""] {
             blames(None, Case::named(name).unwrap_err());
         }
     }
