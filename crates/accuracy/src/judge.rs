@@ -23,6 +23,8 @@ const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 /// Powers of two up to this exponent are tried.
 const MAX_POWER: i64 = 1200;
+/// The same for exact types that do not say so, which convert long integers bit by bit.
+const MAX_POWER_BY_BITS: i64 = 200;
 /// The numbers of layers at which the error is measured. The last one is left out if errors cannot grow.
 const HEIGHTS: [i128; 3] = [10, 40, 160];
 
@@ -85,14 +87,18 @@ struct Examiner<T> {
     rounding: BigRational,
     /// The largest number of bits of a value.
     bits: u64,
+    /// Powers of two up to this exponent are tried.
+    powers: i64,
     operands: Vec<(BigRational, T)>,
 }
 
 impl<T: Field + PartialOrd> Examiner<T> {
     fn new() -> Self {
+        let is_exact = T::EXACTNESS == Exactness::Unknown && has_exact_thirds::<T>();
         let (unit, bits) = match T::EXACTNESS {
             Exactness::Rounded { bits } => (power(-i64::from(bits)), u64::from(bits) + 80),
-            _ => (BigRational::zero(), 256),
+            // A search for the binary digits of an exact third would find no end.
+            _ => (BigRational::zero(), if is_exact { 1 } else { 256 }),
         };
         let operands = operands().into_iter();
         let operands = operands.map(|r| (r.clone(), T::from_rational(&r)));
@@ -101,6 +107,11 @@ impl<T: Field + PartialOrd> Examiner<T> {
             unit,
             rounding: BigRational::zero(),
             bits,
+            powers: if is_exact {
+                MAX_POWER_BY_BITS
+            } else {
+                MAX_POWER
+            },
             operands: operands.collect(),
         }
     }
@@ -444,7 +455,7 @@ impl<T: Field + PartialOrd> Examiner<T> {
     /// Doubles 1 until the type refuses the result.
     fn overflow(&mut self) {
         let two = T::from_integer(2);
-        for e in 0..MAX_POWER {
+        for e in 0..self.powers {
             let (text, whole) = (format!("2^{e}"), power(e + 1));
             let [x, y] = [&power(e), &whole].map(T::from_rational);
             let results = [
@@ -471,7 +482,7 @@ impl<T: Field + PartialOrd> Examiner<T> {
 
     /// Halves 1 until the type has no smaller number, and computes with the smallest ones.
     fn underflow(&mut self) {
-        for e in (1 - MAX_POWER..=0).rev() {
+        for e in (1 - self.powers..=0).rev() {
             let (text, twice, whole) = (format!("2^{e}"), power(e), power(e - 1));
             let [x, y] = [&twice, &whole].map(T::from_rational);
             let halves = [
@@ -528,7 +539,7 @@ impl<T: Field + PartialOrd> Examiner<T> {
             let x = T::from_rational(&power(*k));
             x.is_defined() && (x.clone() + &T::one()).equals(&x)
         };
-        let first = (0..=MAX_POWER).find(stagnates);
+        let first = (0..=self.powers).find(stagnates);
         self.judgement.stagnation = first;
         let least = match T::EXACTNESS {
             Exactness::Exact | Exactness::ExactOrFault => i64::MAX,
@@ -547,6 +558,12 @@ fn is_float<T: Algebra>() -> bool {
         T::EXACTNESS,
         Exactness::Exact | Exactness::ExactOrFault | Exactness::Enclosure
     )
+}
+
+/// Returns whether (4/3 − 1)·3 is 1. If 4/3 is rounded, the difference shows it.
+fn has_exact_thirds<T: Algebra>() -> bool {
+    let third = T::from_integer(4).div_int(THREE) - &T::one();
+    (third * &T::from_integer(3)).equals(&T::one())
 }
 
 /// Returns 2^e.

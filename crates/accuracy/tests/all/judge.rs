@@ -261,6 +261,10 @@ fn types_without_a_promise_break_none() {
     // The unit is measured.
     assert!((judgement.unit.log2() + 24.0).abs() < 0.1, "{judgement}");
     assert_kept(&judge::<Plain<f32, promise::Rounded>>());
+    // Exact, but it does not say so.
+    let judgement = judge::<Plain<BigRational>>();
+    assert_eq!(judgement.findings, []);
+    assert_eq!((judgement.unit, judgement.worst_force), (0.0, 0.0));
 }
 
 #[test]
