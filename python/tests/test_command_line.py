@@ -157,11 +157,11 @@ def test_theorems(table):
 
 def test_cases(table):
     rows = table("cases", {})
-    cases = cannonpile.cases() + cannonpile.friction_cases()
-    assert [case.name for case in cases] == [row["name"] for row in rows]
-    assert [case.known.title for case in cases] == [row["title"] for row in rows]
-    piles = [pile for _, pile, _ in cannonpile.cases()] + [rough.pile for _, rough, _ in cannonpile.friction_cases()]
-    assert [str(pile.sphere_count) for pile in piles] == [row["spheres"] for row in rows]
+    cases = [(case, case.pile) for case in cannonpile.cases()] + [(case, case.rough_floor.pile) for case in cannonpile.friction_cases()]
+    cases.sort(key=lambda pair: int(pair[0].name[1:]))
+    assert [case.name for case, _ in cases] == [row["name"] for row in rows]
+    assert [case.known.title for case, _ in cases] == [row["title"] for row in rows]
+    assert [str(pile.sphere_count) for _, pile in cases] == [row["spheres"] for row in rows]
 
 
 def test_differences_are_detected(table):

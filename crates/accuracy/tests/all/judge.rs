@@ -264,7 +264,7 @@ fn types_without_a_promise_break_none() {
     // Exact, but it does not say so.
     let judgement = judge::<Plain<BigRational>>();
     assert_eq!(judgement.findings, []);
-    assert_eq!((judgement.unit, judgement.worst_force), (0.0, 0.0));
+    assert_eq!((judgement.unit, judgement.largest_force_error), (0.0, 0.0));
 }
 
 #[test]
