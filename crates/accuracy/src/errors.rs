@@ -5,13 +5,12 @@
 
 use std::collections::HashMap;
 
-use cannonpile::geometry::Load;
-use cannonpile::lattice::{Dimension, Direction, HorizontalContact, Sign, Site};
+use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::Algebra;
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces, Pile, formula};
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 /// The errors of the computed contact forces below a layer, from [`layer_errors`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +75,7 @@ fn balances<T: Algebra>(
 ) -> Result<Vec<Balance<T>>, Error> {
     let shape = pile.shape();
     let sites: Vec<Site> = pile.sites(Selection::Layer(k))?.collect();
-    let places: HashMap<_, _> = sites.iter().zip(0..).collect();
+    let places: HashMap<Site, usize> = sites.iter().copied().zip(0..).collect();
     let mut received = vec![[(); 3].map(|()| T::zero()); sites.len()];
     let check = |needed: usize, slices: [&[T]; 3]| match slices
         .into_iter()
@@ -99,100 +98,37 @@ fn balances<T: Algebra>(
                 let lower = shape.below(site, direction);
                 if let Some(place) = lower.and_then(|lower| places.get(&lower)) {
                     let line = direction.index();
-                    let place: usize = *place;
-                    received[place][line] = above[line][n].clone();
+                    received[*place][line] = above[line][n].clone();
                 }
             }
         }
     }
     let turns = k > 0 && shape.sign_below(k - 1) != Some(sign);
-    let own = Increments::new(pile)?;
-    let ordinary = own.ordinary(sign);
-    let ordinary = ordinary.each_ref().map(T::from_rational);
+    let own = sites.iter().map(|site| pile.own_increments(*site));
+    let mut own: Vec<[BigRational; 3]> = own.collect();
+    for (contact, force) in pile.horizontal_forces() {
+        if contact.site.k == k {
+            let ends = [(contact.site, true), (shape.neighbour(contact)?, false)];
+            for (site, leads_away) in ends {
+                let pushes = formula::pushed(force, contact.axis.ends(), leads_away);
+                for (own, push) in own[places[&site]].iter_mut().zip(&pushes) {
+                    *own = formula::beside(BigRational::zero(), own, push, sign);
+                }
+            }
+        }
+    }
     let mut balances = Vec::with_capacity(sites.len());
-    for (n, (site, received)) in sites.iter().zip(received).enumerate() {
+    for (n, (own, received)) in own.iter().zip(received).enumerate() {
         let carried = if turns {
             T::half_turn(&received)
         } else {
             received.clone()
         };
-        let special = own.special(*site, sign)?;
-        let special = special.map(|own| own.each_ref().map(T::from_rational));
-        let own = special.as_ref().unwrap_or(&ordinary);
+        let own = own.each_ref().map(T::from_rational);
         let residual = [0, 1, 2].map(|line| below[line][n].clone() - &carried[line] - &own[line]);
         balances.push(Balance { residual, received });
     }
     Ok(balances)
-}
-
-/// What spheres add to their three lines.
-struct Increments<'p> {
-    pile: &'p Pile,
-    /// The contributions of horizontal contacts.
-    pushes: HashMap<Site, [BigRational; 3]>,
-    /// Whether all spheres have the ordinary weight, and no loads.
-    is_uniform: bool,
-}
-
-impl<'p> Increments<'p> {
-    fn new(pile: &'p Pile) -> Result<Self, Error> {
-        let mut pushes: HashMap<Site, [BigRational; 3]> = HashMap::new();
-        for (contact, force) in pile.horizontal_forces() {
-            let HorizontalContact { site, axis } = contact;
-            for (site, leads_away) in [(site, true), (pile.shape().neighbour(contact)?, false)] {
-                let sums = pushes.entry(site).or_default();
-                for (sum, push) in
-                    sums.iter_mut()
-                        .zip(formula::pushed(force, axis.ends(), leads_away))
-                {
-                    *sum += push;
-                }
-            }
-        }
-        let is_uniform =
-            pushes.is_empty() && pile.loads().len() == 0 && pile.weights().next().is_none();
-        Ok(Self {
-            pile,
-            pushes,
-            is_uniform,
-        })
-    }
-
-    fn of(&self, load: &Load, sign: Sign) -> [BigRational; 3] {
-        match self.pile.dimension() {
-            Dimension::Two => formula::disc_load_increments(load, sign),
-            Dimension::Three => formula::load_increments(load, self.pile.sin_phi(), sign),
-        }
-    }
-
-    /// Returns the increments of a sphere without loads, of the ordinary weight.
-    fn ordinary(&self, sign: Sign) -> [BigRational; 3] {
-        let weight = if self.pile.is_weightless() {
-            BigRational::zero()
-        } else {
-            BigRational::one()
-        };
-        self.of(&Load::leaning(weight, self.pile.tilt()), sign)
-    }
-
-    /// Returns the increments of a sphere of any weight with any loads, unless all spheres are ordinary.
-    fn special(&self, site: Site, sign: Sign) -> Result<Option<[BigRational; 3]>, Error> {
-        if self.is_uniform {
-            return Ok(None);
-        }
-        let weight = self.pile.sphere_weight(site)?;
-        let load = Load::leaning(weight, self.pile.tilt()) + &self.pile.load(site)?;
-        let own = self.of(&load, sign);
-        let Some(pushes) = self.pushes.get(&site) else {
-            return Ok(Some(own));
-        };
-        let beside = |(own, push): (BigRational, &BigRational)| {
-            formula::beside(BigRational::zero(), &own, push, sign)
-        };
-        let [a, b, c] = own;
-        let [p, q, r] = pushes;
-        Ok(Some([(a, p), (b, q), (c, r)].map(beside)))
-    }
 }
 
 /// Computes all contact forces and returns their errors, layer by layer.
@@ -213,7 +149,7 @@ impl<'p> Increments<'p> {
 /// use cannonpile_accuracy::layer_errors;
 ///
 /// let pile = Pile::under(Region::hexagon(2, 2)?, Stacking::hcp(12)?)?;
-/// let errors = layer_errors(&pile.forces::<f64>(), &pile, |x| BigRational::from_float(*x))?;
+/// let errors = layer_errors(&pile.forces::<f64>(), |x| BigRational::from_float(*x))?;
 /// let u = 2.0_f64.powi(-53);
 /// let last = errors.last().unwrap();
 /// // Backward stable: a few u, whatever the number of layers.
@@ -224,9 +160,9 @@ impl<'p> Increments<'p> {
 /// ```
 pub fn layer_errors<T: Algebra>(
     forces: &Forces<'_, T>,
-    pile: &Pile,
     exactly: impl Fn(&T) -> Option<BigRational>,
 ) -> Result<Vec<LayerErrors>, Error> {
+    let pile = forces.pile();
     let exact = pile.forces::<BigRational>();
     let (mut layers, mut exact) = (
         forces.layers(Selection::All)?,

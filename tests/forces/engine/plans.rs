@@ -50,6 +50,9 @@ fn a_sweep_to_the_floor_of_six_layers() {
     assert_eq!((counters.visited(), counters.rows()), (27, 27));
     let printed = "27 visited, 27 turned, 5 passes, 27 rows";
     assert_eq!(counters.to_string(), printed);
+    // A sweep to layer 2 does not visit its own sign change: 7 spheres, and 3 at the change above.
+    let plan = pile.plan(by(Method::Sweep, Selection::Layer(2))).unwrap();
+    assert_eq!(plan.visited, 10_u32.into());
 }
 
 /// A layer at a sign change transmits forces after a half-turn. The bit width includes this half-turn.

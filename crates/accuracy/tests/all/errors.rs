@@ -128,10 +128,7 @@ fn errors_are_the_sum_of_residuals_carried_down() {
 #[test]
 fn floats_are_backward_stable() {
     for pile in piles().into_iter().filter(|pile| !pile.is_weightless()) {
-        let found = layer_errors(&pile.forces::<f32>(), &pile, |x| {
-            BigRational::from_float(*x)
-        })
-        .unwrap();
+        let found = layer_errors(&pile.forces::<f32>(), |x| BigRational::from_float(*x)).unwrap();
         let unit = 2.0_f64.powi(-24);
         assert_eq!(found.len(), usize::try_from(pile.layers() - 1).unwrap());
         for layer in found {
@@ -141,8 +138,7 @@ fn floats_are_backward_stable() {
                 "{pile}: {layer:?}"
             );
         }
-        let exact =
-            layer_errors(&pile.forces::<BigRational>(), &pile, |x| Some(x.clone())).unwrap();
+        let exact = layer_errors(&pile.forces::<BigRational>(), |x| Some(x.clone())).unwrap();
         assert!(
             exact
                 .iter()
@@ -155,7 +151,7 @@ fn floats_are_backward_stable() {
 fn stochastic_rounding_is_backward_stable() {
     let pile = Pile::under(Region::hexagon(2, 2).unwrap(), "+-+--+-".parse().unwrap()).unwrap();
     let forces = stochastic_forces::<11>(&pile, 1).unwrap();
-    let found = layer_errors(&forces, &pile, |x: &Stochastic<11>| {
+    let found = layer_errors(&forces, |x: &Stochastic<11>| {
         BigRational::from_float(x.value())
     })
     .unwrap();
@@ -186,6 +182,6 @@ fn wrong_questions_are_refused() {
     ));
     assert!(residuals(&pile, 3, empty, empty).is_err());
     assert!(residuals(&pile, -1, empty, empty).is_err());
-    let overflow = layer_errors(&pile.forces::<f64>(), &pile, |_| None);
+    let overflow = layer_errors(&pile.forces::<f64>(), |_| None);
     assert!(matches!(overflow, Err(Error::Overflow { .. })));
 }

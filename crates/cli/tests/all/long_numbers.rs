@@ -216,7 +216,7 @@ fn piles() -> Result<(), Error> {
         "Forces: base, equality": differ(&both.map(base));
         "Forces: sums": (forces.sum_of_contacts(Selection::All).unwrap(), forces.sum_on_floor(Selection::Base).unwrap());
         "Forces<Interval>": pile.forces::<Interval>().contact(Site::APEX, Direction::Alpha);
-        "layer_errors": layer_errors(&pile.forces::<BigRational>(), &pile, |x| Some(x.clone())).unwrap();
+        "layer_errors": layer_errors(&pile.forces::<BigRational>(), |x| Some(x.clone())).unwrap();
         "Forces<DoubleDouble>": pile.forces::<DoubleDouble>().contact(Site::APEX, Direction::Alpha);
         "Forces<f64>": pile.forces::<f64>().contact(Site::APEX, Direction::Alpha);
         "Forces<Polynomial>": pile.forces::<Polynomial>().contact(Site::APEX, Direction::Alpha);
