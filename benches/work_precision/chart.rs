@@ -130,8 +130,8 @@ impl Page {
         self.put(r##"<rect x="56" y="72" width="88" height="308" fill="#eee"/>"##);
         self.title(
             56.0,
-            "Time and error of every method",
-            "dots: straight piles of 10 to 80 layers; rings: HCP of 4 and 40",
+            "Time and error by method",
+            "larger dots: more layers (straight, 10 to 80); rings: HCP, 4 and 40",
         );
         for (decade, name) in [(-9.0, "1 ns"), (-6.0, "1 µs"), (-3.0, "1 ms")] {
             let y = pixel(Y, decade);
@@ -229,7 +229,7 @@ impl Page {
         self.line(&of("f64", |row| row.probable), GREY, "2");
         for ([x, y], words) in [
             ([580.0, 176.0], "proved bound"),
-            ([580.0, 274.0], "99 % probable"),
+            ([600.0, 290.0], "99 % probable"),
             ([745.0, 330.0], "√L"),
         ] {
             self.text([x, y], "end", GREY, words);
@@ -238,7 +238,7 @@ impl Page {
         let halves = format!(r#"f16, <tspan fill="{PURPLE}">bf16</tspan>"#);
         for (format, colour, label, dy) in [
             ("bf16", PURPLE, "", 0.0),
-            ("f16", GREEN, halves.as_str(), -6.0),
+            ("f16", GREEN, halves.as_str(), -11.0),
             ("f32", RED, "f32", 5.0),
             ("f64", BLUE, "f64", 11.0),
         ] {

@@ -104,19 +104,7 @@ fn balances<T: Algebra>(
         }
     }
     let turns = k > 0 && shape.sign_below(k - 1) != Some(sign);
-    let own = sites.iter().map(|site| pile.own_increments(*site));
-    let mut own: Vec<[BigRational; 3]> = own.collect();
-    for (contact, force) in pile.horizontal_forces() {
-        if contact.site.k == k {
-            let ends = [(contact.site, true), (shape.neighbour(contact)?, false)];
-            for (site, leads_away) in ends {
-                let pushes = formula::pushed(force, contact.axis.ends(), leads_away);
-                for (own, push) in own[places[&site]].iter_mut().zip(&pushes) {
-                    *own = formula::beside(BigRational::zero(), own, push, sign);
-                }
-            }
-        }
-    }
+    let own = increments(pile, k)?;
     let mut balances = Vec::with_capacity(sites.len());
     for (n, (own, received)) in own.iter().zip(received).enumerate() {
         let carried = if turns {
@@ -129,6 +117,32 @@ fn balances<T: Algebra>(
         balances.push(Balance { residual, received });
     }
     Ok(balances)
+}
+
+/// Returns what the spheres of a layer add to their lines, in f₀.
+pub(crate) fn increments(pile: &Pile, k: i128) -> Result<Vec<[BigRational; 3]>, Error> {
+    let sites: Vec<Site> = pile.sites(Selection::Layer(k))?.collect();
+    let places: HashMap<&Site, usize> = sites.iter().zip(0..).collect();
+    let own = sites.iter().map(|site| pile.own_increments(*site));
+    let mut own: Vec<_> = own.collect();
+    let Some(sign) = pile.shape().sign_below(k) else {
+        return Ok(own);
+    };
+    for (contact, force) in pile.horizontal_forces() {
+        if contact.site.k == k {
+            let ends = [
+                (contact.site, true),
+                (pile.shape().neighbour(contact)?, false),
+            ];
+            for (site, leads_away) in ends {
+                let pushes = formula::pushed(force, contact.axis.ends(), leads_away);
+                for (own, push) in own[places[&site]].iter_mut().zip(&pushes) {
+                    *own = formula::beside(BigRational::zero(), own, push, sign);
+                }
+            }
+        }
+    }
+    Ok(own)
 }
 
 /// Computes all contact forces and returns their errors, layer by layer.

@@ -1,42 +1,47 @@
 //! A bound of the rounding errors of a sweep that holds with a given probability.
 //!
 //! # Elementary roundings
-//! Let g be the forces from above on a sphere, and f = G g + w the forces below it. A float computes
-//! `x₁ = g_α + g_β`, `x₂ = x₁ + g_γ`, `x₃ = 2 x₂/3`, three differences `x₃ − g_l`, and three sums with w. Let ρ = 2u. With
-//! ‖g‖ ≤ Γ the exact results of these operations are at most √2 Γ, √3 Γ, 2/√3 Γ, Γ and |f_l|, times powers of 1 + ρ. The
-//! roundings η₁, η₂ and η₃ change all three forces below, by 2/3, 2/3 and 1 times η.
+//! Let g be the forces from above on a sphere, and f = G g + w the forces below it. At a sign change a float computes
+//! `x₁ = g_α + g_β`, `x₂ = x₁ + g_γ`, `x₃ = 2 x₂/3`, three differences `y_l = x₃ − g_l`, and three sums `f_l = y_l + w_l`; else
+//! only the three sums `g_l + w_l`. A rounding of x changes it by at most u⌊x⌋, where ⌊x⌋ is the largest power of two that is at
+//! most |x|.
 //!
 //! The error of a contact below layer k is a sum Σ r·δ over all spheres above it, where δ are the three changes of the forces
 //! below a sphere. The coefficients r are a row of a power of S. S is an isometry, so their squares sum to at most 1 in each
-//! layer. In terms of the elementary roundings, |r·(1, 1, 1)| ≤ √3 ‖r‖ gives for the squares c² of their coefficients
+//! layer. The roundings of x₁, x₂ and x₃ change all three forces, by 2/3, 2/3 and 1 times their size, and
+//! |r·(1, 1, 1)| ≤ √3 ‖r‖. So the squares c² of the coefficients of elementary roundings obey Σ c² ⌊x⌋² ≤ Σ_j F_j², where F_j² is
+//! the largest of all spheres of layer j of
 //!
-//! Σ c² x² ≤ Σ_j F_j², F_j² = 3 (4/9·2 + 4/9·3 + 4/3) Γ² + Γ² + Φ² = 35/3 Γ² + Φ²,
+//! 4/3 ⌊x₁⌋² + 4/3 ⌊x₂⌋² + 3 ⌊x₃⌋² + max_l (⌊y_l⌋² + ⌊f_l⌋²),
 //!
-//! where Φ is the largest |f_l| of layer j. Without a sign change only the sum with w is left: F_j² = Φ². If all x were
-//! equal, the factor would be 3 (4/9 + 4/9 + 1) + 1 + 1 = 23/3.
+//! or of max_l ⌊f_l⌋² without a sign change. A sphere with a load of its own has one more sum for each line. Without powers of
+//! two, and for equal x, the factor would be 4/3 + 4/3 + 3 + 1 + 1 = 23/3.
 //!
 //! # Martingale
 //! The result of an operation is rounded by η with the mean 0, given all roundings before it, and η lies between two bounds
-//! whose distance is at most 2u|x|: −u|x| and u|x| for rounding to nearest, and the distances to two neighbouring floats for
+//! whose distance is at most 2u⌊x⌋: −u⌊x⌋ and u⌊x⌋ for rounding to nearest, and the distances to two neighbouring floats for
 //! stochastic rounding. So the partial sums of Σ c η are a martingale. By Hoeffding's lemma, which needs the distance of the
-//! two bounds only, E exp(t c η) ≤ exp(t² c² u² x²/2), and
+//! two bounds only, E exp(t c η) ≤ exp(t² c² u² ⌊x⌋²/2), and
 //!
 //! P(|e| ≥ λ u √(Σ F_j²)) ≤ 2 exp(−λ²/2).
 //!
 //! The inequality of Azuma with |η| < 2u|x| would give twice the bound for stochastic rounding.
 //!
 //! # Fixed bounds of the intermediate results
-//! F_j must not depend on the roundings, but Γ and Φ are bounds of computed forces. They are the exact maxima, plus √3 E_(j−1),
-//! where E_(j−1) is a bound of all errors of the layer above. It fails with a probability of at most half of the
-//! requested one, for all layers together: layer j with m contacts has the share 1/((j+1)(j+2)), so that
-//! λ = √(2 ln(4 m (j+1)(j+2)/P)). A martingale that stops as soon as E_j is exceeded has increments within F_j, and differs from
-//! the true one with this probability. The other half of P is left for the bound itself.
+//! F_j must not depend on the roundings, but x, y and f are results of the float. Each is at most the exact value, plus the
+//! errors of the forces from above, each at most E_(j−1), plus the roundings before it. E_(j−1) is the bound of all errors of the
+//! layer above. It fails with a probability of at most half of the requested one, for all layers together: layer j with m
+//! contacts has the share 1/((j+1)(j+2)), so that λ = √(2 ln(4 m (j+1)(j+2)/P)). A martingale that stops as soon as E_j is
+//! exceeded has increments within F_j, and differs from the true one with this probability. The other half of P is left for
+//! the bound itself.
 
 use cannonpile::lattice::Dimension;
 use cannonpile::scalar::{Algebra, Ring};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
 use num_rational::BigRational;
+
+use crate::errors::increments;
 
 /// A bound on the rounding errors of the contact forces below a layer, from [`probable_bounds`]. Forces and bounds are in f₀.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,10 +76,10 @@ impl ProbableBound {
 /// Returns bounds on the rounding errors of [`Forces::layers`](cannonpile::Forces::layers) in a float of `bits` bits, for each
 /// layer with supports. Each bound fails with at most the given probability.
 ///
-/// |e| ≤ λ u √(Σ F_j²), where u = 2^−`bits` and F_j² = 35/3 Γ² + Φ² for each layer with a sign change, else Φ². Γ bounds the norm of
-/// the three forces on a sphere, and Φ the forces below it. With the probability P, λ = √(2 ln(4/P)) for one contact, and
-/// λ = √(2 ln(4m/P)) for all m contacts below a layer. The bound grows like √L times the forces;
-/// [`Layer::error_bound`](cannonpile::Layer::error_bound) grows like L.
+/// |e| ≤ λ u √(Σ F_j²), where u = 2^−`bits`, and u F_j bounds the roundings on a sphere of layer j: the norm of all of them, each
+/// with the factor by which it can enter e. It is at most 2.8 times the largest result of an operation on a sphere. With the
+/// probability P, λ = √(2 ln(4/P)) for one contact, and λ = √(2 ln(4m/P)) for all m contacts below a layer. The bound grows like
+/// √L times the forces; [`Layer::error_bound`](cannonpile::Layer::error_bound) grows like L.
 ///
 /// It is a theorem for stochastic rounding, in which each rounding has its own random number. For rounding to nearest it is a model: it
 /// assumes that each error has the mean 0, given those before it. In a symmetric pile equal spheres round alike. Their errors
@@ -114,19 +119,17 @@ pub fn probable_bounds(
         Dimension::Two => 2,
         Dimension::Three => 3,
     };
+    let has_extras = pile.loads().len() > 0
+        || pile.weights().next().is_some()
+        || pile.horizontal_forces().len() > 0;
     // The increments of an ordinary sphere, by `formula::load_increments`.
     let [x, y] = pile
         .tilt()
         .each_ref()
         .map(|part| f64::from_rational(part).abs());
-    let own = 2.0 + 2.0 * x + 4.0 * y;
-    let has_extras = pile.loads().len() > 0
-        || pile.weights().next().is_some()
-        || pile.horizontal_forces().len() > 0;
+    let ordinary = 1.0 + 2.0 * x + 4.0 * y;
     let is_bound = (4..=1000).contains(&bits) && probability > 0.0 && probability < 1.0;
     let u = (-f64::from(bits)).exp2();
-    let rho = 2.0 * u;
-    let grown = (1.0 + rho).powi(4);
     let lambda = |contacts: f64| {
         if is_bound {
             (2.0 * (4.0 * contacts / probability).ln()).sqrt()
@@ -136,14 +139,14 @@ pub fn probable_bounds(
     };
     let mut layers = pile.forces::<f64>().layers(Selection::All)?;
     let mut bounds = Vec::new();
-    // The largest forces from above by line, the bound of their errors, and Σ F_j².
-    let (mut received, mut margin, mut sum) = ([0.0; 3], 0.0, 0.0);
+    // A bound of the errors of the layer above, and Σ F_j².
+    let (mut margin, mut sum) = (0.0, 0.0);
     let mut slices = [(); 3].map(|()| Vec::new());
     while let Some(layer) = layers.next_layer()? {
+        let k = layer.k();
         if layer.is_floor() {
             break;
         }
-        let k = layer.k();
         for slice in &mut slices {
             slice.resize(layer.sphere_count(), 0.0);
         }
@@ -152,21 +155,34 @@ pub fn probable_bounds(
             Some(bound) => f64::from_rational(&bound),
             None => f64::INFINITY,
         };
-        let largest = |line: &Vec<f64>| line.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let below = slices.each_ref().map(|line| largest(line) + off);
-        let greatest = below.into_iter().fold(0.0, f64::max);
-        let on_sphere = received.iter().map(|x| x * x).sum::<f64>().sqrt() + margin;
+        let sites = pile.sites(Selection::Layer(k))?;
+        let own = if has_extras {
+            increments(pile, k)?
+        } else {
+            // All spheres are ordinary.
+            sites
+                .clone()
+                .take(1)
+                .map(|site| pile.own_increments(site))
+                .collect()
+        };
+        let own: Vec<[f64; 3]> = own
+            .iter()
+            .map(|own| own.each_ref().map(f64::from_rational))
+            .collect();
         let turns = k > 0 && shape.sign_below(k - 1) != shape.sign_below(k);
-        let mut most = greatest + margin;
-        if turns {
-            sum += 35.0 / 3.0 * (grown * grown * on_sphere * on_sphere);
-            most += 13.0 / 3.0 * rho * grown * on_sphere;
+        let (mut most, mut greatest) = (0.0_f64, 0.0_f64);
+        for n in 0..layer.sphere_count() {
+            let below = slices.each_ref().map(|line| line[n]);
+            let sphere = Sphere {
+                below,
+                own: own[if has_extras { n } else { 0 }],
+                ordinary: has_extras.then_some(ordinary),
+            };
+            most = most.max(sphere.squares(turns, margin + off, 2.0 * u));
+            greatest = below.iter().fold(greatest, |most, x| most.max(x.abs()));
         }
-        sum += most * most;
-        if has_extras {
-            let partial = most.max(on_sphere) + own;
-            sum += partial * partial;
-        }
+        sum += most;
         let spheres = f64::from_rational(&BigRational::from_integer(layer.sphere_count().into()));
         let contacts = spheres * f64::from(lines);
         let depth = f64::from_integer(k);
@@ -176,15 +192,62 @@ pub fn probable_bounds(
         } else {
             f64::INFINITY
         };
-        margin = 3.0_f64.sqrt() * lambda(contacts * (depth + 1.0) * (depth + 2.0)) * scale;
-        received = below;
+        margin = lambda(contacts * (depth + 1.0) * (depth + 2.0)) * scale;
         bounds.push(ProbableBound {
             layer: k,
             scale,
             lambda_of_one: lambda(1.0),
             lambda_of_all: lambda(contacts),
-            greatest,
+            greatest: greatest + off,
         });
     }
     Ok(bounds)
+}
+
+/// The forces below a sphere, and what it adds to its lines.
+struct Sphere {
+    below: [f64; 3],
+    own: [f64; 3],
+    /// A bound of what an ordinary sphere adds, if the sweep adds the rest apart.
+    ordinary: Option<f64>,
+}
+
+impl Sphere {
+    /// Returns the share of this sphere in F_j². The forces from above have errors of at most `off`, and ρ bounds the relative
+    /// error of an operation.
+    fn squares(&self, turns: bool, off: f64, rho: f64) -> f64 {
+        // G is its own inverse, so that G h are the forces from above.
+        let h = [0, 1, 2].map(|line| self.below[line] - self.own[line]);
+        let total = h[0] + h[1] + h[2];
+        let (mut shared, mut off) = (0.0, off);
+        if turns {
+            let first = (4.0 / 3.0 * total - h[0] - h[1]).abs() + 2.0 * off;
+            let second = total.abs() + 3.0 * off + rho * first;
+            let third = 2.0 / 3.0 * (1.0 + rho) * second;
+            off = 5.0 / 3.0 * off + rho * (2.0 / 3.0 * (first + second) + third);
+            shared = 4.0 / 3.0 * (square(first) + square(second)) + 3.0 * square(third);
+        }
+        let of_line = |line: usize| {
+            let difference = h[line].abs() + off;
+            let mut off = off;
+            let mut squares = 0.0;
+            if turns {
+                squares += square(difference);
+                off += rho * difference;
+            }
+            if let Some(ordinary) = self.ordinary {
+                let partial = h[line].abs() + self.own[line].abs() + ordinary + off;
+                squares += square(partial);
+                off += rho * partial;
+            }
+            squares + square(self.below[line].abs() + off)
+        };
+        shared + [0, 1, 2].map(of_line).into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// Returns the square of the largest power of two that is at most `x`, which has a few roundings of `f64`.
+fn square(x: f64) -> f64 {
+    let power = f64::from_bits((x * (1.0 + 1e-12)).to_bits() & f64::INFINITY.to_bits());
+    power * power
 }

@@ -306,7 +306,7 @@ fn the_probable_bound_holds_and_is_near() {
         ];
         println!("{stacking}: {ratios:?}");
         assert!(
-            ratios.iter().all(|ratio| (1.0..15.0).contains(ratio)),
+            ratios.iter().all(|ratio| (1.0..10.0).contains(ratio)),
             "{stacking}: {ratios:?}"
         );
         // A planted fault: the bound of a format with five bits more does not hold.
