@@ -1,8 +1,9 @@
 //! How the rounding errors of sweeps grow with the number of layers.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench error_growth --features half` writes `work_precision/errors.csv`,
-//! from which the chart is drawn, and prints the worst stackings and loads that a search finds. No time is measured: the
-//! numbers are the same on every machine. With `-- --smoke` it checks the first rows of the table.
+//! from which the chart is drawn, and prints the worst stackings and loads that a search finds. With `-- --search` it only
+//! searches. No time is measured: the numbers are the same on every machine. With `-- --smoke` it checks the first rows of the
+//! table.
 //!
 //! The unit of all errors is u·F, with the unit roundoff u of the format and the greatest contact force F above the floor.
 //! The column `error` is the error of the worst of these contacts, and `mean` the mean of all, with its sign. Up to 160 layers
@@ -27,15 +28,17 @@ fn main() {
         for row in growth::table(true).lines() {
             assert!(written.lines().any(|line| line == row), "{row} is new");
         }
-        search::print::<Half>(4, 3);
+        search::print::<Half>(4, 3, Some(5));
         return;
     }
-    let table = growth::table(false);
-    std::fs::write(FILE, table).expect("a place for the table");
+    if env::args().all(|argument| argument != "--search") {
+        std::fs::write(FILE, growth::table(false)).expect("a place for the table");
+    }
     for layers in [10, 40, 160] {
-        search::print::<Half>(layers, 40_000 / layers);
-        search::print::<Brain>(layers, 40_000 / layers);
-        search::print::<f32>(layers, 40_000 / layers);
-        search::print::<f64>(layers, 40_000 / layers);
+        let (steps, more) = (40_000 / layers, (layers == 160).then_some(1000));
+        search::print::<Half>(layers, steps, None);
+        search::print::<Brain>(layers, steps, None);
+        search::print::<f32>(layers, steps, more);
+        search::print::<f64>(layers, steps, more);
     }
 }

@@ -1,5 +1,8 @@
 //! A search for the stacking and the loads with the worst error.
 
+use std::cmp::Ordering;
+use std::fmt;
+
 use cannonpile::lattice::Site;
 use cannonpile::num_rational::BigRational;
 use cannonpile::scalar::DoubleDouble;
@@ -13,21 +16,29 @@ use crate::random::Random;
 struct Candidate {
     signs: Vec<u8>,
     loads: [u8; 7],
+    /// The error of the worst contact above the floor, in u of the greatest force.
+    error: f64,
 }
 
 const SITES: [[i128; 2]; 7] = [[0, 0], [1, 0], [0, 1], [-1, 1], [3, 0], [0, 3], [0, -3]];
 
-/// Prints the worst error to which a hill climbs. The start is HCP without loads, and each step changes one sign or one load
-/// of at most four weights.
-pub(crate) fn print<T: Format>(layers: i128, steps: i128) {
-    let changes = u8::try_from(layers - 1).expect("few layers");
-    let mut random = Random(1);
-    let mut best = Candidate {
-        signs: (0..changes).map(|k| b"+-"[usize::from(k % 2)]).collect(),
-        loads: [0; 7],
+/// Prints the worst error of all periods of at most six signs, and the worst to which a hill climbs from HCP; and the error of the
+/// worse of both, repeated to `more` layers. Each step changes one sign, or one load of at most four weights.
+pub(crate) fn print<T: Format>(layers: i128, steps: i128, more: Option<i128>) {
+    let label = T::LABEL;
+    // The first sign is +. The others are mirror images.
+    let periods = (1..=6).flat_map(|length| (0..1 << (length - 1)).map(move |bits| (length, bits)));
+    let of_period = |(length, bits): (usize, usize)| {
+        let sign = |k: usize| b"+-"[usize::from(k > 0 && bits >> (k - 1) & 1 == 1)];
+        Candidate::new::<T>((0..length).map(sign).collect(), layers)
     };
-    let start = best.error::<T>();
-    let mut error = start;
+    let periodic = periods.map(of_period).max_by(Candidate::by_error);
+    let periodic = periodic.expect("a period");
+    println!("{label}, {layers} layers, the worst period: {periodic}");
+    let mut random = Random(1);
+    let mut best = Candidate::new::<T>(b"+-".to_vec(), layers);
+    println!("{label}, {layers} layers, HCP: {:.2} u", best.error);
+    let changes = u8::try_from(layers - 1).expect("few layers");
     for _ in 0..steps {
         let mut next = best.clone();
         if random.below(2) == 0 {
@@ -36,29 +47,64 @@ pub(crate) fn print<T: Format>(layers: i128, steps: i128) {
         } else {
             next.loads[usize::from(random.below(7))] = random.below(33);
         }
-        let found = next.error::<T>();
-        if found >= error {
-            (best, error) = (next, found);
+        next.measure::<T>();
+        if next.error >= best.error {
+            best = next;
         }
     }
-    let (label, stacking, loads) = (T::LABEL, best.stacking(), best.loads);
-    println!(
-        "{label}, {layers} layers, {steps} steps: {start:.2} to {error:.2} u; {stacking}, loads/8 {loads:?}"
-    );
+    println!("{label}, {layers} layers, after {steps} steps: {best}");
+    if let Some(more) = more {
+        for mut candidate in [periodic, best] {
+            candidate.repeat(more);
+            candidate.measure::<T>();
+            println!(
+                "{label}, the same repeated to {more} layers: {:.2} u",
+                candidate.error
+            );
+        }
+    }
+}
+
+impl fmt::Display for Candidate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (signs, loads) = (self.stacking(), self.loads);
+        write!(f, "{:.2} u; {signs}, loads/8 {loads:?}", self.error)
+    }
 }
 
 impl Candidate {
+    fn new<T: Format>(signs: Vec<u8>, layers: i128) -> Self {
+        let mut new = Self {
+            signs,
+            loads: [0; 7],
+            error: 0.0,
+        };
+        new.repeat(layers);
+        new.measure::<T>();
+        new
+    }
+
+    fn by_error(&self, other: &Self) -> Ordering {
+        self.error.total_cmp(&other.error)
+    }
+
+    /// Repeats the signs for a number of layers.
+    fn repeat(&mut self, layers: i128) {
+        let steps = usize::try_from(layers - 1).expect("few layers");
+        self.signs = self.signs.iter().copied().cycle().take(steps).collect();
+    }
+
     fn stacking(&self) -> String {
         self.signs.iter().copied().map(char::from).collect()
     }
 
-    fn error<T: Format>(&self) -> f64 {
+    fn measure<T: Format>(&mut self) {
         let mut pile = under_a_hexagon(self.stacking().parse().expect("signs"));
         for ([i, j], eighths) in SITES.into_iter().zip(self.loads) {
             let load = BigRational::new(eighths.into(), 8.into());
             pile = pile.with_load(Site { i, j, k: 0 }, load).expect("a load");
         }
         let ([worst, _], _) = errors(&lowest::<T>(&pile).0, &lowest::<DoubleDouble>(&pile).0);
-        worst
+        self.error = worst;
     }
 }
