@@ -14,6 +14,7 @@
 //! | [`table`] | tables of forces and spheres as csv, JSON and text; files that are complete or absent |
 //! | the crate root | whole piles: [`PileExport`] for files, [`NumberedPile`] for their contacts |
 //! | | [`Compliance`]: the difference between forces on springs and exact forces |
+//! | | [`derivatives()`]: those of all forces by radii, loads and tilt |
 //! | [`verify`] | measured contact forces, compared with the exact ones |
 //!
 //! # Example
@@ -47,6 +48,7 @@ pub mod angle;
 pub mod card;
 mod compliance;
 mod csv;
+mod derivatives;
 mod error;
 mod export;
 mod file;
@@ -76,6 +78,7 @@ use cannonpile::each::Each;
 
 pub use card::CardTitle;
 pub use compliance::{Compliance, NoCompliance, SoftContact};
+pub use derivatives::{Parameter, derivatives};
 pub use error::Error;
 pub use export::PileExport;
 pub use file::{OtherFile, PileFile, PileFormat, Written, files};

@@ -1,10 +1,14 @@
 //! Records of a card: numbers, contacts, spheres and forces on the floor.
 
+use num_bigint::BigUint;
 use num_rational::BigRational;
+use num_traits::One;
 use serde_json::{Value as Json, json};
 
+use super::FOR_MACHINES;
 use super::extremes::Extreme;
 use crate::Error;
+use crate::derivatives::derivatives;
 use crate::json::placed;
 use crate::numbered::{NumberedPile, nearest};
 use cannonpile::lattice::{ContactKind, HorizontalContact};
@@ -73,6 +77,24 @@ pub(super) fn spheres(numbered: &NumberedPile<'_>) -> Result<Json, Error> {
         Ok(placed(dimension, json!({"id": id}), site, centre))
     });
     all.collect()
+}
+
+/// Returns the derivatives of all contact forces, a record for each parameter. There are none if spheres touch whose contacts
+/// are not part of the isostatic state, and none if the list would be too long or empty.
+pub(super) fn derivatives_by_parameter(numbered: &NumberedPile<'_>) -> Result<Option<Json>, Error> {
+    let (pile, packing) = (numbered.pile(), numbered.packing());
+    let axes = pile.dimension().number();
+    let parameters = pile.sphere_count() * (1 + axes) + (axes - 1);
+    let length = pile.contact_count() * parameters;
+    let is_listed = (BigUint::one()..=FOR_MACHINES.into()).contains(&length);
+    if !is_listed || !packing.touching().is_empty() {
+        return Ok(None);
+    }
+    let records = derivatives(packing)?.into_iter().map(|(parameter, all)| {
+        let all: Vec<String> = all.iter().map(ToString::to_string).collect();
+        json!({"parameter": parameter.to_string(), "of_contacts": all})
+    });
+    Ok(Some(records.collect()))
 }
 
 pub(super) fn base(numbered: &NumberedPile<'_>) -> Result<Json, Error> {

@@ -63,6 +63,10 @@ pub(super) fn page(
     let texts = &mut [
         ("with_scene", scene.map(|_| String::new())),
         ("scene", scene.map(|scene| scene.trim_end().to_owned())),
+        (
+            "derivatives",
+            answers["derivatives"].is_array().then(String::new),
+        ),
         ("springs", at_rest.then(String::new)),
         ("criteria", Some(criteria)),
         ("law", Some(law.join("\n\n"))),

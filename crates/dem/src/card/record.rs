@@ -8,7 +8,9 @@ use num_traits::{One, Zero};
 use serde_json::{Value as Json, json};
 
 use super::extremes::{Extreme, Extremes};
-use super::lists::{FORCE, base, contact, contacts, rational, spheres, value};
+use super::lists::{
+    FORCE, base, contact, contacts, derivatives_by_parameter, rational, spheres, value,
+};
 use super::title::{CardTitle, heading};
 use crate::Error;
 use crate::error::bug;
@@ -244,6 +246,7 @@ fn answers(
         "max_shear_ratio": max_shear_ratio,
         "contacts": few(&numbered.contact_count()).then(|| contacts(numbered)).transpose()?,
         "contacts_file": "contacts.csv",
+        "derivatives": derivatives_by_parameter(numbered)?,
         "base": few(&pile.base_sphere_count()).then(|| base(numbered)).transpose()?,
         "base_file": "base.csv",
     }))

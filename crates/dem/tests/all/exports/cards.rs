@@ -375,10 +375,72 @@ fn a_large_case_refers_to_its_tables() {
         Some(ratio(14, 1))
     );
     assert_eq!(answers["bearing"], 31_980);
+    assert!(answers["derivatives"].is_null());
     for file in ["spheres.csv", "contacts.csv", "base.csv"] {
         assert!(page.contains(&format!("`{file}`")), "{file}");
     }
     assert!(page.len() < 10_000, "{}", page.len());
+}
+
+/// Returns the multiples of f₀ of all contacts of the card of a scene, and the derivatives by parameter, if it has any.
+fn derivatives(scene: &str) -> (Vec<BigRational>, Option<BTreeMap<String, Vec<BigRational>>>) {
+    let scene = Scene::from_toml(scene).expect("a scene");
+    let pile = scene.in_state(scene.pile().expect("a pile"));
+    let pile = pile.expect("a state");
+    let packing = scene.packing(&pile).expect("room");
+    let export = PileExport::new(&packing).expect("files");
+    let card: Value = serde_json::from_str(&text(&export, PileFile::CardJson)).expect("JSON");
+    let page = text(&export, PileFile::CardMarkdown);
+    let answers = &card["answers"];
+    let contacts = answers["contacts"].as_array().expect("contacts").iter();
+    let records = answers["derivatives"].as_array();
+    assert_eq!(page.contains("derivatives"), records.is_some());
+    let by_parameter = records.map(|records| {
+        let records = records.iter().map(|record| {
+            let parameter = record["parameter"].as_str().expect("a parameter");
+            let all = record["of_contacts"].as_array().expect("numbers").iter();
+            (parameter.to_owned(), all.map(rational).collect())
+        });
+        records.collect()
+    });
+    (
+        contacts
+            .map(|contact| rational(&contact["multiple"]))
+            .collect(),
+        by_parameter,
+    )
+}
+
+/// Forces are linear in loads and tilts, so difference quotients are exact.
+#[test]
+fn cards_list_derivatives_unless_other_spheres_touch() {
+    let scene = "stacking = '+-+'\nspacing = '6/5'\n";
+    let (before, by_parameter) = derivatives(scene);
+    let by_parameter = by_parameter.expect("derivatives");
+    assert_eq!(by_parameter.len(), 23 * 4 + 2);
+    for (parameter, key, change) in [
+        ("load z 1 1 0", "load = ['1,1,0=7']", ratio(7, 1)),
+        ("load x 2 0 1", "load = ['2,0,1=0,7,0']", ratio(7, 1)),
+        ("load y 0 0 0", "load = ['0,0,0=0,0,-1/2']", ratio(-1, 2)),
+        ("tilt x", "tilt = '1/9,0'", ratio(1, 9)),
+        ("tilt y", "tilt = '0,-2/3'", ratio(-2, 3)),
+    ] {
+        let (after, _) = derivatives(&format!("{scene}{key}"));
+        let quotients = after.iter().zip(&before);
+        let quotients = quotients.map(|(after, before)| (after - before) / &change);
+        assert_eq!(
+            quotients.collect::<Vec<_>>(),
+            by_parameter[parameter],
+            "{key}"
+        );
+    }
+    for scene in [
+        "layers = 3\nstacking = 'hcp'\nstate = 'elastic'",
+        "layers = 3\nspacing = 1",
+        "layers = 1\nspacing = '6/5'",
+    ] {
+        assert_eq!(derivatives(scene).1, None, "{scene}");
+    }
 }
 
 /// Returns the tables of a page, each as rows of cells.

@@ -4,9 +4,10 @@ use cannonpile::geometry::Load;
 use cannonpile::scalar::{Algebra, Polynomial, Symbol};
 use cannonpile::shape::Selection;
 use cannonpile::{ContactForce, Forces, Verdict};
-use cannonpile_dem::Error;
 use cannonpile_dem::scene::{Case, Floor, Scene, SceneFile, State, cases};
-use cannonpile_stability::{RoughPacking, force_by_tilt};
+use cannonpile_dem::{Error, Parameter, derivatives};
+use cannonpile_stability::{RoughPacking, sensitivity};
+use cannonpile_testkit::answers::ratio;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 
@@ -148,40 +149,61 @@ fn every_case_has_its_stated_stability() {
     }
 }
 
-/// The derivatives that the example `derivatives` lists by loads and by the tilt are the coefficients of the forces under a
-/// load t, and under a tilt t. Those by radii have their own test, in `cannonpile-stability`.
+/// The derivatives by loads and by the tilt are the coefficients of the forces under a load t, and under a tilt (t, t²). Those by
+/// radii have their own test, in `cannonpile-stability`.
 #[test]
 fn derivatives_are_the_coefficients_of_a_symbol() {
     let t = || Polynomial::from(Symbol("t"));
     let constant = |x: &BigRational| Polynomial::constant(x);
-    for name in ["C21", "C22"] {
-        let pile = Case::named(name)
-            .and_then(Case::scene)
-            .and_then(|scene| scene.pile());
-        let pile = pile.expect("a pile");
+    for name in ["C21", "C22", "C13"] {
+        let scene = Case::named(name).and_then(Case::scene).expect("a scene");
+        let pile = scene.pile().expect("a pile");
+        let packing = scene.packing(&pile).expect("room");
+        let mut found = derivatives(&packing).expect("derivatives").into_iter();
+        let mut next = |wanted: Parameter| {
+            let (parameter, derivatives) = found.next().expect("a parameter");
+            assert_eq!(parameter, wanted, "{name}");
+            derivatives
+        };
+        let axes = pile.dimension().directions().len();
         let exact: Vec<_> = all_contacts(&pile.forces::<BigRational>());
         for sphere in pile.sites(Selection::All).expect("spheres") {
-            for unit in Load::units() {
+            let changes = sensitivity::<BigRational>(&packing, sphere).expect("changes");
+            let by_radius = next(Parameter::Radius(sphere));
+            assert!(changes.iter().map(|contact| &contact.change).eq(&by_radius));
+            for (axis, unit) in ['z', 'x', 'y'].into_iter().zip(Load::units()).take(axes) {
                 let symbolic = Load {
                     down: t() * &constant(&unit.down),
                     x: t() * &constant(&unit.x),
                     y: t() * &constant(&unit.y),
                 };
                 let loaded = pile.forces().with_load(sphere, symbolic).expect("a load");
-                let response = pile.bare().with_load(sphere, unit).expect("a load");
-                let response = all_contacts(&response.forces::<BigRational>());
+                let slopes = next(Parameter::Load(axis, sphere));
                 for ((loaded, exact), slope) in
-                    all_contacts(&loaded).iter().zip(&exact).zip(response)
+                    all_contacts(&loaded).iter().zip(&exact).zip(&slopes)
                 {
-                    let line = constant(&exact.force) + &(t() * &constant(&slope.force));
+                    let line = constant(&exact.force) + &(t() * &constant(slope));
                     assert_eq!(loaded.force, line, "{name} {sphere}");
                 }
             }
         }
-        let leaning = pile.forces().with_tilt([t(), t() * &t()]).expect("a tilt");
-        for (leaning, exact) in all_contacts(&leaning).iter().zip(&exact) {
-            let by = force_by_tilt(&pile, exact.site, exact.direction).expect("a force");
-            let slopes = t() * &constant(&by.a) + &(t() * &t() * &constant(&by.b));
+        let flat = axes == 2;
+        let along_y = if flat {
+            constant(&ratio(0, 1))
+        } else {
+            t() * &t()
+        };
+        let leaning = pile.forces().with_tilt([t(), along_y.clone()]);
+        let by_x = next(Parameter::Tilt('x'));
+        let by_y = if flat {
+            by_x.clone()
+        } else {
+            next(Parameter::Tilt('y'))
+        };
+        assert!(found.next().is_none());
+        let leaning = all_contacts(&leaning.expect("a tilt"));
+        for (((leaning, exact), x), y) in leaning.iter().zip(&exact).zip(by_x).zip(by_y) {
+            let slopes = t() * &constant(&x) + &(along_y.clone() * &constant(&y));
             assert_eq!(leaning.force, constant(&exact.force) + &slopes, "{name}");
         }
     }
