@@ -4,6 +4,7 @@ use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
+use core::sync::atomic::{AtomicUsize, Ordering};
 
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
@@ -95,7 +96,7 @@ pub trait Promise<T: Number>: Clone + PartialEq + Send + Sync {
     }
 
     fn from_rational(r: &BigRational) -> T {
-        let number = Self::accepts().then(|| quotient(r));
+        let number = is_accepted::<T, Self>().then(|| quotient(r));
         // A refused type computes with zeros, so that no overflow comes before the error. An accepted one has a quotient.
         number.flatten().unwrap_or_else(T::zero)
     }
@@ -144,6 +145,22 @@ impl<T: Number + CorrectlyRounded + Into<f64>> Promise<T> for Rounded {
         }
         value / Self::from_integer(n.get().into())
     }
+}
+
+/// Returns [`Promise::accepts`]. Its test takes longer than an operation, so the last type that passed it is not tested again.
+///
+/// The type is known by the address of its test. Types share an address only if their tests are the same code.
+fn is_accepted<T: Number, P: Promise<T>>() -> bool {
+    static LAST: AtomicUsize = AtomicUsize::new(0);
+    let test: fn() -> bool = P::accepts;
+    if LAST.load(Ordering::Relaxed) == test as usize {
+        return true;
+    }
+    let accepts = test();
+    if accepts {
+        LAST.store(test as usize, Ordering::Relaxed);
+    }
+    accepts
 }
 
 /// Returns (4/3 − 1)·3: one for an exact type, zero for integers. If 4/3 is rounded, the difference to 1 shows the error.
@@ -243,7 +260,7 @@ impl<T: Number, P: Promise<T>> Algebra for Plain<T, P> {
     }
 
     fn is_defined(&self) -> bool {
-        P::accepts() && is_number(&self.0)
+        is_accepted::<T, P>() && is_number(&self.0)
     }
 }
 

@@ -57,34 +57,23 @@ impl Bounds {
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
         let progress = Progress::begin("computing the bounds");
-        let (Some(file), Selection::One(site)) = (&self.certificate, selection) else {
+        if let (Some(file), Selection::One(site)) = (&self.certificate, selection) {
+            let found = bounds(&pile, site)?;
+            let proofs = proofs(&found)?;
+            let table = tables::bounds_of(&pile, once(Ok((site, found))));
+            let format = self.output.format()?;
+            let content = |out: &mut dyn Write| table.write(format.into(), self.number.into(), out);
+            self.output.write_with(&progress, content, None, || {
+                write_accepted(file, |out| write_certificates(&proofs, out))
+            })?;
+        } else {
             let table = tables::bounds(&pile, selection)
                 .map_err(|error| with_row_options(error, selection))?;
             self.output.write_table(table, self.number, &progress)?;
-            drop(progress);
-            self.explain.print(|| {
-                Ok(Work::of_whole(
-                    &pile,
-                    "horizontal contacts couple all forces",
-                ))
-            })?;
-            return Ok(true);
-        };
-        let found = bounds(&pile, site)?;
-        let proofs = proofs(&found)?;
-        let table = tables::bounds_of(&pile, once(Ok((site, found))));
-        let format = self.output.format()?;
-        let content = |out: &mut dyn Write| table.write(format.into(), self.number.into(), out);
-        self.output.write_with(&progress, content, None, || {
-            write_accepted(file, |out| write_certificates(&proofs, out))
-        })?;
+        }
         drop(progress);
-        self.explain.print(|| {
-            Ok(Work::of_whole(
-                &pile,
-                "horizontal contacts couple all forces",
-            ))
-        })?;
+        let reason = "horizontal contacts couple all forces";
+        self.explain.print(|| Ok(Work::of_whole(&pile, reason)))?;
         Ok(true)
     }
 }
