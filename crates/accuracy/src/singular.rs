@@ -9,7 +9,8 @@
 //! Orthonormal vectors of layer k, carried down by S, are orthonormal in each layer below. Completing them layer by layer
 //! divides the space into chains: d(N_k − N_(k−1)) chains begin in layer k, with N_k spheres, and each has
 //! m = L − 1 − k vectors. On a chain I − S is a bidiagonal matrix, 1 on the diagonal and −1 below it, whose singular
-//! values are 2 cos(jπ/(2m+1)), j = 1 … m, with the product 1.
+//! values are 2 cos(jπ/(2m+1)), j = 1 … m, with the product 1. The theorems `isometry`, `inverse` and `singular-values` of
+//! `cannonpile-proof` are about these steps.
 
 use core::f64::consts::PI;
 use core::fmt;

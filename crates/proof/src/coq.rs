@@ -30,6 +30,7 @@ const BY_HAND: &[(&str, &str)] = &[
     ("Mean.v", include_str!("../coq/Mean.v")),
     ("Spectrum.v", include_str!("../coq/Spectrum.v")),
     ("Closures.v", include_str!("../coq/Closures.v")),
+    ("Conditioning.v", include_str!("../coq/Conditioning.v")),
 ];
 
 /// A file for Coq.

@@ -1,8 +1,8 @@
 //! The theorems of cannonpile with their proofs, and their export to the proof assistant Coq.
 //!
 //! [`cannonpile::theorem`] proves the paper's results with polynomials. This crate proves all other theorems: on discs and
-//! other dimensions, stackings, loads and leaning gravity, the stress of a sphere, a rough floor, horizontal contacts, and
-//! random stackings. [`all`] lists them together.
+//! other dimensions, stackings, loads and leaning gravity, the stress of a sphere, conditioning, a rough floor, horizontal
+//! contacts, and random stackings. [`all`] lists them together.
 //!
 //! This crate also exports the formulas to Coq. It runs [`Formulas::LIBRARY`] on [`Expression`]s, which record each
 //! operation, and turns every record into a definition. The theorems in the folder `coq` are about these definitions,

@@ -233,6 +233,40 @@ const NAMES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "isometry",
+        &[
+            "Conditioning.turn_of_any_base",
+            "Conditioning.metric_of_any_base",
+            "Conditioning.turn_of_equilateral_base",
+            "Conditioning.transfer_keeps",
+            "Conditioning.isometry",
+            "Conditioning.squares_without_loads",
+            "Conditioning.chains_keep",
+        ],
+    ),
+    (
+        "inverse",
+        &[
+            "Conditioning.equilibrium_is",
+            "Conditioning.transfer_is_linear",
+            "Conditioning.transfer_is_nilpotent",
+            "Conditioning.inverse",
+            "Conditioning.inverse_is_unique",
+            "Conditioning.determinant_of_equilibrium",
+        ],
+    ),
+    (
+        "singular-values",
+        &[
+            "Conditioning.on_a_chain",
+            "Conditioning.transposed_is",
+            "Conditioning.chain_rows",
+            "Conditioning.chain_eigenvectors",
+            "Conditioning.chain_polynomial",
+            "Conditioning.chain_eigenvalue",
+        ],
+    ),
+    (
         "rough-contact",
         &[
             "Friction.along_and_across",

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod closures;
+mod conditioning;
 mod dimensions;
 mod disorder;
 mod friction;
@@ -98,6 +99,7 @@ pub fn own() -> impl Iterator<Item = &'static theorem::Theorem<Formulas>> {
         stackings::THEOREMS,
         loads::THEOREMS,
         closures::THEOREMS,
+        conditioning::THEOREMS,
         friction::THEOREMS,
         horizontal::THEOREMS,
         bounds::THEOREMS,

@@ -24,7 +24,7 @@ fn every_theorem_holds() {
 }
 
 /// The subject that each statement must name.
-const SUBJECTS: [(&str, &str); 40] = [
+const SUBJECTS: [(&str, &str); 43] = [
     ("discs", "pile of discs"),
     ("dimensions", "d = 2 … 6 dimensions"),
     ("region-counts", "Any base under straight steps"),
@@ -42,6 +42,9 @@ const SUBJECTS: [(&str, &str); 40] = [
     ("primary-closure", "σ_xx + σ_yy = tan²θ σ_zz"),
     ("secondary-closure", "2σ_xy = τ tanθ σ_yz"),
     ("mean-closure", "The closure of random stackings"),
+    ("isometry", "S is an isometry"),
+    ("inverse", "I − S is unipotent"),
+    ("singular-values", "2 cos(jπ/(2m+1))"),
     ("rough-contact", "A contact on a rough floor"),
     ("rough-floor", "Two layers on a rough floor"),
     ("rough-unique", "Uniqueness on a rough floor"),
@@ -134,7 +137,7 @@ fn a_printed_proof_reports_its_failure() {
 }
 
 /// The number of steps of each proof, counted by cases. The theorem `dimensions` has 2d + 4 for each d from 2 to 6.
-const STEPS: [(&str, usize); 40] = [
+const STEPS: [(&str, usize); 43] = [
     ("discs", 8),
     ("dimensions", 60),
     ("region-counts", 72),
@@ -149,6 +152,9 @@ const STEPS: [(&str, usize); 40] = [
     ("primary-closure", 4),
     ("secondary-closure", 8),
     ("mean-closure", 8),
+    ("isometry", 7),
+    ("inverse", 6),
+    ("singular-values", 2),
     ("rough-contact", 35),
     ("rough-floor", 48),
     ("rough-unique", 5),

@@ -10,17 +10,17 @@ pub(super) fn faults() -> Vec<Fault> {
     faults! {
         "equal increments for every φ": increments = |_| [P::one(), P::one(), P::one()]
             => ["paper-system", "equilibrium", "base-normal", "uniform-base", "total-shear", "total-moment",
-                "second-moment", "discs", "load", "tilt", "tilt-total", "rough-floor"];
+                "second-moment", "discs", "load", "tilt", "tilt-total", "isometry", "rough-floor"];
         "Δγ = s": increments = |s| [P::one(), P::one(), s.clone()]
-            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
-                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio",
-                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "secondary-closure",
-                "rough-floor", "horizontal-balance", "elastic-straight", "elastic-energy", "squares", "faults"];
+            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear", "total-shear",
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign", "edge",
+                "point-load", "load", "tilt", "tilt-total", "secondary-closure", "isometry", "rough-floor",
+                "horizontal-balance", "elastic-straight", "elastic-energy", "squares", "faults"];
         "Δβ = −Δα": increments = |s| [P::one(), -P::one(), twice(s)]
-            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
-                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
-                "change-of-sign", "edge", "point-load", "load", "tilt", "tilt-total", "secondary-closure",
-                "rough-floor", "horizontal-balance", "elastic-straight", "squares", "faults"];
+            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear", "total-shear",
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs", "change-of-sign", "edge",
+                "point-load", "load", "tilt", "tilt-total", "secondary-closure", "isometry", "rough-floor",
+                "horizontal-balance", "elastic-straight", "squares", "faults"];
         "increments for twice the weight": increments = |s| (RIGHT.increments)(s).each_ref().map(twice)
             => ["paper-system", "central-force", "base-normal", "uniform-base", "shear", "shear-on-axis",
                 "shear-ratio", "discs", "edge", "point-load", "load", "tilt", "tilt-total",
@@ -28,14 +28,14 @@ pub(super) fn faults() -> Vec<Fault> {
 
         "one increment for all": weight = |increments| {
             increments.first().map_or_else(P::zero, Clone::clone)
-        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
-                "shear-ratio", "discs", "dimensions", "change-of-sign", "load", "tilt", "tilt-total",
-                "rough-floor", "horizontal-balance", "squares"];
+        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio",
+                "discs", "dimensions", "change-of-sign", "load", "tilt", "tilt-total", "isometry", "rough-floor",
+                "horizontal-balance", "squares"];
         "the last increment left out": weight = |increments| {
             let [all @ .., _] = increments else { return P::zero() };
             (RIGHT.weight)(all)
-        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
-                "shear-ratio", "dimensions", "change-of-sign", "load", "tilt", "tilt-total", "rough-floor",
+        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio",
+                "dimensions", "change-of-sign", "load", "tilt", "tilt-total", "isometry", "rough-floor",
                 "horizontal-balance", "squares"];
 
         "one increment too many": force = |n, w| (RIGHT.force)(n + &P::one(), w) => ["surface",
@@ -50,14 +50,14 @@ pub(super) fn faults() -> Vec<Fault> {
                 "base-normal", "uniform-base", "weight", "total-shear", "total-moment", "second-moment", "run",
                 "change-of-sign", "load", "tilt", "tilt-total", "rough-floor", "horizontal-balance", "squares"];
 
-        "weightless spheres": transmitted = |received, _| received => ["equilibrium", "action-reaction",
-                "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt", "elastic-straight",
+        "weightless spheres": transmitted = |received, _| received => ["equilibrium", "action-reaction", "discs",
+                "dimensions", "run", "change-of-sign", "edge", "load", "tilt", "inverse", "elastic-straight",
                 "elastic-energy", "squares"];
-        "the forces from above left out": transmitted = |_, own| own.clone() => ["equilibrium",
-                "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt",
-                "secondary-closure", "elastic-straight", "elastic-energy", "squares"];
+        "the forces from above left out": transmitted = |_, own| own.clone() => ["equilibrium", "action-reaction",
+                "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt", "secondary-closure",
+                "isometry", "inverse", "singular-values", "elastic-straight", "elastic-energy", "squares"];
         "its own increment twice": transmitted = |received, own| received + own + own => ["equilibrium",
-                "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt",
+                "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge", "load", "tilt", "inverse",
                 "elastic-straight", "elastic-energy", "squares"];
 
         "the resultant reversed": resultant = |from_above, directions| {
@@ -70,7 +70,7 @@ pub(super) fn faults() -> Vec<Fault> {
         "the paper's misprint, without a′ + b′ + c′": unbalanced = |to_below, below, from_above, above, weight| {
             let all = (RIGHT.unbalanced)(to_below, below, from_above, above, weight);
             all - &(RIGHT.resultant)(from_above, above)
-        } => ["paper-system", "equilibrium", "discs", "change-of-sign", "load", "tilt", "horizontal-balance"];
+        } => ["paper-system", "equilibrium", "discs", "change-of-sign", "load", "tilt", "isometry", "horizontal-balance"];
         "weightless spheres": unbalanced = |to_below, below, from_above, above, _| {
             (RIGHT.unbalanced)(to_below, below, from_above, above, &P::zero())
         } => ["paper-system", "equilibrium", "discs", "change-of-sign", "load", "tilt", "horizontal-balance"];
@@ -93,19 +93,20 @@ pub(super) fn faults() -> Vec<Fault> {
                 "point-load", "load", "secondary-closure", "mean-closure", "horizontal-balance",
                 "run-horizontal", "resultant-form", "third-moment", "fourth-moment", "mean-modes",
                 "mean-spectrum", "wave", "faults", "one-fault"];
-        "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn", "tripled-half-turn",
-                "change-of-sign", "edge", "point-load", "load", "mean-closure", "horizontal-balance",
+        "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn", "tripled-half-turn", "change-of-sign",
+                "edge", "point-load", "load", "mean-closure", "isometry", "horizontal-balance", "run-horizontal",
+                "resultant-form", "squares", "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave",
+                "faults", "one-fault"];
+        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn", "tripled-half-turn",
+                "change-of-sign", "edge", "point-load", "load", "mean-closure", "isometry", "horizontal-balance",
                 "run-horizontal", "resultant-form", "squares", "third-moment", "fourth-moment", "mean-modes",
                 "mean-spectrum", "wave", "faults", "one-fault"];
-        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn",
-                "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "mean-closure",
-                "horizontal-balance", "run-horizontal", "resultant-form", "squares", "third-moment",
-                "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
         "the square of the first force added": half_turn = |g| {
             (RIGHT.half_turn)(g).map(|x| x + &(g[0].clone() * &g[0]))
         } => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "mean-closure",
-                "horizontal-balance", "virtual-work", "run-horizontal", "resultant-form", "squares",
-                "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
+                "isometry", "inverse", "horizontal-balance", "virtual-work", "run-horizontal", "resultant-form",
+                "squares", "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults",
+                "one-fault"];
         "a third of a turn": half_turn = |[a, b, c]| [b.clone(), c.clone(), a.clone()] => ["half-turn",
                 "tripled-half-turn", "change-of-sign", "edge", "point-load", "load", "secondary-closure",
                 "mean-closure", "horizontal-balance", "virtual-work", "run-horizontal", "resultant-form",

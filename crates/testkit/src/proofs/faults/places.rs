@@ -23,26 +23,26 @@ pub(super) fn faults() -> Vec<Fault> {
             [a, b, Vector { x: -c.x, ..c }]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "shear", "total-shear",
                 "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign", "point-load",
-                "load", "tilt", "tilt-total", "secondary-closure", "mean-closure", "rough-contact",
-                "rough-floor", "rough-unique", "horizontal-balance", "resultant-form", "third-moment",
-                "fourth-moment", "one-fault"];
+                "load", "tilt", "tilt-total", "secondary-closure", "mean-closure", "isometry", "rough-contact",
+                "rough-floor", "rough-unique", "horizontal-balance", "resultant-form", "third-moment", "fourth-moment",
+                "one-fault"];
         "ê_c twice as long": directions = |s| {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, c.map(|part| twice(&part))]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "base-normal", "uniform-base",
-                "weight", "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis",
-                "shear-ratio", "change-of-sign", "point-load", "load", "tilt", "tilt-total",
-                "secondary-closure", "mean-closure", "rough-contact", "rough-floor", "rough-unique",
-                "horizontal-balance", "resultant-form", "third-moment", "fourth-moment", "one-fault"];
+                "weight", "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio",
+                "change-of-sign", "point-load", "load", "tilt", "tilt-total", "secondary-closure", "mean-closure",
+                "isometry", "rough-contact", "rough-floor", "rough-unique", "horizontal-balance", "resultant-form",
+                "third-moment", "fourth-moment", "one-fault"];
         "contacts point down": directions = |s| (RIGHT.directions)(s).map(|e| -e)
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "weight",
                 "shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
                 "load", "tilt", "tilt-total", "rough-contact", "rough-floor", "rough-unique",
                 "horizontal-balance"];
         "φ = π/6 whatever s": directions = |_| (RIGHT.directions)(&over(P::one(), 2))
-            => ["paper-system", "unit-directions", "equilibrium", "total-shear", "total-moment",
-                "second-moment", "load", "tilt", "tilt-total", "primary-closure", "secondary-closure",
-                "rough-contact", "rough-floor", "rough-unique"];
+            => ["paper-system", "unit-directions", "equilibrium", "total-shear", "total-moment", "second-moment",
+                "load", "tilt", "tilt-total", "primary-closure", "secondary-closure", "isometry", "rough-contact",
+                "rough-floor", "rough-unique"];
         "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["paper-system", "central-force",
                 "shear", "shear-on-axis", "load", "tilt", "tilt-total", "rough-contact", "rough-unique"];
         "y in units of cosφ": directions = |s| {
@@ -56,9 +56,9 @@ pub(super) fn faults() -> Vec<Fault> {
             [a, b, Vector { y: P::one(), ..c }]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "shear", "total-shear",
                 "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign", "point-load",
-                "load", "tilt", "tilt-total", "primary-closure", "secondary-closure", "mean-closure",
-                "rough-contact", "rough-floor", "rough-unique", "horizontal-balance", "resultant-form",
-                "third-moment", "fourth-moment", "one-fault"];
+                "load", "tilt", "tilt-total", "primary-closure", "secondary-closure", "mean-closure", "isometry",
+                "rough-contact", "rough-floor", "rough-unique", "horizontal-balance", "resultant-form", "third-moment",
+                "fourth-moment", "one-fault"];
 
         "both supports of a disc on one side": disc_directions = || {
             let [a, _, c] = (RIGHT.disc_directions)();
@@ -73,15 +73,14 @@ pub(super) fn faults() -> Vec<Fault> {
             (RIGHT.disc_directions)().map(|e| Vector { z: P::one(), ..e })
         } => ["discs", "load", "rough-contact", "rough-floor"];
 
-        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load", "load",
-                "secondary-closure", "horizontal-balance", "resultant-form", "third-moment", "fourth-moment",
-                "one-fault"];
+        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load", "load", "secondary-closure",
+                "isometry", "horizontal-balance", "resultant-form", "third-moment", "fourth-moment", "one-fault"];
         "upside down": turned_about_z = |v| -v
-            => ["equilibrium", "change-of-sign", "load", "secondary-closure", "rough-floor",
+            => ["equilibrium", "change-of-sign", "load", "secondary-closure", "isometry", "rough-floor",
                 "horizontal-balance", "resultant-form"];
         "mirrored": turned_about_z = |v| Vector { x: -v.x, ..v } => ["change-of-sign", "point-load", "load",
-                "secondary-closure", "mean-closure", "horizontal-balance", "resultant-form", "third-moment",
-                "fourth-moment", "one-fault"];
+                "secondary-closure", "mean-closure", "isometry", "horizontal-balance", "resultant-form",
+                "third-moment", "fourth-moment", "one-fault"];
 
         "above the apex": position = |above, directions| -(RIGHT.position)(above, directions)
             => ["central-force", "shear-on-axis", "rough-contact", "rough-floor"];
