@@ -315,29 +315,49 @@ fn the_probable_bound_holds_and_is_near() {
     }
 }
 
+/// Returns the forces of a part of a pile as bits.
+fn bits(pile: &Pile, seed: u64, part: Selection) -> Vec<u64> {
+    let forces = stochastic_forces::<11>(pile, seed).unwrap();
+    let layers = forces.layers(part).unwrap();
+    let mut slices = [(); 3].map(|()| vec![Stochastic::<11>::zero(); layers.slice_len().unwrap()]);
+    layers
+        .fill(slices.each_mut().map(|slice| &mut slice[..]))
+        .unwrap();
+    slices
+        .iter()
+        .flatten()
+        .map(|x| x.value().to_bits())
+        .collect()
+}
+
 #[test]
 fn seeds_give_other_roundings_and_the_same_seed_the_same() {
     let pile = Pile::under(Region::hexagon(2, 2).unwrap(), Stacking::hcp(8).unwrap()).unwrap();
-    let forces = |seed, part| -> Vec<u64> {
-        let forces = stochastic_forces::<11>(&pile, seed).unwrap();
-        let layers = forces.layers(part).unwrap();
-        let mut slices =
-            [(); 3].map(|()| vec![Stochastic::<11>::zero(); layers.slice_len().unwrap()]);
-        layers
-            .fill(slices.each_mut().map(|slice| &mut slice[..]))
-            .unwrap();
-        slices
-            .iter()
-            .flatten()
-            .map(|x| x.value().to_bits())
-            .collect()
-    };
     let part = Selection::Layer(6);
-    assert_eq!(forces(1, part), forces(1, part));
-    let differ = forces(1, part)
-        .iter()
-        .zip(forces(2, part))
-        .filter(|(a, b)| **a != *b)
+    assert_eq!(bits(&pile, 1, part), bits(&pile, 1, part));
+    let differ = bits(&pile, 1, part)
+        .into_iter()
+        .zip(bits(&pile, 2, part))
+        .filter(|(a, b)| a != b)
         .count();
     assert!(differ > 100, "{differ}");
+}
+
+/// Each of these layers has enough spheres for seven bands of rows.
+#[test]
+fn neither_threads_nor_the_build_change_roundings() {
+    let top = Region::hexagon(81, 81).unwrap();
+    let pile = Pile::under(top, Stacking::hcp(5).unwrap()).unwrap();
+    let in_pool = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let work = || bits(&pile, 1, Selection::Layer(3));
+        pool.build().unwrap().install(work)
+    };
+    let one = in_pool(1);
+    assert!(one.len() > 60_000);
+    assert!(in_pool(2) == one, "two threads");
+    assert!(in_pool(7) == one, "seven threads");
+    // The digest holds in debug and in release builds, and on every processor.
+    let digest = |sum: u64, bits: &u64| (sum ^ bits).wrapping_mul(0x0100_0000_01b3).rotate_left(17);
+    assert_eq!(one.iter().fold(0, digest), 0xb02a_ef14_f897_6c25);
 }
