@@ -1,6 +1,5 @@
 //! A search for the stacking and the loads with the worst error.
 
-use std::cmp::Ordering;
 use std::fmt;
 
 use cannonpile::lattice::Site;
@@ -22,18 +21,21 @@ struct Candidate {
 
 const SITES: [[i128; 2]; 7] = [[0, 0], [1, 0], [0, 1], [-1, 1], [3, 0], [0, 3], [0, -3]];
 
-/// Prints the worst error of all periods of at most six signs, and the worst to which a hill climbs from HCP; and the error of the
-/// worse of both, repeated to `more` layers. Each step changes one sign, or one load of at most four weights.
+/// Prints the worst error of all periods of at most six signs, the worst to which a hill climbs from HCP, and the errors of both
+/// piles with `more` layers. Each step changes one sign, or one load of at most four weights.
 pub(crate) fn print<T: Format>(layers: i128, steps: i128, more: Option<i128>) {
     let label = T::LABEL;
     // The first sign is +. The others are mirror images.
     let periods = (1..=6).flat_map(|length| (0..1 << (length - 1)).map(move |bits| (length, bits)));
     let of_period = |(length, bits): (usize, usize)| {
         let sign = |k: usize| b"+-"[usize::from(k > 0 && bits >> (k - 1) & 1 == 1)];
-        Candidate::new::<T>((0..length).map(sign).collect(), layers)
+        (0..length).map(sign).collect::<Vec<u8>>()
     };
-    let periodic = periods.map(of_period).max_by(Candidate::by_error);
-    let periodic = periodic.expect("a period");
+    let periods = periods.map(of_period);
+    let candidates = periods.map(|signs| (Candidate::new::<T>(signs.clone(), layers), signs));
+    let (periodic, period) = candidates
+        .max_by(|(a, _), (b, _)| a.error.total_cmp(&b.error))
+        .expect("a period");
     println!("{label}, {layers} layers, the worst period: {periodic}");
     let mut random = Random(1);
     let mut best = Candidate::new::<T>(b"+-".to_vec(), layers);
@@ -54,14 +56,21 @@ pub(crate) fn print<T: Format>(layers: i128, steps: i128, more: Option<i128>) {
     }
     println!("{label}, {layers} layers, after {steps} steps: {best}");
     if let Some(more) = more {
-        for mut candidate in [periodic, best] {
-            candidate.repeat(more);
-            candidate.measure::<T>();
-            println!(
-                "{label}, the same repeated to {more} layers: {:.2} u",
-                candidate.error
-            );
-        }
+        let mut longer = Candidate::new::<T>(period, more);
+        println!(
+            "{label}, {more} layers, the worst period: {:.2} u",
+            longer.error
+        );
+        // An even number of signs, so that HCP goes on as HCP.
+        best.signs.truncate(best.signs.len() & !1);
+        longer.signs = best.signs;
+        longer.loads = best.loads;
+        longer.repeat(more);
+        longer.measure::<T>();
+        println!(
+            "{label}, {more} layers, the last pile repeated: {:.2} u",
+            longer.error
+        );
     }
 }
 
@@ -82,10 +91,6 @@ impl Candidate {
         new.repeat(layers);
         new.measure::<T>();
         new
-    }
-
-    fn by_error(&self, other: &Self) -> Ordering {
-        self.error.total_cmp(&other.error)
     }
 
     /// Repeats the signs for a number of layers.

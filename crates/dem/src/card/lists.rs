@@ -5,7 +5,6 @@ use num_rational::BigRational;
 use num_traits::One;
 use serde_json::{Value as Json, json};
 
-use super::FOR_MACHINES;
 use super::extremes::Extreme;
 use crate::Error;
 use crate::derivatives::derivatives;
@@ -14,6 +13,9 @@ use crate::numbered::{NumberedPile, nearest};
 use cannonpile::lattice::{ContactKind, HorizontalContact};
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
+
+/// The maximal number of derivatives that `card.json` lists.
+const MOST_DERIVATIVES: u32 = 10_000;
 
 pub(super) const FORCE: &str = "a contact force";
 
@@ -86,7 +88,7 @@ pub(super) fn derivatives_by_parameter(numbered: &NumberedPile<'_>) -> Result<Op
     let axes = pile.dimension().number();
     let parameters = pile.sphere_count() * (1 + axes) + (axes - 1);
     let length = pile.contact_count() * parameters;
-    let is_listed = (BigUint::one()..=FOR_MACHINES.into()).contains(&length);
+    let is_listed = (BigUint::one()..=MOST_DERIVATIVES.into()).contains(&length);
     if !is_listed || !packing.touching().is_empty() {
         return Ok(None);
     }
