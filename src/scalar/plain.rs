@@ -149,7 +149,8 @@ impl<T: Number + CorrectlyRounded + Into<f64>> Promise<T> for Rounded {
 
 /// Returns [`Promise::accepts`]. Its test takes longer than an operation, so the last type that passed it is not tested again.
 ///
-/// The type is known by the address of its test. Types share an address only if their tests are the same code.
+/// The type is known by the address of its test. Types share an address only if their tests are the same code, whose result must
+/// not depend on anything else.
 fn is_accepted<T: Number, P: Promise<T>>() -> bool {
     static LAST: AtomicUsize = AtomicUsize::new(0);
     let test: fn() -> bool = P::accepts;

@@ -1,4 +1,4 @@
-//! Prints errors of sweeps and their bounds, for a comparison with other programs: `peers/run rounding`.
+//! Prints errors of sweeps and their bounds, for a comparison with other programs: `peers/run gappa` and `peers/run pychop`.
 //!
 //! `cargo run --release -p cannonpile-accuracy --example sweep_errors 1000 4 6` takes 1000 seeds, and HCP of 4 and of 6 layers under a
 //! hexagon of 4 spheres a side. Each line has the layers, the largest force F above the floor, two bounds on the errors in `f32`

@@ -168,7 +168,7 @@ pub(crate) fn increments(pile: &Pile, k: i128) -> Result<Vec<[BigRational; 3]>, 
 /// let last = errors.last().unwrap();
 /// // Backward stable: a few u, whatever the number of layers.
 /// assert!(errors.iter().all(|layer| layer.backward < 4.0 * u));
-/// // The forward error grows like √L, and the bound like L.
+/// // The forward error grows like √L, and the bound about like L².
 /// assert!(last.forward < 10.0 * u && last.worst_case.unwrap() > 100.0 * last.forward);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```

@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let forces = pile.forces::<BigRational>().contacts(Selection::All)?;
     let forces = forces.collect::<Result<Vec<_>, _>>()?;
     println!("k,i,j,direction,force,parameter,derivative");
-    for (parameter, derivatives) in derivatives(&scene.packing(&pile)?)? {
+    for record in derivatives(&scene.packing(&pile)?)? {
+        let (parameter, derivatives) = record?;
         for (contact, derivative) in forces.iter().zip(derivatives) {
             let (site, line) = (contact.site, contact.direction.name());
             println!(

@@ -78,7 +78,7 @@ use cannonpile::each::Each;
 
 pub use card::CardTitle;
 pub use compliance::{Compliance, NoCompliance, SoftContact};
-pub use derivatives::{Parameter, derivatives};
+pub use derivatives::{Component, Parameter, derivatives};
 pub use error::Error;
 pub use export::PileExport;
 pub use file::{OtherFile, PileFile, PileFormat, Written, files};

@@ -101,7 +101,7 @@ Proof using congruence equivalence laws.
     transitivity (gram m v i - lambda * v i + lambda * v i); [ring | rewrite R; ring | ring | rewrite R; ring].
 Qed.
 
-(** Each eigenvector is a multiple of v, and p_m = 0 unless it vanishes. *)
+(** Each eigenvector is a multiple of v, and u_0 p_m = 0: in a field p_m = 0, unless the eigenvector vanishes. *)
 Theorem chain_eigenvectors : forall m u, (0 < m)%nat -> (forall i, (i < m)%nat -> gram m u i == lambda * u i) ->
   (forall i, (i < m)%nat -> u i == u O * v i) /\ u O * p m == 0.
 Proof using congruence equivalence laws.

@@ -63,7 +63,7 @@ fn a_load_adds_a_rounding() {
     let loaded = pile.clone().with_load(Site::APEX, load).unwrap();
     let [plain, loaded] =
         [pile, loaded].map(|pile| probable_bounds(&pile, 24, 0.01).unwrap()[0].scale);
-    // 1 is the greatest force without the load, and 3 with it. The partial sum is at most 1 + 3.
+    // 1 is the greatest force without the load, and 3 with it. The partial sum is at most 2 + 3.
     assert!(
         (loaded / plain - (4.0_f64 + 16.0).sqrt()).abs() < 1e-4,
         "{}",
@@ -141,7 +141,7 @@ fn errors_of_f32_are_within_the_bound() {
                 let bounds = probable_bounds(&pile, 24, 0.01).unwrap();
                 for (error, bound) in errors::<f32>(&pile).into_iter().zip(&bounds) {
                     assert!(error < bound.of_all() / 2.0, "{pile}: {error}, {bound:?}");
-                    // A planted fault: with a precision of three bits more the bound is not one.
+                    // A planted fault: with a precision of six bits more the bound is not one.
                     assert!(
                         bound.layer < 6 || error > bound.of_all() / 64.0,
                         "{pile}: {error}, {bound:?}"
@@ -152,7 +152,7 @@ fn errors_of_f32_are_within_the_bound() {
     }
 }
 
-/// The bound grows like √L times the forces, and the worst case like L.
+/// The bound grows like √L times the forces, and the worst case about like L².
 #[test]
 fn the_bound_is_far_below_the_worst_case() {
     let pile = Pile::under(Region::hexagon(4, 4).unwrap(), Stacking::hcp(40).unwrap()).unwrap();

@@ -92,11 +92,12 @@ pub(super) fn derivatives_by_parameter(numbered: &NumberedPile<'_>) -> Result<Op
     if !is_listed || !packing.touching().is_empty() {
         return Ok(None);
     }
-    let records = derivatives(packing)?.into_iter().map(|(parameter, all)| {
+    let records = derivatives(packing)?.map(|record| {
+        let (parameter, all) = record?;
         let all: Vec<String> = all.iter().map(ToString::to_string).collect();
-        json!({"parameter": parameter.to_string(), "of_contacts": all})
+        Ok(json!({"parameter": parameter.to_string(), "of_contacts": all}))
     });
-    Ok(Some(records.collect()))
+    records.collect::<Result<_, Error>>().map(Some)
 }
 
 pub(super) fn base(numbered: &NumberedPile<'_>) -> Result<Json, Error> {

@@ -5,7 +5,7 @@ use cannonpile::scalar::{Algebra, Polynomial, Symbol};
 use cannonpile::shape::Selection;
 use cannonpile::{ContactForce, Forces, Verdict};
 use cannonpile_dem::scene::{Case, Floor, Scene, SceneFile, State, cases};
-use cannonpile_dem::{Error, Parameter, derivatives};
+use cannonpile_dem::{Component, Error, Parameter, derivatives};
 use cannonpile_stability::{RoughPacking, sensitivity};
 use cannonpile_testkit::answers::ratio;
 use num_rational::BigRational;
@@ -159,9 +159,10 @@ fn derivatives_are_the_coefficients_of_a_symbol() {
         let scene = Case::named(name).and_then(Case::scene).expect("a scene");
         let pile = scene.pile().expect("a pile");
         let packing = scene.packing(&pile).expect("room");
-        let mut found = derivatives(&packing).expect("derivatives").into_iter();
+        let mut found = derivatives(&packing).expect("derivatives");
         let mut next = |wanted: Parameter| {
-            let (parameter, derivatives) = found.next().expect("a parameter");
+            let record = found.next().expect("a parameter");
+            let (parameter, derivatives) = record.expect("derivatives");
             assert_eq!(parameter, wanted, "{name}");
             derivatives
         };
@@ -171,7 +172,8 @@ fn derivatives_are_the_coefficients_of_a_symbol() {
             let changes = sensitivity::<BigRational>(&packing, sphere).expect("changes");
             let by_radius = next(Parameter::Radius(sphere));
             assert!(changes.iter().map(|contact| &contact.change).eq(&by_radius));
-            for (axis, unit) in ['z', 'x', 'y'].into_iter().zip(Load::units()).take(axes) {
+            let components = [Component::Z, Component::X, Component::Y];
+            for (axis, unit) in components.into_iter().zip(Load::units()).take(axes) {
                 let symbolic = Load {
                     down: t() * &constant(&unit.down),
                     x: t() * &constant(&unit.x),
@@ -194,11 +196,11 @@ fn derivatives_are_the_coefficients_of_a_symbol() {
             t() * &t()
         };
         let leaning = pile.forces().with_tilt([t(), along_y.clone()]);
-        let by_x = next(Parameter::Tilt('x'));
+        let by_x = next(Parameter::Tilt(Component::X));
         let by_y = if flat {
             by_x.clone()
         } else {
-            next(Parameter::Tilt('y'))
+            next(Parameter::Tilt(Component::Y))
         };
         assert!(found.next().is_none());
         let leaning = all_contacts(&leaning.expect("a tilt"));
