@@ -180,15 +180,12 @@ macro_rules! correctly_rounded {
 
             fn from_parts(negative: bool, significand: u64, exponent: i64) -> Option<Self> {
                 let hidden = 1_u64 << (Self::PRECISION - 1);
-                if significand >= 2 * hidden || (significand < hidden && exponent != Self::MIN_EXPONENT) {
+                let above_least = exponent.checked_sub(Self::MIN_EXPONENT)?;
+                if significand >= 2 * hidden || above_least < 0 || (significand < hidden && above_least > 0) {
                     return None;
                 }
                 // Without the hidden bit the value is subnormal, and its biased exponent is 0.
-                let biased = if significand < hidden {
-                    0
-                } else {
-                    exponent.checked_sub(Self::MIN_EXPONENT)?.checked_add(1)?
-                };
+                let biased = if significand < hidden { 0 } else { above_least.checked_add(1)? };
                 let largest = i64::from(<$float>::MAX_EXP) - i64::from(<$float>::MIN_EXP) + 1;
                 if biased > largest {
                     return None;

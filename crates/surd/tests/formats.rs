@@ -148,6 +148,25 @@ fn significands_may_have_63_bits() {
     assert_eq!(nearest(-most * 4 - 2), Some(Long(true, 1 << 62, 1)));
 }
 
+/// Parts that no rounding gives: the significand is too long, or the last bit is not where the format has it.
+#[test]
+fn parts_beside_those_of_a_float_give_none() {
+    let hidden = 1_u64 << 52;
+    let float = |significand, exponent| f64::from_parts(false, significand, exponent);
+    assert_eq!(float(hidden, -1074), Some(f64::MIN_POSITIVE));
+    assert_eq!(
+        float(hidden - 1, -1074),
+        Some(f64::MIN_POSITIVE.next_down())
+    );
+    assert_eq!(float(2 * hidden - 1, 971), Some(f64::MAX));
+    for exponent in [i64::MIN, -1076, -1075, -1073, 0, 972, i64::MAX] {
+        assert_eq!(float(hidden - 1, exponent), None);
+        assert_eq!(float(2 * hidden, exponent), None);
+        let is_of_a_float = (-1074..=971).contains(&exponent);
+        assert_eq!(float(hidden, exponent).is_some(), is_of_a_float);
+    }
+}
+
 /// Compares roundings with integers, for numbers close to midpoints. A root is compared by its square.
 #[cfg(feature = "half")]
 fn hard_cases<F: Format>(cases: u32) {
