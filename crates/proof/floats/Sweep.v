@@ -153,7 +153,7 @@ Infix "-" := sub : scalar_scope.
 Infix "*" := mul : scalar_scope.
 Local Open Scope scalar_scope.
 
-(* begin src/formula/turn.rs twice_sum *)
+(* begin src/scalar/turn.rs twice_sum *)
 Definition twice_sum '((a, b, c) : prod (prod R R) R) :=
   let sum := a + b + c in
   sum + sum.
@@ -169,8 +169,9 @@ Definition transmitted '((received, own) : prod R R) :=
   received + own.
 (* end *)
 
-(* quote src/formula/turn.rs half_turn: match third(twice_sum(g)) *)
-(* quote src/formula/turn.rs half_turn: twice_mean - x *)
+(* quote src/scalar.rs half_turn:
+    let twice_mean = turn::twice_sum(g).div_int(THREE);
+    g.each_ref().each(|x| twice_mean.clone() - x) *)
 Definition half_turn (a b c x : R) :=
   let twice_mean := third(twice_sum(a, b, c)) in
   twice_mean - x.
@@ -518,7 +519,7 @@ Qed.
 (* quote src/forces/layers/layer.rs error_bound: BigRational::new(steps * 13, BigInt::one() << bits) *)
 (* quote src/forces/layers/layer.rs error_bound: unit < BigRational::new(1.into(), 100.into()) *)
 (* quote src/forces/layers/layer.rs error_bound: unit * greatest * BigRational::new(65.into(), 64.into()) *)
-(* quote src/forces/layers/layer.rs error_bound: BigRational::new(system.bound_of_sweep(self.k), system.denominator() * 3) *)
+(* quote src/forces/layers/layer.rs error_bound: BigRational::new(pile.bound_of_sweep(self.k), pile.denominator() * 3) *)
 Definition unit (steps : nat) : R := INR steps * 13 * u.
 Definition error_bound (steps : nat) (greatest : R) : R := unit steps * greatest * (65 / 64).
 

@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 MODELS = ROOT / "crates/proof/floats"
 MODEL = re.compile(r"\(\* begin (\S+) (\w+) \*\)\n(.*?)\(\* end \*\)", re.S)
-QUOTE = re.compile(r"\(\* quote (\S+) (\w+): (.*?) \*\)", re.S)
+QUOTE = re.compile(r"\(\* quote (\S+) (\w+):\s+(.*?) \*\)", re.S)
 
 
 def tokens(text):
@@ -16,7 +16,7 @@ def tokens(text):
 
 
 def rust_function(path, name):
-    """Returns the names of the parameters and the body of the first function of this name that has a body."""
+    """Returns the names of the parameters and the body of the first function of this name that has a body, if there is one."""
     text = re.sub(r"//[^\n]*", "", (ROOT / path).read_text())
 
     def bracket(at, open_, close):
@@ -41,7 +41,7 @@ def rust_function(path, name):
         # Types come after a colon.
         parameters = re.sub(r":\s*[^,\[\]]*(\[[^\]]*\])?", "", text[at:end])
         return re.findall(r"\w+", parameters), text[start + 1 : bracket(start, "{", "}") - 1]
-    sys.exit(f"{path} has no function {name}")
+    return None, ""
 
 
 def plain(text):
@@ -66,6 +66,8 @@ def main():
     same = []
     for file in sorted(MODELS.glob("*.v")):
         text = file.read_text()
+        if len(re.findall(r"\(\* (?:begin|quote)\b", text)) != len(MODEL.findall(text)) + len(QUOTE.findall(text)):
+            sys.exit(f"{file.name}: a model or a quote has another form")
         for path, name, definition in MODEL.findall(text):
             rust, coq = rust_function(path, name), coq_definition(definition)
             same.append(rust[0] == coq[0] and tokens(plain(rust[1])) == tokens(coq[1]))
