@@ -1,7 +1,8 @@
 (** The functions of nearest.rs round correctly: to nearest, ties to even.
 
-    A positive number is given as (m + epsilon) 2^exponent with an integer m and 0 <= epsilon < 1; [sticky] is true if
-    epsilon > 0. The proof is for any precision and any least exponent, so for `f32` and for `f64`. *)
+    A number without its sign is given as (m + epsilon) 2^exponent with an integer m and 0 <= epsilon < 1; [sticky] is true
+    if epsilon > 0. The proofs are for any precision and any range of exponents, so for `f16`, `bf16`, `f32` and `f64`. Those
+    about [round] are also for formats of one's own. *)
 
 From Coq Require Import ZArith Reals Lra Lia Bool.
 From Flocq Require Import Core.
@@ -20,22 +21,36 @@ Notation bpow e := (bpow radix2 e).
 Notation fexp := (FLT_exp min_exponent precision).
 Notation nearest := (round radix2 fexp ZnearestE).
 
-(** The number of bits of a positive integer. *)
+(* quote crates/surd/src/nearest.rs bits: n.bits() as i64 *)
+(** The number of bits of an integer that is not negative. *)
 Definition bits (m : Z) : Z := Zdigits radix2 m.
 
-(* quote crates/surd/src/nearest.rs round: (bits(m) + exponent - i64::from(F::PRECISION)).max(F::MIN_EXPONENT) *)
+(** The whole function. [F::from_parts] makes the float of its parts, the significand and the exponent. *)
+(* quote crates/surd/src/nearest.rs round:
+    const { assert!(F::PRECISION >= 2 && F::PRECISION <= 63) };
+    if m.is_zero() && !sticky {
+        return F::from_parts(false, 0, F::MIN_EXPONENT);
+    }
+    let last_bit = (bits(m) + exponent - i64::from(F::PRECISION)).max(F::MIN_EXPONENT);
+    let dropped = last_bit - exponent;
+    let Ok(dropped @ 1..) = u64::try_from(dropped) else {
+        let significand = (m << -dropped).to_u64()?;
+        return F::from_parts(negative, significand, last_bit);
+    };
+    let kept = (m >> dropped).to_u64()?;
+    let half = m.bit(dropped - 1);
+    let below_half = sticky || m.trailing_zeros().is_some_and(|zeros| zeros < dropped - 1);
+    let up = half && (below_half || kept % 2 == 1);
+    let (significand, carried) = (kept + u64::from(up), 1 << F::PRECISION);
+    if significand == carried {
+        return F::from_parts(negative, carried / 2, last_bit + 1);
+    }
+    F::from_parts(negative, significand, last_bit) *)
 Definition last_bit (m exponent : Z) : Z := Z.max (bits m + exponent - precision) min_exponent.
 
-(* quote crates/surd/src/nearest.rs round: let dropped = last_bit - exponent; *)
 Definition dropped (m exponent : Z) : Z := last_bit m exponent - exponent.
 
-(* quote crates/surd/src/nearest.rs round: let kept = (m >> dropped).to_u64()?; *)
-(* quote crates/surd/src/nearest.rs round: let half = m.bit(dropped - 1); *)
-(* quote crates/surd/src/nearest.rs round: sticky || m.trailing_zeros().is_some_and(|zeros| zeros < dropped - 1) *)
-(* quote crates/surd/src/nearest.rs round: let up = half && (below_half || kept % 2 == 1); *)
-(* quote crates/surd/src/nearest.rs round: F::assemble(negative, kept + u64::from(up), last_bit) *)
-(* quote crates/surd/src/nearest.rs round: let significand = (m << -dropped).to_u64()?; *)
-(** m has a bit below position d - 1 if and only if m is no multiple of 2^(d-1). *)
+(** The significand before a carry. m has a bit below position d - 1 if and only if m is no multiple of 2^(d-1). *)
 Definition significand (m : Z) (sticky : bool) (exponent : Z) : Z :=
   let d := dropped m exponent in
   if (1 <=? d)%Z then
@@ -45,6 +60,14 @@ Definition significand (m : Z) (sticky : bool) (exponent : Z) : Z :=
     let up := half && (below_half || Z.odd kept) in
     kept + Z.b2z up
   else Z.shiftl m (- d).
+
+(** The parts of the float. *)
+Definition parts (m : Z) (sticky : bool) (exponent : Z) : Z * Z :=
+  if (m =? 0)%Z && negb sticky then (0, min_exponent)%Z else
+  let carried := Z.shiftl 1 precision in
+  if (1 <=? dropped m exponent)%Z && (significand m sticky exponent =? carried)%Z
+  then (carried / 2, last_bit m exponent + 1)%Z
+  else (significand m sticky exponent, last_bit m exponent).
 
 (** The rounding of a positive number: significand times a power of two. If [sticky] is true, m has at least two bits more
     than the significand. *)
@@ -150,7 +173,7 @@ Proof.
   rewrite <- !IZR_Zpower by lia. split; [apply IZR_le | apply IZR_lt]; assumption.
 Qed.
 
-(** ** The bits of the float *)
+(** ** The parts of the float *)
 
 Definition hidden : Z := 2 ^ (precision - 1).
 
@@ -160,28 +183,32 @@ Proof. apply Z.pow_pos_nonneg; lia. Qed.
 Lemma twice_hidden : (2 ^ precision = 2 * hidden)%Z.
 Proof. unfold hidden. rewrite <- Z.pow_succ_r by lia. f_equal. lia. Qed.
 
-(** The conditions of the documentation of [assemble]: the significand has at most one bit more than the format, and is
-    below the hidden bit only among the subnormals. *)
-Theorem significand_fits : forall m sticky exponent, (0 < m)%Z ->
+(** Before a carry, the significand has at most one bit more than the format, and is below the hidden bit only among the
+    subnormals. *)
+Lemma significand_fits : forall m sticky exponent, (0 < m)%Z ->
   (0 <= significand m sticky exponent <= 2 * hidden)%Z /\
   (min_exponent <= last_bit m exponent)%Z /\
-  ((significand m sticky exponent < hidden)%Z -> last_bit m exponent = min_exponent).
+  ((significand m sticky exponent < hidden)%Z -> last_bit m exponent = min_exponent) /\
+  ((dropped m exponent < 1)%Z -> (significand m sticky exponent < 2 * hidden)%Z).
 Proof.
   intros m sticky exponent Hm. destruct (bits_bounds m Hm) as [L U].
   assert (B : (0 < bits m)%Z) by (apply Zdigits_gt_0; lia).
   rewrite <- (IZR_Zpower radix2) in L, U by lia. apply le_IZR in L. apply lt_IZR in U. simpl radix_val in L, U.
-  split; [| split; [apply Z.le_max_r |]].
-  - unfold significand. set (d := dropped m exponent). assert (D : (bits m <= precision + d)%Z) by (unfold d, dropped, last_bit; lia).
-    rewrite <- twice_hidden. destruct (Z.leb_spec 1 d).
-    + assert (K : (0 <= Z.shiftr m d < 2 ^ precision)%Z).
-      { rewrite Z.shiftr_div_pow2 by lia. assert (P : (0 < 2 ^ d)%Z) by (apply Z.pow_pos_nonneg; lia).
-        split; [apply Z.div_pos; lia |]. apply Z.div_lt_upper_bound; [exact P |]. rewrite <- Z.pow_add_r by lia.
-        apply Z.lt_le_trans with (1 := U). apply Z.pow_le_mono_r; lia. }
-      destruct (_ && _); cbn [Z.b2z]; lia.
-    + rewrite Z.shiftl_mul_pow2 by lia. assert (P : (0 < 2 ^ (- d))%Z) by (apply Z.pow_pos_nonneg; lia).
-      split; [nia |]. apply Z.lt_le_incl.
-      apply Z.lt_le_trans with (2 ^ bits m * 2 ^ (- d))%Z; [nia |]. rewrite <- Z.pow_add_r by lia.
-      apply Z.pow_le_mono_r; lia.
+  assert (Kept : (dropped m exponent < 1)%Z -> (0 <= significand m sticky exponent < 2 * hidden)%Z).
+  { unfold significand. set (d := dropped m exponent). intros K. rewrite <- twice_hidden.
+    assert (D : (bits m <= precision + d)%Z) by (unfold d, dropped, last_bit; lia). destruct (Z.leb_spec 1 d); [lia |].
+    rewrite Z.shiftl_mul_pow2 by lia. assert (P : (0 < 2 ^ (- d))%Z) by (apply Z.pow_pos_nonneg; lia).
+    split; [nia |]. apply Z.lt_le_trans with (2 ^ bits m * 2 ^ (- d))%Z; [nia |]. rewrite <- Z.pow_add_r by lia.
+    apply Z.pow_le_mono_r; lia. }
+  split; [| split; [apply Z.le_max_r | split; [| intros K; apply Kept; exact K]]].
+  - destruct (Z.lt_ge_cases (dropped m exponent) 1) as [K | K]; [generalize (Kept K); lia |].
+    unfold significand. set (d := dropped m exponent). assert (D : (bits m <= precision + d)%Z) by (unfold d, dropped, last_bit; lia).
+    rewrite <- twice_hidden. destruct (Z.leb_spec 1 d); [| unfold d in *; lia].
+    assert (K' : (0 <= Z.shiftr m d < 2 ^ precision)%Z).
+    { rewrite Z.shiftr_div_pow2 by lia. assert (P : (0 < 2 ^ d)%Z) by (apply Z.pow_pos_nonneg; lia).
+      split; [apply Z.div_pos; lia |]. apply Z.div_lt_upper_bound; [exact P |]. rewrite <- Z.pow_add_r by lia.
+      apply Z.lt_le_trans with (1 := U). apply Z.pow_le_mono_r; lia. }
+    destruct (_ && _); cbn [Z.b2z]; lia.
   - intros H. destruct (Z.le_gt_cases (bits m + exponent - precision) min_exponent) as [G | G]; [unfold last_bit; lia |].
     exfalso. revert H. apply Zle_not_lt. unfold significand.
     assert (D : dropped m exponent = (bits m - precision)%Z) by (unfold dropped, last_bit; lia). rewrite D. clear D.
@@ -195,22 +222,76 @@ Proof.
       apply Z.eq_le_incl. unfold hidden. f_equal. unfold d. ring.
 Qed.
 
-(** The biased exponent of the largest floats: 2046 for `f64`. *)
-Variable largest : Z.
+(** The conditions of the documentation of [from_parts]. *)
+Definition fits (significand exponent : Z) : Prop :=
+  (0 <= significand < 2 ^ precision)%Z /\ (min_exponent <= exponent)%Z /\
+  ((significand < 2 ^ (precision - 1))%Z -> exponent = min_exponent).
 
-(* quote crates/surd/src/nearest.rs assemble: let hidden = 1_u64 << (PRECISION - 1); *)
-(* quote crates/surd/src/nearest.rs assemble: if significand == 2 * hidden { (hidden, exponent.saturating_add(1)) } *)
-(* quote crates/surd/src/nearest.rs assemble: if significand < hidden { 0 } *)
-(* quote crates/surd/src/nearest.rs assemble: .saturating_sub(MIN_EXPONENT).saturating_add(1) *)
-(* quote crates/surd/src/nearest.rs assemble: if biased > largest { return None; } *)
-(* quote crates/surd/src/nearest.rs assemble: << (PRECISION - 1); *)
-(* quote crates/surd/src/nearest.rs assemble: significand (hidden - 1) *)
-(** The bits without the sign. The two fields do not overlap, so that their sum is the bitwise or. *)
-Definition assemble (given exponent_of_given : Z) : option Z :=
-  let (significand, exponent) :=
-    if (given =? 2 * hidden)%Z then (hidden, exponent_of_given + 1)%Z else (given, exponent_of_given) in
-  let biased := if (significand <? hidden)%Z then 0%Z else (exponent - min_exponent + 1)%Z in
-  if (largest <? biased)%Z then None else Some (biased * 2 ^ (precision - 1) + significand mod hidden)%Z.
+(** [round] in any format: its parts meet these conditions, and their value is the nearest one. *)
+Theorem parts_are_nearest : forall m sticky exponent epsilon,
+  (0 <= m)%Z -> 0 <= epsilon < 1 -> (sticky = true <-> 0 < epsilon) ->
+  (sticky = true -> (precision + 2 <= bits m)%Z) ->
+  let (s, e) := parts m sticky exponent in
+  nearest ((IZR m + epsilon) * bpow exponent) = IZR s * bpow e /\ fits s e.
+Proof.
+  intros m sticky exponent epsilon Hm He Hs Hb. assert (Hh := hidden_positive). unfold parts, fits.
+  rewrite twice_hidden. fold hidden. rewrite Z.shiftl_1_l, twice_hidden.
+  destruct (Z.eqb_spec m 0) as [M | M]; [destruct sticky |]; cbn [negb andb].
+  - exfalso. specialize (Hb eq_refl). rewrite M in Hb. cbn in Hb. lia.
+  - assert (E : epsilon = 0).
+    { destruct (Req_dec epsilon 0) as [E | E]; [exact E |]. assert (Q : 0 < epsilon) by lra. apply Hs in Q. discriminate. }
+    rewrite M, E, Rplus_0_r, !Rmult_0_l. split; [apply round_0; typeclasses eauto | lia].
+  - destruct (significand_fits m sticky exponent ltac:(lia)) as [S [L [Sub K]]].
+    rewrite (significand_is_nearest m sticky exponent epsilon) by (trivial; lia).
+    destruct (Z.leb_spec 1 (dropped m exponent)); cbn [andb].
+    + destruct (Z.eqb_spec (significand m sticky exponent) (2 * hidden)) as [T | T]; [| split; [reflexivity | lia]].
+      rewrite T, (Z.mul_comm 2), Z.div_mul by lia. split; [| lia].
+      rewrite mult_IZR, bpow_plus. change (bpow 1) with 2. ring.
+    + specialize (K ltac:(lia)). split; [reflexivity | lia].
+Qed.
+
+(** Up to a precision of 63, all integers of [round] are below 2^64: no bit is lost, and [to_u64] does not return [None]. *)
+Theorem integers_are_short : forall m sticky exponent, (precision <= 63)%Z -> (0 < m)%Z ->
+  (0 <= significand m sticky exponent < 2 ^ 64)%Z /\ (Z.shiftl 1 precision < 2 ^ 64)%Z.
+Proof.
+  intros m sticky exponent Hp Hm. destruct (significand_fits m sticky exponent Hm) as [S _].
+  assert (2 ^ precision <= 2 ^ 63)%Z by (apply Z.pow_le_mono_r; lia). rewrite <- twice_hidden in S.
+  rewrite Z.shiftl_1_l. change (2 ^ 64)%Z with (2 * 2 ^ 63)%Z. lia.
+Qed.
+
+(** ** The bits of the float *)
+
+(** The floats are below 2^max_exponent: [MAX_EXP] of Rust is 16 for `f16`, 128 for `bf16` and `f32`, and 1024 for `f64`. *)
+Variable max_exponent : Z.
+Hypothesis exponents_in_order : (min_exponent + precision <= max_exponent)%Z.
+
+(** The biased exponent of the largest floats. [MIN_EXP] of Rust is min_exponent + precision. *)
+Definition largest : Z := max_exponent - (min_exponent + precision) + 1.
+
+(** The whole function. The macro gives it for `f32`, `f64`, `f16` and `bf16`. *)
+(* quote crates/surd/src/nearest.rs from_parts:
+    let hidden = 1_u64 << (Self::PRECISION - 1);
+    let above_least = exponent.checked_sub(Self::MIN_EXPONENT)?;
+    if significand >= 2 * hidden || above_least < 0 || (significand < hidden && above_least > 0) {
+        return None;
+    }
+    let biased = if significand < hidden { 0 } else { above_least.checked_add(1)? };
+    let largest = i64::from(<$float>::MAX_EXP) - i64::from(<$float>::MIN_EXP) + 1;
+    if biased > largest {
+        return None;
+    }
+    let field = <$bits>::try_from(biased).ok()? << (Self::PRECISION - 1);
+    let magnitude = field | <$bits>::try_from(significand & (hidden - 1)).ok()?;
+    let float = <$float>::from_bits(magnitude);
+    Some(if negative { -float } else { float }) *)
+(** The bits without the sign. *)
+Definition from_parts (significand exponent : Z) : option Z :=
+  let above_least := (exponent - min_exponent)%Z in
+  if ((2 * hidden <=? significand) || (above_least <? 0) || (significand <? hidden) && (0 <? above_least))%Z then None else
+  let biased := if (significand <? hidden)%Z then 0%Z else (above_least + 1)%Z in
+  if (largest <? biased)%Z then None else
+  let field := Z.shiftl biased (precision - 1) in
+  Some (Z.lor field (Z.land significand (hidden - 1))).
 
 (** The value of the bits, by IEEE 754. *)
 Definition value_of_bits (b : Z) : R :=
@@ -219,45 +300,71 @@ Definition value_of_bits (b : Z) : R :=
   if (biased =? 0)%Z then IZR fraction * bpow min_exponent
   else IZR (hidden + fraction) * bpow (biased - 1 + min_exponent).
 
-(** The bits are those of the given number. There are none exactly if the number is 2^(largest + ...) or more, which is
-    2^1024 for `f64`. *)
-Theorem assembled : forall given exponent, (0 <= given <= 2 * hidden)%Z -> (min_exponent <= exponent)%Z ->
-  ((given < hidden)%Z -> exponent = min_exponent) -> (0 < largest)%Z ->
-  match assemble given exponent with
-  | Some b => value_of_bits b = IZR given * bpow exponent /\ (b / hidden <= largest)%Z
-  | None => bpow (precision + largest - 1 + min_exponent) <= IZR given * bpow exponent
+Lemma fields_do_not_overlap : forall k s, (0 <= s)%Z ->
+  Z.lor (Z.shiftl k (precision - 1)) (Z.land s (hidden - 1)) = (k * hidden + s mod hidden)%Z.
+Proof.
+  intros k s Hs. assert (E : (hidden - 1 = Z.ones (precision - 1))%Z) by (rewrite Z.ones_equiv; unfold hidden; lia).
+  rewrite E, <- Z.lxor_lor, <- Z.add_nocarry_lxor.
+  - rewrite Z.shiftl_mul_pow2, Z.land_ones by lia. reflexivity.
+  - rewrite (Z.land_comm s), Z.land_assoc, Z.land_ones, Z.shiftl_mul_pow2, Z.mod_mul by (try apply Z.pow_nonzero; lia).
+    apply Z.land_0_l.
+  - rewrite (Z.land_comm s), Z.land_assoc, Z.land_ones, Z.shiftl_mul_pow2, Z.mod_mul by (try apply Z.pow_nonzero; lia).
+    apply Z.land_0_l.
+Qed.
+
+(** The bits are those of the given number, whatever the parts. The parts of a float have none exactly if the number is
+    2^max_exponent or more. *)
+Theorem from_parts_is_exact : forall s e, (0 <= s)%Z ->
+  match from_parts s e with
+  | Some b => value_of_bits b = IZR s * bpow e /\ IZR s * bpow e < bpow max_exponent /\ (0 <= b < (largest + 1) * hidden)%Z
+  | None => fits s e -> bpow max_exponent <= IZR s * bpow e
   end.
 Proof.
-  intros given exponent Hg He Hs Hl. assert (Hh := hidden_positive). unfold assemble. fold hidden.
+  intros s e Hs. assert (Hh := hidden_positive). unfold from_parts, fits. rewrite twice_hidden. fold hidden.
   assert (PH : IZR hidden = bpow (precision - 1)) by (apply (IZR_Zpower radix2); lia).
-  assert (Main : forall s e, (0 <= s < 2 * hidden)%Z -> (min_exponent <= e)%Z -> ((s < hidden)%Z -> e = min_exponent) ->
-    match (if (largest <? (if (s <? hidden)%Z then 0 else e - min_exponent + 1))%Z then None
-           else Some ((if (s <? hidden)%Z then 0 else e - min_exponent + 1) * hidden + s mod hidden)%Z) with
-    | Some b => value_of_bits b = IZR s * bpow e /\ (b / hidden <= largest)%Z
-    | None => bpow (precision + largest - 1 + min_exponent) <= IZR s * bpow e
-    end).
-  { intros s e Hr Hm Hsub.
-    assert (V : forall k, ((k * hidden + s mod hidden) / hidden = k /\ (k * hidden + s mod hidden) mod hidden = s mod hidden)%Z).
-    { intros k. assert (M := Z.mod_pos_bound s hidden Hh). split.
-      - rewrite Z.div_add_l, Z.div_small by lia. lia.
-      - rewrite Z.add_comm, Z.mod_add, Z.mod_small by lia. reflexivity. }
-    destruct (Z.ltb_spec s hidden) as [S | S].
-    - destruct (Z.ltb_spec largest 0); [lia |]. destruct (V 0%Z) as [V1 V2]. unfold value_of_bits. rewrite V1, V2.
-      rewrite Z.mod_small by lia. rewrite (Hsub S). split; [reflexivity | lia].
-    - set (k := (e - min_exponent + 1)%Z). destruct (Z.ltb_spec largest k) as [O | O].
-      + apply Rle_trans with (bpow (precision - 1) * bpow e).
-        * rewrite <- bpow_plus. apply bpow_le. unfold k in O. lia.
-        * rewrite <- PH. apply Rmult_le_compat_r; [apply bpow_ge_0 | apply IZR_le; exact S].
-      + destruct (V k) as [V1 V2]. unfold value_of_bits. rewrite V1, V2.
-        destruct (Z.eqb_spec k 0); [unfold k in *; lia |]. split; [| exact O].
-        assert (M : (s mod hidden = s - hidden)%Z) by (symmetry; apply Z.mod_unique with 1%Z; lia).
-        rewrite M. f_equal; [f_equal; ring | f_equal; unfold k; ring]. }
-  destruct (Z.eqb_spec given (2 * hidden)) as [T | T].
-  - specialize (Main hidden (exponent + 1)%Z ltac:(lia) ltac:(lia) ltac:(lia)).
-    replace (IZR given * bpow exponent) with (IZR hidden * bpow (exponent + 1)); [exact Main |].
-    rewrite T, mult_IZR, bpow_plus. change (bpow 1) with 2. ring.
-  - apply Main; lia.
+  assert (P2 : IZR (2 * hidden) = bpow precision) by (rewrite <- twice_hidden; apply (IZR_Zpower radix2); lia).
+  assert (M := Z.mod_pos_bound s hidden Hh).
+  assert (V : forall k, ((k * hidden + s mod hidden) / hidden = k /\ (k * hidden + s mod hidden) mod hidden = s mod hidden)%Z).
+  { intros k. split.
+    - rewrite Z.div_add_l, Z.div_small by lia. lia.
+    - rewrite Z.add_comm, Z.mod_add, Z.mod_small by lia. reflexivity. }
+  assert (Less : forall k, (e + precision <= k)%Z -> (s < 2 * hidden)%Z -> IZR s * bpow e < bpow k).
+  { intros k Hk S. apply Rlt_le_trans with (bpow (e + precision)); [| apply bpow_le; exact Hk].
+    rewrite (Z.add_comm e), bpow_plus, <- P2. apply Rmult_lt_compat_r; [apply bpow_gt_0 | apply IZR_lt; exact S]. }
+  destruct (Z.leb_spec (2 * hidden) s); cbn [orb]; [lia |].
+  destruct (Z.ltb_spec (e - min_exponent) 0); cbn [orb]; [lia |].
+  destruct (Z.ltb_spec s hidden) as [S | S]; cbn [andb].
+  - destruct (Z.ltb_spec 0 (e - min_exponent)); [lia |]. assert (E : e = min_exponent) by lia.
+    destruct (Z.ltb_spec largest 0); [unfold largest in *; lia |]. rewrite fields_do_not_overlap by exact Hs.
+    destruct (V 0%Z) as [V1 V2]. unfold value_of_bits. rewrite V1, V2, Z.mod_small by lia. rewrite E at 1.
+    split; [reflexivity | split; [apply Less; lia | nia]].
+  - set (k := (e - min_exponent + 1)%Z). destruct (Z.ltb_spec largest k) as [O | O].
+    + intros _. apply Rle_trans with (bpow (precision - 1) * bpow e).
+      * rewrite <- bpow_plus. apply bpow_le. unfold k, largest in O. lia.
+      * rewrite <- PH. apply Rmult_le_compat_r; [apply bpow_ge_0 | apply IZR_le; exact S].
+    + rewrite fields_do_not_overlap by exact Hs. destruct (V k) as [V1 V2]. unfold value_of_bits. rewrite V1, V2.
+      destruct (Z.eqb_spec k 0); [unfold k in *; lia |].
+      split; [| split; [apply Less; [unfold k, largest in *; lia | assumption] | unfold k in *; nia]].
+      assert (D : (s mod hidden = s - hidden)%Z) by (symmetry; apply Z.mod_unique with 1%Z; lia).
+      rewrite D. f_equal; [f_equal; ring | f_equal; unfold k; ring].
 Qed.
+
+(** The bits are those of the float nearest to x. There are none exactly if this float would be 2^max_exponent or more. *)
+Definition correct (x : R) (result : option Z) : Prop :=
+  match result with
+  | Some b => value_of_bits b = nearest x /\ nearest x < bpow max_exponent /\ (0 <= b < (largest + 1) * hidden)%Z
+  | None => bpow max_exponent <= nearest x
+  end.
+
+Lemma parts_are_correct : forall x s e, nearest x = IZR s * bpow e /\ fits s e -> correct x (from_parts s e).
+Proof.
+  intros x s e [N F]. unfold correct. rewrite N. generalize (from_parts_is_exact s e ltac:(unfold fits in F; lia)).
+  destruct (from_parts s e); [trivial | intros H; exact (H F)].
+Qed.
+
+(** The sign is put on the float last. *)
+Lemma nearest_of_the_negative : forall x, nearest (- x) = - nearest x.
+Proof. intros x. apply round_NE_opp. Qed.
 
 (** ** Rationals *)
 
@@ -268,8 +375,10 @@ Definition guard_bits : Z := precision + 3.
 Definition shifted (n d shift : Z) : Z * Z :=
   if (0 <=? shift)%Z then (Z.shiftl n shift, d) else (n, Z.shiftl d (- shift)).
 
-(* quote crates/surd/src/nearest.rs nearest_ratio: let scale = guard_bits::<F>() - (bits(n) - bits(d)); *)
-(* quote crates/surd/src/nearest.rs nearest_ratio: round(negative, &quotient, !remainder.is_zero(), -scale) *)
+(* quote crates/surd/src/nearest.rs nearest_ratio:
+    let scale = guard_bits::<F>() - (bits(n) - bits(d));
+    let (quotient, remainder) = shifted_quotient(n, d, scale);
+    round(negative, &quotient, !remainder.is_zero(), -scale) *)
 Definition ratio_scale (n d : Z) : Z := guard_bits - (bits n - bits d).
 
 (** A number of at least 2^k has more than k bits. *)
@@ -294,16 +403,23 @@ Proof.
     split; [exact Rd | apply Rgt_not_eq, bpow_gt_0].
 Qed.
 
-(** [nearest_ratio]: the quotient of two positive integers, correctly rounded. *)
-Theorem ratio_is_nearest : forall n d, (0 < n)%Z -> (0 < d)%Z ->
+(** [nearest_ratio]: the quotient of two integers that are not negative, correctly rounded. *)
+Theorem ratio_is_nearest : forall n d, (0 <= n)%Z -> (0 < d)%Z ->
   let scale := ratio_scale n d in
   let (a, b) := shifted n d scale in
   let quotient := (a / b)%Z in
   let remainder := (a mod b)%Z in
-  nearest (IZR n / IZR d) =
-    IZR (significand quotient (negb (remainder =? 0)%Z) (- scale)) * bpow (last_bit quotient (- scale)).
+  let (s, e) := parts quotient (negb (remainder =? 0)%Z) (- scale) in
+  nearest (IZR n / IZR d) = IZR s * bpow e /\ fits s e.
 Proof.
-  intros n d Hn Hd scale. generalize (shifted_is_scaled n d scale Hn Hd).
+  intros n d Hn0 Hd scale. destruct (Z.eq_dec n 0) as [N | Hn'].
+  { assert (A : let (a, b) := shifted n d scale in a = 0%Z /\ b <> 0%Z).
+    { rewrite N. unfold shifted. destruct (Z.leb_spec 0 scale); [rewrite Z.shiftl_0_l; lia |].
+      rewrite Z.shiftl_mul_pow2 by lia. assert (P : (0 < 2 ^ (- scale))%Z) by (apply Z.pow_pos_nonneg; lia). nia. }
+    destruct (shifted n d scale) as [a b]. destruct A as [-> B]. cbv zeta. rewrite Z.div_0_l, Z.mod_0_l by exact B.
+    cbn [Z.eqb negb]. replace (IZR n / IZR d) with ((IZR 0 + 0) * bpow (- scale)) by (rewrite N; unfold Rdiv; ring).
+    apply parts_are_nearest; [lia | lra | split; [discriminate | lra] | discriminate]. }
+  assert (Hn : (0 < n)%Z) by lia. clear Hn0 Hn'. generalize (shifted_is_scaled n d scale Hn Hd).
   destruct (shifted n d scale) as [a b]. intros [Ha [Hb Hq]]. cbv zeta.
   assert (Rb : 0 < IZR b) by (apply IZR_lt; exact Hb).
   assert (Hdiv := Z.div_mod a b ltac:(lia)). assert (Hmod := Z.mod_pos_bound a b Hb).
@@ -326,19 +442,33 @@ Proof.
   { rewrite <- (IZR_Zpower radix2) in * by lia. apply IZR_le.
     assert (IZR (radix2 ^ (precision + 2)) < IZR (q + 1)) by (rewrite plus_IZR; lra). apply lt_IZR in H. lia. }
   destruct (many_bits q (precision + 2) ltac:(lia) Lq) as [Q0 Qb].
-  rewrite <- (significand_is_nearest q _ (- scale) (IZR r / IZR b) Q0 F).
-  - f_equal. rewrite <- E, Hq, Rmult_assoc, <- bpow_plus. replace (scale + - scale)%Z with 0%Z by ring. simpl. ring.
+  replace (IZR n / IZR d) with ((IZR q + IZR r / IZR b) * bpow (- scale)).
+  2: { rewrite <- E, Hq, Rmult_assoc, <- bpow_plus. replace (scale + - scale)%Z with 0%Z by ring. simpl. ring. }
+  apply parts_are_nearest; [lia | exact F | |].
   - destruct (Z.eqb_spec r 0) as [Z | Z]; cbn [negb]; split; intros H; try discriminate; try reflexivity.
     + exfalso. rewrite Z in H. unfold Rdiv in H. lra.
     + apply Rmult_lt_0_compat; [apply IZR_lt; lia | apply Rinv_0_lt_compat; exact Rb].
   - intros _. lia.
 Qed.
 
+(** The bits that [nearest_ratio] gives are correct. *)
+Corollary ratio_is_correct : forall n d, (0 <= n)%Z -> (0 < d)%Z ->
+  let scale := ratio_scale n d in
+  let (a, b) := shifted n d scale in
+  let (s, e) := parts (a / b) (negb (a mod b =? 0)%Z) (- scale) in
+  correct (IZR n / IZR d) (from_parts s e).
+Proof.
+  intros n d Hn Hd scale. generalize (ratio_is_nearest n d Hn Hd). cbv zeta. fold scale.
+  destruct (shifted n d scale). destruct (parts _ _ _). apply parts_are_correct.
+Qed.
+
 (** ** Square roots *)
 
-(* quote crates/surd/src/nearest.rs nearest_root: let scale = guard_bits::<F>() - (bits(n) - bits(d)).div_euclid(2); *)
-(* quote crates/surd/src/nearest.rs nearest_root: let (quotient, _) = shifted_quotient(n, d, 2 * scale); let sticky = true; *)
-(* quote crates/surd/src/nearest.rs nearest_root: round(negative, &quotient.sqrt(), sticky, -scale) *)
+(* quote crates/surd/src/nearest.rs nearest_root:
+    let scale = guard_bits::<F>() - (bits(n) - bits(d)).div_euclid(2);
+    let (quotient, _) = shifted_quotient(n, d, 2 * scale);
+    let sticky = true;
+    round(negative, &quotient.sqrt(), sticky, -scale) *)
 Definition root_scale (n d : Z) : Z := guard_bits - (bits n - bits d) / 2.
 
 (** [nearest_root]: the square root of a quotient of two positive integers, correctly rounded, if no square of a fraction with
@@ -348,7 +478,8 @@ Theorem root_is_nearest : forall n d, (0 < n)%Z -> (0 < d)%Z ->
   let (a, b) := shifted n d (2 * scale) in
   let root := Z.sqrt (a / b) in
   IZR root * bpow (- scale) <> sqrt (IZR n / IZR d) ->
-  nearest (sqrt (IZR n / IZR d)) = IZR (significand root true (- scale)) * bpow (last_bit root (- scale)).
+  let (s, e) := parts root true (- scale) in
+  nearest (sqrt (IZR n / IZR d)) = IZR s * bpow e /\ fits s e.
 Proof.
   intros n d Hn Hd scale. generalize (shifted_is_scaled n d (2 * scale) Hn Hd).
   destruct (shifted n d (2 * scale)) as [a b]. intros [Ha [Hb Hq]]. cbv zeta. intros Hirr.
@@ -398,11 +529,24 @@ Proof.
   { rewrite <- (IZR_Zpower radix2) in * by lia. apply IZR_le.
     assert (H : IZR (radix2 ^ (precision + 2)) < IZR (s + 1)) by (rewrite plus_IZR; lra). apply lt_IZR in H. lia. }
   destruct (many_bits s (precision + 2) ltac:(lia) Lsb) as [P0 Pb].
-  rewrite <- (significand_is_nearest s true (- scale) (y - IZR s) P0).
-  - f_equal. symmetry. apply Back. rewrite Rmult_assoc, <- bpow_plus. replace (- scale + scale)%Z with 0%Z by ring. simpl. lra.
-  - lra.
+  replace (sqrt (IZR n / IZR d)) with ((IZR s + (y - IZR s)) * bpow (- scale)).
+  2: { apply Back. rewrite Rmult_assoc, <- bpow_plus. replace (- scale + scale)%Z with 0%Z by ring. simpl. lra. }
+  apply parts_are_nearest; [lia | lra | |].
   - split; [intros _; lra | reflexivity].
   - intros _. lia.
+Qed.
+
+(** The bits that [nearest_root] gives are correct. *)
+Corollary root_is_correct : forall n d, (0 < n)%Z -> (0 < d)%Z ->
+  let scale := root_scale n d in
+  let (a, b) := shifted n d (2 * scale) in
+  let root := Z.sqrt (a / b) in
+  IZR root * bpow (- scale) <> sqrt (IZR n / IZR d) ->
+  let (s, e) := parts root true (- scale) in
+  correct (sqrt (IZR n / IZR d)) (from_parts s e).
+Proof.
+  intros n d Hn Hd scale. generalize (root_is_nearest n d Hn Hd). cbv zeta. fold scale.
+  destruct (shifted n d (2 * scale)) as [a b]. destruct (parts _ _ _). intros H I. exact (parts_are_correct _ _ _ (H I)).
 Qed.
 
 End Nearest.

@@ -95,13 +95,19 @@ Nearest: guard_bits - (bits n - bits d) / 2. ==> guard_bits + (bits n - bits d) 
 Nearest: guard_bits - (bits n - bits d) / 2. ==> guard_bits - (bits n - bits d) / 3.
 Nearest: shifted n d (2 * scale) in ==> shifted n d (3 * scale) in
 Nearest: hidden : Z := 2 ^ (precision - 1). ==> hidden : Z := 2 ^ (precision - 2).
-Nearest: if (given =? 2 * hidden)%Z ==> if (given =? 3 * hidden)%Z
-Nearest: (hidden, exponent_of_given + 1) ==> (hidden, exponent_of_given + 2)
+Nearest: if (m =? 0)%Z && negb sticky then (0, min_exponent) ==> if (m =? 0)%Z && negb sticky then (1, min_exponent)
+Nearest: let carried := Z.shiftl 1 precision in ==> let carried := Z.shiftl 2 precision in
+Nearest: then (carried / 2, last_bit m exponent + 1) ==> then (carried / 2, last_bit m exponent)
+Nearest: (2 * hidden <=? significand) || ==> (2 * hidden <? significand) ||
+Nearest: || (above_least <? 0) || ==> || (above_least <? -1) ||
+Nearest: && (0 <? above_least))%Z ==> && (1 <? above_least))%Z
 Nearest: if (significand <? hidden)%Z then 0%Z ==> if (significand <? 2 * hidden)%Z then 0%Z
-Nearest: (exponent - min_exponent + 1)%Z in ==> (exponent - min_exponent + 2)%Z in
+Nearest: else (above_least + 1)%Z in ==> else (above_least + 2)%Z in
 Nearest: if (largest <? biased)%Z then None else ==> if (largest <=? biased)%Z then None else
-Nearest: biased * 2 ^ (precision - 1) + ==> biased * 2 ^ (precision - 2) +
-Nearest: + significand mod hidden)%Z. ==> + significand mod (2 * hidden))%Z.
+Nearest: Z.shiftl biased (precision - 1) ==> Z.shiftl biased (precision - 2)
+Nearest: Z.land significand (hidden - 1) ==> Z.land significand (2 * hidden - 1)
+Nearest: max_exponent - (min_exponent + precision) + 1. ==> max_exponent - (min_exponent + precision) + 2.
+Nearest: (precision <= 63)%Z -> ==> (precision <= 64)%Z ->
 Overflow: Rabs b <= greatest - bpow 971 -> ==> Rabs b <= greatest ->
 Overflow: Rabs (B2R b) <= greatest - bpow 971 -> ==> Rabs (B2R b) <= greatest ->
 Overflow: Definition greatest : R := bpow 1024 - bpow 971. ==> Definition greatest : R := bpow 1024 - bpow 970.
