@@ -23,7 +23,7 @@ const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 /// Powers of two up to this exponent are tried.
 const MAX_POWER: i64 = 1200;
-/// The same for exact types that do not say so, which convert long integers bit by bit.
+/// Powers of two up to this exponent are tried for exact types that do not say so. They convert long integers bit by bit.
 const MAX_POWER_BY_BITS: i64 = 200;
 /// The numbers of layers at which the error is measured. The last one is left out if errors cannot grow.
 const HEIGHTS: [i128; 3] = [10, 40, 160];

@@ -76,10 +76,11 @@ impl ProbableBound {
 /// Returns bounds on the rounding errors of [`Forces::layers`](cannonpile::Forces::layers) in a float of `bits` bits, for each
 /// layer with supports. Each bound fails with at most the given probability.
 ///
-/// |e| ≤ λ u √(Σ F_j²), where u = 2^−`bits`, and u F_j bounds the roundings on a sphere of layer j: the norm of all of them, each
-/// with the factor by which it can enter e. Without loads, and while errors are small, F_j is at most √(23/3) ≈ 2.8 times the
-/// largest result of an operation on a sphere of the layer. With the probability P, λ = √(2 ln(4/P)) for one contact, and λ = √(2 ln(4m/P)) for all m contacts below a layer. The bound grows like
-/// √L times the forces; [`Layer::error_bound`](cannonpile::Layer::error_bound) grows about like L² times the forces.
+/// |e| ≤ λ u √(Σ F_j²) with u = 2^−`bits`. F_j is the norm of the roundings on a sphere of layer j, in u, each times the largest
+/// factor with which it adds to e. Without loads, and while errors are small, F_j is at most √(23/3) ≈ 2.8 times the largest
+/// result of an operation on a sphere of the layer. With the probability P, λ = √(2 ln(4/P)) for one contact, and
+/// λ = √(2 ln(4m/P)) for all m contacts below a layer. The bound grows like √L times the forces;
+/// [`Layer::error_bound`](cannonpile::Layer::error_bound) grows about like L² times the forces.
 ///
 /// It is a theorem for stochastic rounding, in which each rounding has its own random number. For rounding to nearest it is a model: it
 /// assumes that each error has the mean 0, given those before it. Equal spheres round alike. Their errors can then be larger: by

@@ -50,6 +50,7 @@ impl Comparison {
         if self.accepted(tolerance) {
             return Vec::new();
         }
+        // Without a matched contact there is no error to explain.
         let error = self.largest_error().unwrap_or(0.0);
         let digits = self.0.symptoms.digits.explain(error, self.0.difference);
         let mut findings = match digits.filter(|_| error > tolerance) {
