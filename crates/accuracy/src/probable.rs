@@ -35,7 +35,6 @@
 //! exceeded has increments within F_j, and differs from the true one with this probability. The other half of P is left for
 //! the bound itself.
 
-use cannonpile::lattice::Dimension;
 use cannonpile::scalar::{Algebra, Ring};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
@@ -120,10 +119,6 @@ pub fn probable_bounds(
     probability: f64,
 ) -> Result<Vec<ProbableBound>, Error> {
     let shape = pile.shape();
-    let lines: u32 = match pile.dimension() {
-        Dimension::Two => 2,
-        Dimension::Three => 3,
-    };
     let has_extras = pile.loads().len() > 0
         || pile.weights().next().is_some()
         || pile.horizontal_forces().len() > 0;
@@ -161,16 +156,12 @@ pub fn probable_bounds(
             Some(bound) => f64::from_rational(&bound),
             None => f64::INFINITY,
         };
-        let sites = pile.sites(Selection::Layer(k))?;
         let own = if has_extras {
             increments(pile, k)?
         } else {
             // All spheres are ordinary.
-            sites
-                .clone()
-                .take(1)
-                .map(|site| pile.own_increments(site))
-                .collect()
+            let site = pile.sites(Selection::Layer(k))?.take(1);
+            site.map(|site| pile.own_increments(site)).collect()
         };
         let own: Vec<[f64; 3]> = own
             .iter()
@@ -190,7 +181,7 @@ pub fn probable_bounds(
         }
         sum += most;
         let spheres = f64::from_rational(&BigRational::from_integer(layer.sphere_count().into()));
-        let contacts = spheres * f64::from(lines);
+        let contacts = spheres * f64::from(pile.dimension().number());
         let depth = f64::from_integer(k);
         // A few hundred roundings of f64.
         let scale = if is_bound {

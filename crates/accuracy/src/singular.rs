@@ -105,10 +105,7 @@ impl fmt::Display for SingularValue {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub fn singular_values(shape: &Shape) -> impl Iterator<Item = SingularValue> + '_ {
-    let lines: u32 = match shape.dimension() {
-        Dimension::Two => 2,
-        Dimension::Three => 3,
-    };
+    let lines = shape.dimension().number();
     let mut above = BigUint::zero();
     let with_supports = shape.layers() - 1;
     (0..with_supports).flat_map(move |k| {

@@ -5,7 +5,7 @@ use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Sub};
 
 use cannonpile::geometry::Load;
-use cannonpile::lattice::{Dimension, Direction, Row, Site};
+use cannonpile::lattice::{Row, Site};
 use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Field, Ring};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces, Pile};
@@ -271,10 +271,7 @@ pub fn stochastic_forces<const P: u32>(
     seed: u64,
 ) -> Result<Forces<'_, Stochastic<P>>, Error> {
     let shape = pile.shape();
-    let directions = match pile.dimension() {
-        Dimension::Two => &Direction::ALL[..2],
-        Dimension::Three => &Direction::ALL,
-    };
+    let directions = pile.dimension().directions();
     let is_inner = |site: &Site| {
         let mut above = directions
             .iter()

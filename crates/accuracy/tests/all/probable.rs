@@ -71,6 +71,29 @@ fn a_load_adds_a_rounding() {
     );
 }
 
+/// A sphere below a sign change receives (0, 1, 0) and bears a load of 6: x is 1, 1, 2/3, y is 2/3 at most, the partial sum is
+/// at most 2/3 + 7 + 2, and f is at most 7 + 2/3.
+#[test]
+fn a_load_counts_on_its_own_sphere() {
+    let pile = Pile::under(Region::SITE, "+-".parse().unwrap()).unwrap();
+    let site = pile.shape().below(Site::APEX, Direction::Beta).unwrap();
+    let bounds = probable_bounds(&pile.with_load(site, ratio!(6)).unwrap(), 24, 0.01).unwrap();
+    let [first, second] = [&bounds[0], &bounds[1]].map(|bound| bound.scale * 2.0_f64.powi(24));
+    assert!((first - (4.0_f64 + 1.0).sqrt()).abs() < 1e-4, "{first}");
+    let below = 4.0 / 3.0 + 4.0 / 3.0 + 3.0 / 4.0 + 1.0 / 4.0 + 64.0 + 16.0;
+    assert!((second - f64::sqrt(5.0 + below)).abs() < 1e-4, "{second}");
+}
+
+/// Without weights the bound is that of the load.
+#[test]
+fn weightless_piles_have_bounds_of_their_loads() {
+    let pile = Pile::triangular(3).unwrap().weightless();
+    let pile = pile.with_load(Site::APEX, ratio!(1 / 1024)).unwrap();
+    let scale = probable_bounds(&pile, 24, 0.01).unwrap()[0].scale;
+    // A partial sum and a force.
+    assert!((scale * 2.0_f64.powi(34) - 2.0_f64.sqrt()).abs() < 1e-4);
+}
+
 #[test]
 fn without_a_bound_it_is_infinite() {
     let pile = Pile::triangular(3).unwrap();
@@ -162,6 +185,12 @@ fn the_bound_is_far_below_the_worst_case() {
     let worst = layer.error_bound().unwrap().to_f64().unwrap();
     let last = bounds.last().unwrap();
     assert!(worst > 100.0 * last.of_all(), "{worst}, {last:?}");
+    // With few bits the errors from above are a part of each result.
+    let coarse = *probable_bounds(&pile, 8, 0.01).unwrap().last().unwrap();
+    assert!(
+        coarse.of_all() * 2.0_f64.powi(-16) > 1.3 * last.of_all(),
+        "{coarse:?}"
+    );
     let exact = pile
         .forces::<BigRational>()
         .contact(Site::new(0, 0, 38), Direction::Alpha);
