@@ -84,6 +84,21 @@ fn a_load_counts_on_its_own_sphere() {
     assert!((second - f64::sqrt(5.0 + below)).abs() < 1e-4, "{second}");
 }
 
+/// A load of 2 under a tilt of 4, along x and along y: the increments are at most 3 + 2·4 and 3 + 3·4, and a sphere without the
+/// load would add at most 2 + 2·4 and 2 + 4·4.
+#[test]
+fn a_tilt_counts_in_partial_sums() {
+    for (tilt, squares) in [
+        ([ratio!(4), ratio!(0)], 256.0 + 64.0),
+        ([ratio!(0), ratio!(4)], 1024.0 + 64.0),
+    ] {
+        let pile = Pile::triangular(3).unwrap().with_tilt(tilt).unwrap();
+        let pile = pile.with_load(Site::APEX, ratio!(2)).unwrap();
+        let scale = probable_bounds(&pile, 24, 0.01).unwrap()[0].scale;
+        assert!((scale * 2.0_f64.powi(24) / f64::sqrt(squares) - 1.0).abs() < 1e-4);
+    }
+}
+
 /// Without weights the bound is that of the load.
 #[test]
 fn weightless_piles_have_bounds_of_their_loads() {
