@@ -1,8 +1,8 @@
 //! Prints errors of sweeps and their bounds, for a comparison with other programs: `peers/run gappa` and `peers/run pychop`.
 //!
 //! `cargo run --release -p cannonpile-accuracy --example sweep_errors 1000 4 6` takes 1000 seeds, and HCP of 4 and of 6 layers under a
-//! hexagon of 4 spheres a side. Each line has the layers, the largest force F above the floor, two bounds on the errors in `f32`
-//! (the proved one, and the probable one of one contact at 1 %), and two figures of stochastic rounding to 11 bits, over the contacts
+//! hexagon of 4 spheres a side. Each line has the layers, the largest force F above the floor, and two bounds on the errors in `f32`: the
+//! proved one, and the probable one of one contact at 1 %. Two figures of stochastic rounding to 11 bits follow, over the contacts
 //! above the floor: the sum of the mean squares of their errors, and the sum of the squares of their mean errors. Errors are
 //! in units of u F.
 

@@ -18,9 +18,9 @@
 //! two, and for equal x, the factor would be 4/3 + 4/3 + 3 + 1 + 1 = 23/3.
 //!
 //! # Martingale
-//! The result of an operation is rounded by η with the mean 0, given all roundings before it, and η lies between two bounds
-//! whose distance is at most 2u⌊x⌋: −u⌊x⌋ and u⌊x⌋ for rounding to nearest, and the distances to two neighbouring floats for
-//! stochastic rounding. So the partial sums of Σ c η are a martingale. By Hoeffding's lemma, which needs the distance of the
+//! The result of an operation is rounded by η with the mean 0, given all roundings before it. It lies between two bounds: −u⌊x⌋ and
+//! u⌊x⌋ for rounding to nearest, and the distances to two neighbouring floats for stochastic rounding. They are at most 2u⌊x⌋
+//! apart. So the partial sums of Σ c η are a martingale. By Hoeffding's lemma, which needs the distance of the
 //! two bounds only, E exp(t c η) ≤ exp(t² c² u² ⌊x⌋²/2), and
 //!
 //! P(|e| ≥ λ u √(Σ F_j²)) ≤ 2 exp(−λ²/2).
@@ -30,8 +30,8 @@
 //! # Fixed bounds of the intermediate results
 //! F_j must not depend on the roundings, but x, y and f are results of the float. Each is at most the exact value, plus the
 //! errors of the forces from above, each at most E_(j−1), plus the roundings before it. E_(j−1) is the bound of all errors of the
-//! layer above. It fails with a probability of at most half of the requested one, for all layers together: layer j with m
-//! contacts has the share 1/((j+1)(j+2)), so that λ = √(2 ln(4 m (j+1)(j+2)/P)). A martingale that stops as soon as E_j is
+//! layer above. It fails with a probability of at most half of the requested one, for all layers together. Layer j with m
+//! contacts has the share 1/((j+1)(j+2)) of it, so that λ = √(2 ln(4 m (j+1)(j+2)/P)). A martingale that stops as soon as E_j is
 //! exceeded has increments within F_j, and differs from the true one with this probability. The other half of P is left for
 //! the bound itself.
 
